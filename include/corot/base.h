@@ -1,0 +1,50 @@
+/* Status and error message: what every fallible function of corot returns, and why it failed. */
+#ifndef COROT_BASE_H
+#define COROT_BASE_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define COROT_VERSION "0.1.0"
+
+/* Status of a call: 0 ok, >0 recoverable (retry with a smaller step), <0 fatal.
+   The signs are those of a SUNDIALS callback, so a status can be returned to one as is. */
+typedef enum corot_status {
+  COROT_OK = 0,
+  COROT_RETRY = 1,       /* e.g. an inverted element: the step was too long */
+  COROT_ENOMEM = -1,     /* an allocation failed */
+  COROT_EINVAL = -2,     /* an argument or a definition makes no sense */
+  COROT_EFORMAT = -3,    /* a file does not say what it should */
+  COROT_ESINGULAR = -4,  /* a matrix has no usable factor */
+  COROT_EIO = -5,        /* the operating system refused to read or write */
+  COROT_EINTEGRATE = -6, /* the integrator gave up; the message names its reason */
+} corot_status;
+
+/* Message of the last failure on this thread; never NULL, "" before the first failure.
+   A later success does not clear it: read it only after a call that returned non-zero. */
+const char *corot_error(void);
+
+/* Sets this thread's message (printf rules, cut at 1023 characters) and returns `status`, so that
+   a failure is one statement: `return corot_fail(COROT_EINVAL, "tet %d: ...", e);`
+   The old message may be among the arguments: `corot_fail(s, "%s: %s", path, corot_error())`. */
+corot_status corot_fail(corot_status status, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+
+/* Returns from the calling function with the status of `call` unless it is COROT_OK. */
+#define COROT_TRY(call)                                  \
+  do {                                                   \
+    corot_status corot_try_ = (call);                    \
+    if (corot_try_ != COROT_OK) return corot_try_;       \
+  } while (0)
+
+/* The version of the library that was linked, "MAJOR.MINOR.PATCH". */
+const char *corot_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

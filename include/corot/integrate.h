@@ -1,0 +1,106 @@
+/* Integration in time with error control, one step at a time, so that the caller can act between
+   steps: output, frame updates, a change of load. */
+#ifndef COROT_INTEGRATE_H
+#define COROT_INTEGRATE_H
+
+#include <corot/ode.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How to integrate. Zero means "choose" wherever the comment says so. */
+typedef struct corot_integrator_def {
+  const char *method;        /* "cvode" */
+  const char *linear_solver; /* "auto", "klu", "cholmod" */
+  double rtol;               /* relative tolerance, > 0 */
+  double atol_displacement;  /* [m]; 0: rtol * 0.01 * length of the model */
+  double atol_velocity;      /* [m/s]; 0: atol_displacement * frequency of the model */
+  int max_order;             /* 1 to 5; 0: 2, more where damping or tolerance make it pay */
+  long max_steps;            /* for the whole run; 0: no limit */
+  double first_step;         /* [s]; 0: choose */
+  double min_step;           /* [s]; 0: none */
+  double max_step;           /* [s]; 0: none */
+  corot_tangent tangent;     /* the frames' part in K */
+  int reassembly;            /* K and D at least every so many steps, > 0 */
+  int refactorisation;       /* S at least every so many steps, > 0 */
+  double gamma_change;       /* refactor when gamma has changed by this fraction, > 0 */
+} corot_integrator_def;
+
+/* cvode, auto, rtol 1e-4, held tangent, reassembly 20, refactorisation 20, gamma_change 0.3. */
+corot_integrator_def corot_integrator_defaults(void);
+
+typedef struct corot_integrator corot_integrator;
+
+/* Starts at (t, u, v). Model and state must outlive the integrator; nothing else is kept. */
+corot_status corot_integrator_create(const corot_integrator_def *def, const corot_model *model,
+                                     corot_state *state, double t, const double *u, const double *v,
+                                     corot_integrator **integrator);
+
+/* Takes NULL. */
+void corot_integrator_destroy(corot_integrator *integrator);
+
+/* One internal step. */
+typedef struct corot_step {
+  double t;     /* reached [s] */
+  double h;     /* length [s] */
+  int order;
+  double error; /* estimated local error in the weighted norm; 1 is the tolerance */
+  int newton;   /* nonlinear iterations */
+} corot_step;
+
+/* Advances by one step that does not go past t_stop and lands on it if it comes near.
+   COROT_EINTEGRATE: the integrator gave up; the message names its reason and the element, if one
+   was inverted. The state last reached remains readable. */
+corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, corot_step *step);
+
+/* u and v [n] at any t within the last step, by the method's own interpolant; NULL skips one. */
+corot_status corot_integrator_at(corot_integrator *integrator, double t, double *u, double *v);
+
+/* Work integrals from the start to t, t within the last step: dissipated and external work [J]. */
+corot_status corot_integrator_work(corot_integrator *integrator, double t, double *dissipated,
+                                   double *external);
+
+/* What to do with the history of the solution when r has jumped between steps. */
+typedef enum corot_history {
+  COROT_HISTORY_AUTO,    /* restart if the jump is felt at the tolerance (see integrate_cvode.c) */
+  COROT_HISTORY_KEEP,
+  COROT_HISTORY_RESTART, /* begin again at order 1 */
+} corot_history;
+
+/* To be called after a change of the held frames, at the end of a step. */
+corot_status corot_integrator_changed(corot_integrator *integrator, corot_history history);
+
+/* Statistics of the whole run, restarts included, under SUNDIALS' own names. */
+typedef struct corot_statistics {
+  long nst;     /* steps */
+  long nfe;     /* evaluations of the right-hand side by the integrator */
+  long nsetups; /* linear solver set-ups */
+  long netf;    /* error test failures */
+  long nni;     /* nonlinear iterations */
+  long ncfn;    /* nonlinear convergence failures */
+  long nje;     /* Jacobian evaluations (K and D) */
+  long nli;     /* linear iterations; 0 for direct solvers */
+  long nfactor, nsolve, nfresh, nindefinite; /* of the pencil */
+  long nfeQ;     /* evaluations of the work integrands */
+  long nrestart; /* restarts after a change */
+  double hlast;  /* last step [s] */
+  int qlast;     /* its order */
+  double force_s, assembly_s, combine_s, factor_s, solve_s, work_s; /* wall time by phase [s] */
+} corot_statistics;
+
+corot_statistics corot_integrator_statistics(const corot_integrator *integrator);
+
+/* What was chosen where the definition left it open. */
+typedef struct corot_integrator_choice {
+  const char *method, *linear_solver;
+  double atol_displacement, atol_velocity;
+  int max_order;
+} corot_integrator_choice;
+
+corot_integrator_choice corot_integrator_chosen(const corot_integrator *integrator);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

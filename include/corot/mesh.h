@@ -1,0 +1,108 @@
+/* Tetrahedral meshes with named groups: made by hand, read from a file, or generated.
+
+   A mesh is plain data and may be read directly; it is built and destroyed by the functions here.
+   Every mesh they hand out is sound: indices in range, finite coordinates, tets of positive
+   volume in right-handed order ((x1-x0) x (x2-x0) . (x3-x0) > 0), no tet twice, every node in
+   some tet. Nodes and tets are numbered from 0 in the order of the file. Lengths are in metres. */
+#ifndef COROT_MESH_H
+#define COROT_MESH_H
+
+#include <corot/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A named part of a mesh. A boundary condition uses its nodes, a traction its triangles,
+   a material its tets; a group may have any of the three. */
+typedef struct corot_group {
+  char *name;
+  int nnode;
+  int *node; /* [nnode] ascending, no repeats */
+  int ntri;
+  int (*tri)[3]; /* [ntri] node numbers; faces of the boundary wind outward */
+  int ntet;
+  int *tet; /* [ntet] ascending, no repeats */
+} corot_group;
+
+typedef struct corot_mesh {
+  int nnode;
+  double (*x)[3]; /* [nnode] rest positions [m] */
+  int ntet;
+  int (*tet)[4]; /* [ntet] node numbers */
+  int ngroup;
+  corot_group *group; /* [ngroup] distinct names */
+} corot_mesh;
+
+/* Copies `x` [nnode] and `tet` [ntet] into a new mesh without groups.
+   COROT_EINVAL names the first node or tet that is not sound. */
+corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const int (*tet)[4],
+                               corot_mesh **mesh);
+
+/* Takes NULL. */
+void corot_mesh_destroy(corot_mesh *mesh);
+
+/* Reads a mesh file. The format is found from the content and, for TetGen, from the suffix:
+     gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order;
+     TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1.
+   Of gmsh files, linear tets become tets; physical groups (named, or else called by their number)
+   of points, lines, triangles and tets become groups. Of TetGen files, region attributes and node
+   boundary markers become groups "region-N" and "marker-N".
+   Fails with COROT_EIO (cannot open), COROT_EFORMAT with "FILE:LINE: ..." (text) or
+   "FILE: byte N: ..." (binary); an unsound element is named by its number in the file. */
+corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
+
+/* A box of nx*ny*nz cells, each cut into six tets. */
+typedef struct corot_box {
+  double size[3];   /* [m] > 0 */
+  int cells[3];     /* > 0 */
+  double origin[3]; /* [m] the corner with the smallest coordinates */
+} corot_box;
+
+/* Kuhn's split: the six tets of a cell are the paths from its low to its high corner along the
+   axes, so that neighbouring cells match and each octasection is again a Kuhn split (Bey 1995).
+   Node (i,j,k) has the number i + (nx+1)(j + (ny+1)k). The six sides are groups
+   xmin xmax ymin ymax zmin zmax. */
+corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
+
+/* Writes gmsh 2.2 ASCII with all groups as physical groups; a failed write leaves no file. */
+corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
+
+/* NULL where there is none of that name. */
+const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *name);
+
+/* Add a group by its nodes. The boundary faces and the tets whose nodes are all in the group
+   belong to it. COROT_EINVAL: the name is taken, a node is out of range, or no node is selected. */
+corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnode, const int *node);
+
+/* The nodes with |x[axis] - at| <= tol; tol = 0 stands for 1e-6 of the mesh's diagonal. */
+corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name, int axis, double at,
+                                    double tol);
+
+/* The nodes with min - tol <= x <= max + tol in each coordinate; tol as above. */
+corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
+                                  const double max[3], double tol);
+
+/* The faces that belong to one tet only, winding outward. *tri [*ntri] is the caller's to free. */
+corot_status corot_mesh_boundary(const corot_mesh *mesh, int *ntri, int (**tri)[3]);
+
+/* The node nearest to a point; the lower number wins a tie. */
+int corot_mesh_nearest(const corot_mesh *mesh, const double point[3]);
+
+/* Size and shape of a mesh. */
+typedef struct corot_mesh_quality {
+  double min[3], max[3];          /* bounding box [m] */
+  double volume;                  /* sum [m^3] */
+  double volume_min, volume_max;  /* of a tet [m^3] */
+  double edge_min, edge_max;      /* [m] */
+  double dihedral_min, dihedral_max; /* [degree] */
+  double shape_min, shape_mean;   /* 3 inradius / circumradius: 1 regular, 0 flat */
+  int shape_worst;                /* the tet with shape_min */
+} corot_mesh_quality;
+
+corot_mesh_quality corot_mesh_measure(const corot_mesh *mesh);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

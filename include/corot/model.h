@@ -1,0 +1,107 @@
+/* The model: a mesh with material, strain measure, supports and loads, made ready for evaluation.
+
+   A model is immutable once created and may be shared by any number of states and threads.
+   Units are SI throughout: m, s, kg, Pa. */
+#ifndef COROT_MODEL_H
+#define COROT_MODEL_H
+
+#include <corot/mesh.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Isotropic visco-elastic material: sigma(e) = lambda tr(e) I + 2 mu e, and the same law with the
+   damping coefficients on the strain rate (the paper's D). */
+typedef struct corot_material {
+  const char *group;      /* the tets it fills; NULL: all that no other entry names */
+  double lambda, mu;      /* Lame constants [Pa]; mu > 0, 3 lambda + 2 mu > 0 */
+  double density;         /* [kg/m^3] > 0 */
+  double damping_lambda;  /* [Pa s] >= 0 */
+  double damping_mu;      /* [Pa s] >= 0 */
+} corot_material;
+
+/* A factor piecewise linear in time, constant beyond its ends. n = 0: one at all times. */
+typedef struct corot_amplitude {
+  int n;
+  const double *time;  /* [n] strictly increasing [s] */
+  const double *value; /* [n] */
+} corot_amplitude;
+
+typedef enum corot_load_kind {
+  COROT_TRACTION, /* force per rest area on the group's triangles, fixed direction [Pa] */
+  COROT_GRAVITY,  /* acceleration of the whole body [m/s^2]; the group is ignored */
+} corot_load_kind;
+
+typedef struct corot_load {
+  corot_load_kind kind;
+  const char *group;
+  double value[3];
+  corot_amplitude amplitude;
+} corot_load;
+
+/* Displacement components of a group's nodes held at zero. */
+typedef struct corot_fix {
+  const char *group;
+  bool component[3];
+} corot_fix;
+
+/* What a model is made of; everything in it is copied. */
+typedef struct corot_model_def {
+  const corot_mesh *mesh;
+  const char *strain; /* cauchy | warp | polar | hybrid | green; see corot/ode.h */
+  int nmaterial;
+  const corot_material *material; /* [nmaterial] every tet must be covered exactly once */
+  int nfix;
+  const corot_fix *fix; /* [nfix] none: a free body */
+  int nload;
+  const corot_load *load; /* [nload] */
+} corot_model_def;
+
+/* Strain polar, nothing else. */
+corot_model_def corot_model_defaults(void);
+
+typedef struct corot_model corot_model;
+
+/* COROT_EINVAL names what does not fit: an unknown group or strain, a coefficient out of range,
+   a tet without material, a traction on a group without triangles. */
+corot_status corot_model_create(const corot_model_def *def, corot_model **model);
+
+/* Takes NULL. */
+void corot_model_destroy(corot_model *model);
+
+/* The model's copy of the mesh. */
+const corot_mesh *corot_model_mesh(const corot_model *model);
+
+/* The name of the strain measure. */
+const char *corot_model_strain(const corot_model *model);
+
+/* Number n of free degrees of freedom: the length of u, v and r everywhere. */
+int corot_model_ndof(const corot_model *model);
+
+/* [nnode][3] the degree of freedom of each node's components; -1: held. */
+const int (*corot_model_dof(const corot_model *model))[3];
+
+/* [n] lumped mass (row sums) of each degree of freedom [kg]; positive. */
+const double *corot_model_mass(const corot_model *model);
+
+/* The times strictly between t0 and t1 where a load has a kink, ascending; at most `max` are
+   written to `time` (which may be NULL if max is 0). Returns how many there are. */
+int corot_model_kinks(const corot_model *model, double t0, double t1, int max, double *time);
+
+/* Scales for tolerances: the diagonal of the bounding box [m]; the smallest shear wave speed
+   sqrt(mu/density) over that diagonal [1/s]; and the smallest ratio of damping to stiffness over
+   all materials and both coefficients [s]. */
+double corot_model_length(const corot_model *model);
+double corot_model_frequency(const corot_model *model);
+double corot_model_damping_time(const corot_model *model);
+
+/* Bytes held by the model. */
+size_t corot_model_bytes(const corot_model *model);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

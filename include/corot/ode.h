@@ -1,0 +1,163 @@
+/* The solid as an ordinary differential equation on its n free degrees of freedom:
+
+     du/dt = v,   M dv/dt = r(t, u, v; R),   r = f_ext(t) - f_int(u; R) - f_damp(u, v; R)
+
+   u displacement [m], v velocity [m/s], M lumped mass, R one rotation ("frame") a tet.
+   Arrays u, v, r are [n], ordered by corot_model_dof(), and owned by the caller.
+
+   Strain measures (Hauth & Strasser 2004; F gradient of the deformation, F = R S its polar
+   decomposition). Each is a choice of basis B = R or F for the pressure (lambda) term and for the
+   shear (mu) term, with e = sym(R'F) - I for B = R and e = (F'F - I)/2 for B = F, and the first
+   Piola-Kirchhoff stress P = lambda tr(e_p) B_p + 2 mu B_s e_s:
+
+     name     B_p  B_s  R
+     cauchy   R    R    identity: linear elasticity, right for small rotations only
+     warp     R    R    Gram-Schmidt on the element's edges (Mueller et al. 2002)
+     polar    R    R    polar factor of F
+     hybrid   F    R    polar factor of F
+     green    F    F    (none): the geometrically exact St. Venant-Kirchhoff solid
+
+   The viscous stress is the same law with the damping coefficients on sym(B' dF/dt).
+
+   Frames are either EXACT, found anew from F in every evaluation, so that r is a smooth function
+   of (t, u, v); or HELD, those of the last corot_frames_update (the paper's linear systems). */
+#ifndef COROT_ODE_H
+#define COROT_ODE_H
+
+#include <corot/model.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum corot_frames {
+  COROT_FRAMES_EXACT,
+  COROT_FRAMES_HELD,
+} corot_frames;
+
+/* What the evaluations of one run need beside the model: frames and scratch. One state belongs
+   to one thread at a time; any number of states share a model. */
+typedef struct corot_state corot_state;
+
+/* Frames exact; the held frames are those of u = 0. The model must outlive the state. */
+corot_status corot_state_create(const corot_model *model, corot_state **state);
+
+/* Takes NULL. */
+void corot_state_destroy(corot_state *state);
+
+/* Bytes held by the state. */
+size_t corot_state_bytes(const corot_state *state);
+
+void corot_state_use(corot_state *state, corot_frames frames);
+corot_frames corot_state_frames(const corot_state *state);
+
+/* r(t, u, v) [N]. COROT_RETRY when a tet is inverted (det F <= 0 or not a number; not asked of
+   cauchy, which is linear): the message and corot_state_inverted() name it. */
+corot_status corot_residual(const corot_model *model, corot_state *state, double t, const double *u,
+                            const double *v, double *r);
+
+/* The same as a first-order system for y = (u, v) [2n]: ydot = (v, M^-1 r). y and ydot may not
+   overlap. */
+corot_status corot_rhs(const corot_model *model, corot_state *state, double t, const double *y,
+                       double *ydot);
+
+/* The tet (number in the mesh) whose inversion made the last evaluation fail; -1: none did. */
+int corot_state_inverted(const corot_state *state);
+
+/* How the frames enter the derivative of the elastic force. */
+typedef enum corot_tangent {
+  COROT_TANGENT_HELD,  /* as if constant: the paper's warped stiffness R K_e R' */
+  COROT_TANGENT_EXACT, /* with their own variation dR (polar, hybrid; otherwise the same) */
+} corot_tangent;
+
+/* Elastic stiffness K = -dr/du at v = 0 and damping D = -dr/dv, both symmetric, as 3x3 blocks
+   [corot_model_nblock()][9] on the model's pattern (below). Either may be NULL.
+   What K leaves out, so as to stay symmetric: the change of the viscous force with u, and the
+   variation of a warp frame. corot_jvp has both. */
+corot_status corot_jacobian(const corot_model *model, corot_state *state, double t, const double *u,
+                            const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
+
+/* The derivative of r in the direction (du, dv): jv = dr/du du + dr/dv dv [N], nothing left out.
+   With COROT_TANGENT_HELD the frames are constant, with COROT_TANGENT_EXACT they follow F. */
+corot_status corot_jvp(const corot_model *model, corot_state *state, double t, const double *u,
+                       const double *v, corot_tangent tangent, const double *du, const double *dv,
+                       double *jv);
+
+/* What an update of the held frames did. */
+typedef struct corot_frames_change {
+  double angle_max;  /* largest angle between old and new frame of a tet [rad] */
+  double angle_mean; /* [rad] */
+  int angle_tet;     /* the tet that turned furthest */
+  double energy;     /* elastic energy with the new frames less that with the old [J] */
+} corot_frames_change;
+
+/* Sets the held frames to those of u. `change` may be NULL. On COROT_RETRY nothing is changed. */
+corot_status corot_frames_update(const corot_model *model, corot_state *state, double t,
+                                 const double *u, corot_frames_change *change);
+
+/* Energies and powers of one instant. */
+typedef struct corot_energies {
+  double kinetic;          /* 1/2 v' M v [J] */
+  double elastic;          /* of the strain energy whose gradient is f_int (warp: whose held-frame
+                              gradient is f_int) [J] */
+  double power_dissipated; /* f_damp . v [W] */
+  double power_external;   /* f_ext . v [W] */
+  double momentum[3];         /* sum m v over free components [kg m/s] */
+  double angular_momentum[3]; /* about the origin [kg m^2/s] */
+} corot_energies;
+
+corot_status corot_energy(const corot_model *model, corot_state *state, double t, const double *u,
+                          const double *v, corot_energies *energies);
+
+/* Displacement and velocity of all nodes, held components included [nnode][3]; either output may
+   be NULL. */
+void corot_nodal(const corot_model *model, double t, const double *u, const double *v,
+                 double (*displacement)[3], double (*velocity)[3]);
+
+/* Fields of the tets, in the mesh's order [ntet]; any may be NULL. Symmetric tensors are stored
+   xx yy zz xy yz xz (not doubled). */
+typedef struct corot_element_fields {
+  double (*frame)[9];  /* R, row-major: the frame the model uses now */
+  double (*strain)[6]; /* shear-term strain e_s, in the frame (B = R) or material axes (B = F) */
+  double *von_mises;   /* of the Cauchy stress P F' / det F [Pa]; for cauchy of P itself */
+  double *det;         /* det F */
+} corot_element_fields;
+
+corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
+                            const corot_element_fields *fields);
+
+/* --- The matrices' pattern ------------------------------------------------------------------- */
+
+/* Number of stored 3x3 blocks: the diagonal and the lower triangle over pairs of nodes that share
+   a tet. Blocks of held nodes are stored but mean nothing. */
+int corot_model_nblock(const corot_model *model);
+
+/* y = A x for blocks A [nblock][9]; x and y are [n] and may not overlap. */
+void corot_block_multiply(const corot_model *model, const double (*A)[9], const double *x, double *y);
+
+typedef enum corot_triangle { COROT_FULL, COROT_LOWER } corot_triangle;
+
+/* Compressed sparse columns over the free degrees of freedom, rows ascending. */
+typedef struct corot_csc {
+  int n;
+  int nnz;
+  int *colptr; /* [n + 1] */
+  int *row;    /* [nnz] */
+  int *source; /* [nnz] where the entry stands in the blocks, counted in doubles */
+  int *diagonal; /* [n] the entry of each column's diagonal */
+} corot_csc;
+
+corot_status corot_csc_create(const corot_model *model, corot_triangle triangle, corot_csc **csc);
+
+/* Takes NULL. */
+void corot_csc_destroy(corot_csc *csc);
+
+/* value [nnz] = a M + b D + c K. */
+void corot_csc_combine(const corot_model *model, const corot_csc *csc, double a, double b,
+                       const double (*D)[9], double c, const double (*K)[9], double *value);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,89 @@
+/* Linear algebra of an implicit step, and how it is carried through a stock SUNDIALS integrator.
+
+   Eliminating du from the Newton system of u' = v, M v' = r leaves one n x n matrix, the pencil
+
+     S = a M + b D + c K,   K = -dr/du, D = -dr/dv
+
+   with (a, b, c) = (1, g, g^2) for CVODE and ARKODE (g: their gamma). The 2n x 2n system is never
+   formed. Nothing here refers to an integrator: a host links the CVODE (or CVODES) it likes. */
+#ifndef COROT_SOLVE_H
+#define COROT_SOLVE_H
+
+#include <corot/ode.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+#include <sundials/sundials_nvector.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* K, D, S and a factor of S: one for each run. */
+typedef struct corot_pencil corot_pencil;
+
+/* `linear_solver`: "klu", "cholmod" (if built in) or "auto". COROT_EINVAL: no solver of that name.
+   Model and state must outlive the pencil. */
+corot_status corot_pencil_create(const corot_model *model, corot_state *state,
+                                 const char *linear_solver, corot_pencil **pencil);
+
+/* Takes NULL. */
+void corot_pencil_destroy(corot_pencil *pencil);
+
+/* The name of the linear solver in use. */
+const char *corot_pencil_solver(const corot_pencil *pencil);
+
+/* Which derivative of the frames K uses; held at first. */
+void corot_pencil_use(corot_pencil *pencil, corot_tangent tangent);
+
+/* K and D at (t, u, v). */
+corot_status corot_pencil_assemble(corot_pencil *pencil, double t, const double *u, const double *v);
+
+/* S = a M + b D + c K, without reassembly. */
+void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
+
+/* Factors S. COROT_RETRY: S is not positive definite (cholmod); COROT_ESINGULAR: no pivot. */
+corot_status corot_pencil_factor(corot_pencil *pencil);
+
+/* x = S^-1 b; x may be b. */
+corot_status corot_pencil_solve(corot_pencil *pencil, const double *b, double *x);
+
+/* Marks K and D as out of date, so that the next set-up reassembles them whatever the integrator
+   thinks. For a host that has called corot_frames_update. */
+void corot_pencil_invalidate(corot_pencil *pencil);
+
+typedef struct corot_pencil_counts {
+  long nassembly, ncombine, nfactor, nsolve; /* calls */
+  long nfresh;     /* factorisations that chose their pivots anew */
+  long nindefinite; /* factorisations refused because S was not positive definite */
+  double assembly_s, combine_s, factor_s, solve_s; /* wall time [s] */
+} corot_pencil_counts;
+
+corot_pencil_counts corot_pencil_statistics(const corot_pencil *pencil);
+
+/* --- SUNDIALS ------------------------------------------------------------------------------- */
+
+/* A SUNMatrix (SUNMATRIX_CUSTOM) and a SUNLinearSolver (SUNLINEARSOLVER_DIRECT) that stand for the
+   Newton matrix I - gamma J of y = (u, v) [2n] by way of the pencil. Give both to
+   CVodeSetLinearSolver, and corot_sun_linsys to CVodeSetLinSysFn; free them by SUNMatDestroy and
+   SUNLinSolFree. NULL where memory ran out or ctx is NULL. The pencil must outlive them. */
+SUNMatrix corot_sun_matrix(corot_pencil *pencil, SUNContext ctx);
+SUNLinearSolver corot_sun_linsol(corot_pencil *pencil, SUNContext ctx);
+
+/* A CVLsLinSysFn. Its user_data is not looked at: the pencil comes from A. */
+int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
+                     sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
+                     N_Vector tmp2, N_Vector tmp3);
+
+/* Model and state in one pointer: the user_data of corot_sun_rhs. */
+typedef struct corot_sun_data {
+  const corot_model *model;
+  corot_state *state;
+} corot_sun_data;
+
+/* A CVRhsFn: ydot = (v, M^-1 r). user_data is a corot_sun_data. y is a serial vector [2n]. */
+int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

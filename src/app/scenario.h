@@ -1,0 +1,77 @@
+/* A scenario: what a YAML or JSON file says about one run, with every default filled in. */
+#ifndef COROT_APP_SCENARIO_H
+#define COROT_APP_SCENARIO_H
+
+#include <corot/integrate.h>
+#include <jansson.h>
+#include <stdio.h>
+
+typedef enum group_kind { GROUP_PLANE, GROUP_BOX, GROUP_NODES } group_kind;
+
+typedef struct group_def {
+  char *name;
+  group_kind kind;
+  int axis; /* plane */
+  double at;
+  double min[3], max[3]; /* box */
+  int nnode;             /* nodes */
+  int *node;
+} group_def;
+
+typedef struct probe_def {
+  char *name;
+  int node; /* -1: by point */
+  double point[3];
+} probe_def;
+
+typedef enum frame_policy { FRAMES_EXACT, FRAMES_HOLD } frame_policy;
+
+typedef struct scenario {
+  char *path; /* of the file, as given */
+  char *title;
+
+  char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
+  corot_box box;
+  int ngroup;
+  group_def *group;
+
+  int nmaterial;
+  corot_material *material;
+  char *strain;
+
+  frame_policy frame_policy;
+  double frame_interval; /* [s] */
+  corot_history frame_history;
+
+  int nfix;
+  corot_fix *fix;
+  int nload;
+  corot_load *load;
+
+  double t_end;       /* [s] */
+  double output_step; /* [s] */
+  corot_integrator_def integrator;
+
+  int nprobe;
+  probe_def *probe;
+  bool write_fields; /* output.fields: vtu */
+  int field_every;   /* every so many output times */
+
+  json_t *resolved; /* the whole scenario, defaults and overrides included */
+  struct source_map *source; /* where each key stands in the file, for messages */
+} scenario;
+
+/* Reads `path`, applies `override` [noverride] ("KEY.PATH=VALUE", in order) and fills in defaults.
+   COROT_EFORMAT: the message is "FILE:LINE:COL: what is wrong", with the source line. */
+corot_status scenario_read(const char *path, int noverride, char *const *override, scenario **out);
+
+void scenario_destroy(scenario *s);
+
+/* The mesh with its groups, and the model. Messages point into the scenario file. */
+corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_model **model);
+
+/* The schema, for people (a table) and for programs (JSON schema). */
+void scenario_print_schema(FILE *out);
+json_t *scenario_schema_json(void);
+
+#endif
