@@ -39,6 +39,9 @@ typedef struct corot_mesh {
 corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const int (*tet)[4],
                                corot_mesh **mesh);
 
+/* A copy with all groups. */
+corot_status corot_mesh_copy(const corot_mesh *mesh, corot_mesh **copy);
+
 /* Takes NULL. */
 void corot_mesh_destroy(corot_mesh *mesh);
 

@@ -124,6 +124,7 @@ typedef struct corot_element_fields {
   double *det;         /* det F */
 } corot_element_fields;
 
+/* COROT_RETRY if a tet is inverted; the fields are set all the same, its own without meaning. */
 corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
                             const corot_element_fields *fields);
 
@@ -153,7 +154,7 @@ corot_status corot_csc_create(const corot_model *model, corot_triangle triangle,
 /* Takes NULL. */
 void corot_csc_destroy(corot_csc *csc);
 
-/* value [nnz] = a M + b D + c K. */
+/* value [nnz] = a M + b D + c K; D and K may be NULL where their factor is zero. */
 void corot_csc_combine(const corot_model *model, const corot_csc *csc, double a, double b,
                        const double (*D)[9], double c, const double (*K)[9], double *value);
 

@@ -4,61 +4,63 @@
 
 #include <corot/integrate.h>
 #include <jansson.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 typedef enum group_kind { GROUP_PLANE, GROUP_BOX, GROUP_NODES } group_kind;
 
 typedef struct group_def {
-  char *name;
+  const char *name;
   group_kind kind;
   int axis; /* plane */
   double at;
   double min[3], max[3]; /* box */
   int nnode;             /* nodes */
-  int *node;
+  const int *node;
 } group_def;
 
 typedef struct probe_def {
-  char *name;
+  const char *name;
   int node; /* -1: by point */
   double point[3];
 } probe_def;
 
 typedef enum frame_policy { FRAMES_EXACT, FRAMES_HOLD } frame_policy;
 
+/* Everything it points to lives as long as it does. */
 typedef struct scenario {
-  char *path; /* of the file, as given */
-  char *title;
+  const char *path; /* of the file, as given */
+  const char *title;
 
-  char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
+  const char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
   corot_box box;
   int ngroup;
-  group_def *group;
+  const group_def *group;
 
   int nmaterial;
-  corot_material *material;
-  char *strain;
+  const corot_material *material;
+  const char *strain;
 
   frame_policy frame_policy;
   double frame_interval; /* [s] */
   corot_history frame_history;
 
   int nfix;
-  corot_fix *fix;
+  const corot_fix *fix;
   int nload;
-  corot_load *load;
+  const corot_load *load;
 
   double t_end;       /* [s] */
   double output_step; /* [s] */
   corot_integrator_def integrator;
 
   int nprobe;
-  probe_def *probe;
+  const probe_def *probe;
   bool write_fields; /* output.fields: vtu */
   int field_every;   /* every so many output times */
 
   json_t *resolved; /* the whole scenario, defaults and overrides included */
-  struct source_map *source; /* where each key stands in the file, for messages */
+  struct config *source; /* the file as a tree, for the places in messages; owns the memory */
 } scenario;
 
 /* Reads `path`, applies `override` [noverride] ("KEY.PATH=VALUE", in order) and fills in defaults.
@@ -69,9 +71,5 @@ void scenario_destroy(scenario *s);
 
 /* The mesh with its groups, and the model. Messages point into the scenario file. */
 corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_model **model);
-
-/* The schema, for people (a table) and for programs (JSON schema). */
-void scenario_print_schema(FILE *out);
-json_t *scenario_schema_json(void);
 
 #endif

@@ -1,0 +1,184 @@
+#include <corot/mesh.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli.h"
+#include "json_text.h"
+
+static const char help[] =
+    "usage: corot mesh box ...\n"
+    "       corot mesh info FILE\n"
+    "\n"
+    "example: corot mesh box --size 0.1,0.1,0.6 --cells 2,2,12 -o bar.msh\n";
+
+int command_mesh(int argc, char **argv) {
+  static const command table[] = {{"box", command_mesh_box}, {"info", command_mesh_info}, {0}};
+  return dispatch("corot mesh", help, table, argc, argv);
+}
+
+/* --- mesh box --- */
+
+static const char box_help[] =
+    "usage: corot mesh box --size X,Y,Z --cells I,J,K [--origin X,Y,Z] -o FILE.msh\n"
+    "\n"
+    "Writes a box of I*J*K cells, six tets each (Kuhn's split), as gmsh 2.2 ASCII. Its sides are\n"
+    "groups xmin xmax ymin ymax zmin zmax.\n"
+    "\n"
+    "      --size X,Y,Z     lengths of the edges [m]\n"
+    "      --cells I,J,K    cells along each axis\n"
+    "      --origin X,Y,Z   the corner with the smallest coordinates [m]; default: 0,0,0\n"
+    "  -o, --output FILE    the file to write\n"
+    "\n"
+    "example: corot mesh box --size 0.1,0.1,0.6 --cells 2,2,12 -o bar.msh\n";
+
+static const struct option box_options[] = {
+    {"size", required_argument, NULL, 's'},   {"cells", required_argument, NULL, 'c'},
+    {"origin", required_argument, NULL, 'g'}, {"output", required_argument, NULL, 'o'},
+    {"help", no_argument, NULL, 'h'},         {0},
+};
+
+typedef struct box_arguments {
+  corot_box box;
+  const char *file;
+  bool size, cells; /* given */
+} box_arguments;
+
+static int box_option(box_arguments *a, int answer, char **argv) {
+  static const char program[] = "corot mesh box";
+  double cells[3];
+  switch (answer) {
+    case 's':
+      a->size = parse_three(optarg, a->box.size);
+      return a->size ? EXIT_OK : usage_error(program, "--size %s: expected X,Y,Z", optarg);
+    case 'c':
+      a->cells = parse_three(optarg, cells);
+      for (int i = 0; i < 3 && a->cells; i++) {
+        a->cells = cells[i] >= 1 && cells[i] <= 1e9 && cells[i] == (int)cells[i];
+        if (a->cells) a->box.cells[i] = (int)cells[i];
+      }
+      if (a->cells) return EXIT_OK;
+      return usage_error(program, "--cells %s: expected three whole numbers I,J,K > 0", optarg);
+    case 'g':
+      if (parse_three(optarg, a->box.origin)) return EXIT_OK;
+      return usage_error(program, "--origin %s: expected X,Y,Z", optarg);
+    case 'o':
+      a->file = optarg;
+      return EXIT_OK;
+    default:
+      return option_error(program, answer, argv, box_options);
+  }
+}
+
+static int write_box(const box_arguments *a) {
+  corot_mesh *mesh = NULL;
+  corot_status status = corot_mesh_box(&a->box, &mesh);
+  if (status == COROT_EINVAL) return usage_error("corot mesh box", "%s", corot_error());
+  if (status == COROT_OK) status = corot_mesh_write(mesh, a->file);
+  if (status == COROT_OK)
+    fprintf(stderr, "%s: %d nodes, %d tets\n", a->file, mesh->nnode, mesh->ntet);
+  corot_mesh_destroy(mesh);
+  return status == COROT_OK ? EXIT_OK : failure(status);
+}
+
+int command_mesh_box(int argc, char **argv) {
+  box_arguments a = {0};
+  opterr = 0;
+  for (int answer; (answer = getopt_long(argc, argv, ":o:h", box_options, NULL)) != -1;) {
+    if (answer == 'h') {
+      fputs(box_help, stdout);
+      return EXIT_OK;
+    }
+    int code = box_option(&a, answer, argv);
+    if (code != EXIT_OK) return code;
+  }
+  if (optind < argc) return usage_error("corot mesh box", "unexpected: %s", argv[optind]);
+  if (!a.size || !a.cells || !a.file)
+    return usage_error("corot mesh box", "%s is missing",
+                       !a.size ? "--size" : !a.cells ? "--cells" : "-o FILE");
+  return write_box(&a);
+}
+
+/* --- mesh info --- */
+
+static const char info_help[] =
+    "usage: corot mesh info FILE [--json]\n"
+    "\n"
+    "Size, shape and groups of a mesh (gmsh 1, 2.2, 4.1; TetGen .node and .ele).\n"
+    "\n"
+    "      --json           the same as JSON\n"
+    "\n"
+    "example: corot mesh info bar.msh\n";
+
+static const struct option info_options[] = {
+    {"json", no_argument, NULL, 'j'}, {"help", no_argument, NULL, 'h'}, {0},
+};
+
+static void print_info(const char *path, const corot_mesh *mesh) {
+  corot_mesh_quality q = corot_mesh_measure(mesh);
+  printf("file      %s\n", path);
+  printf("nodes     %d\n", mesh->nnode);
+  printf("tets      %d\n", mesh->ntet);
+  printf("box       [%g, %g] x [%g, %g] x [%g, %g] m\n", q.min[0], q.max[0], q.min[1], q.max[1],
+         q.min[2], q.max[2]);
+  printf("volume    %.6g m^3; of a tet %.3g to %.3g\n", q.volume, q.volume_min, q.volume_max);
+  printf("edges     %.4g to %.4g m\n", q.edge_min, q.edge_max);
+  printf("dihedral  %.1f to %.1f degrees\n", q.dihedral_min, q.dihedral_max);
+  printf("shape     mean %.3f, worst %.3f (tet %d); 3 inradius / circumradius, 1 is regular\n",
+         q.shape_mean, q.shape_min, q.shape_worst);
+  for (int i = 0; i < mesh->ngroup; i++) {
+    const corot_group *g = &mesh->group[i];
+    printf("group     %s: %d nodes, %d triangles, %d tets\n", g->name, g->nnode, g->ntri, g->ntet);
+  }
+}
+
+static json_t *groups_json(const corot_mesh *mesh) {
+  json_t *list = json_array();
+  for (int i = 0; i < mesh->ngroup; i++) {
+    const corot_group *g = &mesh->group[i];
+    json_array_append_new(list, json_pack("{s:s, s:i, s:i, s:i}", "name", g->name, "nodes",
+                                          g->nnode, "triangles", g->ntri, "tets", g->ntet));
+  }
+  return list;
+}
+
+static int print_info_json(const char *path, const corot_mesh *mesh) {
+  corot_mesh_quality q = corot_mesh_measure(mesh);
+  json_t *info = json_pack(
+      "{s:s, s:i, s:i, s:[f, f, f], s:[f, f, f], s:f, s:[f, f], s:[f, f], s:[f, f], s:{s:f, s:f, "
+      "s:i}, s:o}",
+      "file", path, "nodes", mesh->nnode, "tets", mesh->ntet, "min", q.min[0], q.min[1], q.min[2],
+      "max", q.max[0], q.max[1], q.max[2], "volume", q.volume, "tet_volume", q.volume_min,
+      q.volume_max, "edge", q.edge_min, q.edge_max, "dihedral_degrees", q.dihedral_min,
+      q.dihedral_max, "shape", "mean", q.shape_mean, "min", q.shape_min, "worst", q.shape_worst,
+      "groups", groups_json(mesh));
+  if (!info) return failure(corot_fail(COROT_ENOMEM, "%s: cannot be written as JSON", path));
+  json_text_write(info, stdout);
+  json_decref(info);
+  return EXIT_OK;
+}
+
+int command_mesh_info(int argc, char **argv) {
+  bool json = false;
+  opterr = 0;
+  for (int answer; (answer = getopt_long(argc, argv, ":h", info_options, NULL)) != -1;) {
+    if (answer == 'h') {
+      fputs(info_help, stdout);
+      return EXIT_OK;
+    }
+    if (answer != 'j') return option_error("corot mesh info", answer, argv, info_options);
+    json = true;
+  }
+  if (argc - optind != 1)
+    return usage_error("corot mesh info", "expected one mesh file, found %d", argc - optind);
+  const char *path = argv[optind];
+  corot_mesh *mesh = NULL;
+  corot_status status = corot_mesh_read(path, &mesh);
+  if (status != COROT_OK) return failure(status == COROT_EIO ? COROT_EFORMAT : status);
+  int code = EXIT_OK;
+  if (json)
+    code = print_info_json(path, mesh);
+  else
+    print_info(path, mesh);
+  corot_mesh_destroy(mesh);
+  return code;
+}

@@ -1,0 +1,56 @@
+#include <stdio.h>
+
+#include "cli.h"
+#include "json_text.h"
+#include "schema.h"
+#include "suggest.h"
+
+static const char help[] =
+    "usage: corot schema [KEY] [--json]\n"
+    "\n"
+    "Every key a scenario may have, or those under KEY: type and range, unit, default, meaning.\n"
+    "NAME stands for a name of your own, [] for each entry of a list; \"one of\": exactly one of\n"
+    "the keys so marked is given; \"not yet\": known, but not supported yet.\n"
+    "\n"
+    "      --json           all of it as a JSON Schema, such as editors use\n"
+    "\n"
+    "example: corot schema integrator\n";
+
+static const struct option options[] = {
+    {"json", no_argument, NULL, 'j'}, {"help", no_argument, NULL, 'h'}, {0},
+};
+
+static int print_json(void) {
+  json_t *schema = schema_json();
+  if (!schema) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
+  json_text_write(schema, stdout);
+  json_decref(schema);
+  return EXIT_OK;
+}
+
+static int no_such_key(const char *typed) {
+  const char *path[256];
+  int n = 0;
+  for (; n < schema_nkey && n < 256; n++) path[n] = schema_keys[n].path;
+  const char *near = suggest(typed, n, path);
+  if (near) return usage_error("corot schema", "no key %s; did you mean %s?", typed, near);
+  return usage_error("corot schema", "no key %s", typed);
+}
+
+int command_schema(int argc, char **argv) {
+  bool json = false;
+  opterr = 0;
+  for (int answer; (answer = getopt_long(argc, argv, ":h", options, NULL)) != -1;) {
+    if (answer == 'h') {
+      fputs(help, stdout);
+      return EXIT_OK;
+    }
+    if (answer != 'j') return option_error("corot schema", answer, argv, options);
+    json = true;
+  }
+  if (argc - optind > 1) return usage_error("corot schema", "expected at most one key");
+  if (json && optind < argc) return usage_error("corot schema", "--json prints all keys");
+  if (json) return print_json();
+  const char *prefix = optind < argc ? argv[optind] : "";
+  return schema_print(prefix, stdout) ? EXIT_OK : no_such_key(prefix);
+}

@@ -1,0 +1,163 @@
+#include "folder.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <libgen.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static corot_status make_one(const char *path) {
+  if (mkdir(path, 0777) == 0) return COROT_OK;
+  if (errno != EEXIST)
+    return corot_fail(COROT_EIO, "%s: cannot make it: %s", path, strerror(errno));
+  struct stat info;
+  if (stat(path, &info) == 0 && S_ISDIR(info.st_mode)) return COROT_OK;
+  return corot_fail(COROT_EIO, "%s: exists and is not a folder", path);
+}
+
+corot_status folder_make(const char *path) {
+  char *part = folder_path(path, "");
+  if (!part) return COROT_ENOMEM;
+  corot_status status = COROT_OK;
+  for (char *c = part + 1; *c && status == COROT_OK; c++) {
+    if (*c != '/') continue;
+    *c = '\0';
+    status = make_one(part);
+    *c = '/';
+  }
+  free(part);
+  return status;
+}
+
+char *folder_path(const char *dir, const char *name) {
+  size_t size = strlen(dir) + strlen(name) + 2;
+  char *path = malloc(size);
+  if (!path) {
+    corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
+    return NULL;
+  }
+  snprintf(path, size, "%s/%s", dir, name);
+  return path;
+}
+
+/* A file that is not there counts as removed. */
+static corot_status remove_file(const char *dir, const char *name) {
+  char *path = folder_path(dir, name);
+  if (!path) return COROT_ENOMEM;
+  corot_status status = COROT_OK;
+  if (unlink(path) != 0 && errno != ENOENT)
+    status = corot_fail(COROT_EIO, "%s: cannot remove it: %s", path, strerror(errno));
+  free(path);
+  return status;
+}
+
+/* fields_DIGITS.vtu */
+static bool is_frame(const char *name) {
+  if (strncmp(name, "fields_", 7) != 0) return false;
+  size_t digits = strspn(name + 7, "0123456789");
+  return digits > 0 && strcmp(name + 7 + digits, ".vtu") == 0;
+}
+
+static corot_status remove_frames(const char *fields) {
+  DIR *d = opendir(fields);
+  if (!d && errno == ENOENT) return COROT_OK;
+  if (!d) return corot_fail(COROT_EIO, "%s: cannot list it: %s", fields, strerror(errno));
+  corot_status status = COROT_OK;
+  for (struct dirent *entry; status == COROT_OK && (entry = readdir(d));)
+    if (is_frame(entry->d_name)) status = remove_file(fields, entry->d_name);
+  closedir(d);
+  return status;
+}
+
+corot_status folder_clean(const char *dir) {
+  COROT_TRY(remove_file(dir, "result.json"));
+  COROT_TRY(remove_file(dir, "fields.pvd"));
+  char *fields = folder_path(dir, "fields");
+  if (!fields) return COROT_ENOMEM;
+  corot_status status = remove_frames(fields);
+  free(fields);
+  return status;
+}
+
+corot_status file_create(const char *path, int *fd) {
+  int made = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (made < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+  *fd = made;
+  return COROT_OK;
+}
+
+corot_status file_write(int fd, const char *path, const void *data, size_t size) {
+  const char *rest = data;
+  while (size > 0) {
+    ssize_t written = write(fd, rest, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return corot_fail(COROT_EIO, "%s: cannot write: %s", path, strerror(errno));
+    rest += written;
+    size -= (size_t)written;
+  }
+  return COROT_OK;
+}
+
+corot_status file_close(int fd, const char *path) {
+  if (fd < 0 || close(fd) == 0 || errno == EINTR) return COROT_OK;
+  return corot_fail(COROT_EIO, "%s: cannot write: %s", path, strerror(errno));
+}
+
+/* A descriptor that cannot be synchronised (EINVAL: a pipe, some network folders) is no error. */
+static corot_status synchronise(int fd, const char *path) {
+  if (fsync(fd) == 0 || errno == EINVAL) return COROT_OK;
+  return corot_fail(COROT_EIO, "%s: cannot write to the disk: %s", path, strerror(errno));
+}
+
+static corot_status write_whole(const char *path, const void *data, size_t size, bool durable) {
+  int fd = -1;
+  COROT_TRY(file_create(path, &fd));
+  corot_status status = file_write(fd, path, data, size);
+  if (status == COROT_OK && durable) status = synchronise(fd, path);
+  corot_status closed = file_close(fd, path);
+  return status != COROT_OK ? status : closed;
+}
+
+static corot_status put_in_place(const char *temporary, const char *path) {
+  if (rename(temporary, path) == 0) return COROT_OK;
+  return corot_fail(COROT_EIO, "%s: cannot rename %s to it: %s", path, temporary, strerror(errno));
+}
+
+corot_status file_replace(const char *path, const char *temporary, const void *data, size_t size) {
+  corot_status status = write_whole(temporary, data, size, false);
+  if (status == COROT_OK) status = put_in_place(temporary, path);
+  if (status != COROT_OK) unlink(temporary);
+  return status;
+}
+
+/* The rename itself is durable once the folder is. */
+static corot_status synchronise_folder_of(const char *path) {
+  char *copy = folder_path(path, "");
+  if (!copy) return COROT_ENOMEM;
+  int fd = open(dirname(copy), O_RDONLY | O_CLOEXEC);
+  free(copy);
+  if (fd < 0) return COROT_OK; /* a folder that may be written but not read */
+  corot_status status = synchronise(fd, path);
+  close(fd);
+  return status;
+}
+
+corot_status file_replace_durably(const char *path, const void *data, size_t size) {
+  size_t length = strlen(path);
+  char *temporary = malloc(length + 5);
+  if (!temporary) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  memcpy(temporary, path, length);
+  memcpy(temporary + length, ".tmp", 5);
+
+  corot_status status = write_whole(temporary, data, size, true);
+  if (status == COROT_OK) status = put_in_place(temporary, path);
+  if (status == COROT_OK) status = synchronise_folder_of(path);
+  if (status != COROT_OK) unlink(temporary);
+  free(temporary);
+  return status;
+}

@@ -1,0 +1,33 @@
+/* The folder a run writes to, and files in it that are never seen half-written. */
+#ifndef COROT_APP_FOLDER_H
+#define COROT_APP_FOLDER_H
+
+#include <corot/base.h>
+#include <stddef.h>
+
+/* Makes the folder and those above it; one that exists is fine. */
+corot_status folder_make(const char *path);
+
+/* Removes what an earlier run left and this one might not overwrite: result.json, fields.pvd and
+   fields/fields_*.vtu. All other files stay. */
+corot_status folder_clean(const char *dir);
+
+/* "DIR/NAME", the caller's to free; NULL where memory ran out (the message is set). */
+char *folder_path(const char *dir, const char *name);
+
+/* Opens `path` for writing from its beginning, made or emptied first. Stores a descriptor. */
+corot_status file_create(const char *path, int *fd);
+
+/* Writes all of it, however often the system has to be asked. `path` is for the message. */
+corot_status file_write(int fd, const char *path, const void *data, size_t size);
+
+/* Closes `fd` (-1: does nothing); a delayed error of the disk shows up here. */
+corot_status file_close(int fd, const char *path);
+
+/* Puts a file in place as a whole: `temporary` is written, then renamed to `path`. */
+corot_status file_replace(const char *path, const char *temporary, const void *data, size_t size);
+
+/* The same, and on the disk before it returns; the temporary file is PATH.tmp. */
+corot_status file_replace_durably(const char *path, const void *data, size_t size);
+
+#endif

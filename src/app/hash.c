@@ -1,0 +1,43 @@
+#include "hash.h"
+
+#include <sha2.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void add_integers(SHA2_CTX *sum, const int *data, size_t n) {
+  SHA256Update(sum, (const uint8_t *)data, n * sizeof *data);
+}
+
+static void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]) {
+  SHA2_CTX sum;
+  SHA256Init(&sum);
+  add_integers(&sum, (const int[3]){mesh->nnode, mesh->ntet, mesh->ngroup}, 3);
+  SHA256Update(&sum, (const uint8_t *)mesh->x, (size_t)mesh->nnode * sizeof *mesh->x);
+  add_integers(&sum, &mesh->tet[0][0], 4 * (size_t)mesh->ntet);
+  for (int i = 0; i < mesh->ngroup; i++) {
+    const corot_group *g = &mesh->group[i];
+    SHA256Update(&sum, (const uint8_t *)g->name, strlen(g->name) + 1);
+    add_integers(&sum, (const int[3]){g->nnode, g->ntri, g->ntet}, 3);
+    if (g->nnode > 0) add_integers(&sum, g->node, (size_t)g->nnode);
+    if (g->ntri > 0) add_integers(&sum, &g->tri[0][0], 3 * (size_t)g->ntri);
+    if (g->ntet > 0) add_integers(&sum, g->tet, (size_t)g->ntet);
+  }
+  SHA256End(&sum, digest);
+}
+
+corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out) {
+  char *text = json_dumps(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+  if (!text) return corot_fail(COROT_ENOMEM, "the hash of the scenario: out of memory");
+  hashes h;
+  SHA256Data((const uint8_t *)text, strlen(text), h.scenario);
+  free(text);
+
+  hash_mesh(mesh, h.mesh);
+  char identity[256];
+  int length = snprintf(identity, sizeof identity, "corot %s\n%s\n%s\n", corot_version(),
+                        h.scenario, h.mesh);
+  SHA256Data((const uint8_t *)identity, (size_t)length, h.run);
+  *out = h;
+  return COROT_OK;
+}

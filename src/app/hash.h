@@ -1,0 +1,18 @@
+/* What identifies a run: SHA-256 sums, in hexadecimal. Two runs of equal sums do the same work. */
+#ifndef COROT_APP_HASH_H
+#define COROT_APP_HASH_H
+
+#include <corot/mesh.h>
+#include <jansson.h>
+
+enum { HASH_SIZE = 65 }; /* 64 digits and a terminator */
+
+typedef struct hashes {
+  char scenario[HASH_SIZE]; /* of the resolved scenario as compact JSON with sorted keys */
+  char mesh[HASH_SIZE];     /* of counts, coordinates, tets and groups as they stand in memory */
+  char run[HASH_SIZE];      /* of "corot VERSION\nSCENARIO\nMESH\n" */
+} hashes;
+
+corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out);
+
+#endif

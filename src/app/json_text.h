@@ -1,0 +1,17 @@
+/* JSON text that YAML readers of either version take for the same values: they read 1e-6 as a
+   word, so numbers that are not whole are written as 1.0e-06. */
+#ifndef COROT_APP_JSON_TEXT_H
+#define COROT_APP_JSON_TEXT_H
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* The shortest text that reads back as the same number, with a point. */
+void json_text_number(double x, size_t size, char *text);
+
+/* Writes a value in lines indented by two; lists of plain values stay on one. Errors are left in
+   the stream. */
+void json_text_write(const json_t *value, FILE *out);
+
+#endif

@@ -1,0 +1,173 @@
+#include "result.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "folder.h"
+
+#if defined(__clang__)
+#define COMPILER "clang " __clang_version__
+#elif defined(__GNUC__)
+#define COMPILER "gcc " __VERSION__
+#else
+#define COMPILER "unknown"
+#endif
+
+/* JSON has no word for what is not finite. */
+static json_t *real(double x) { return isfinite(x) ? json_real(x) : json_null(); }
+
+static json_t *integer(long i) { return json_integer(i); }
+
+/* NULL gives null. Bytes that are not UTF-8, as a file name or a cut message may have, give '?'. */
+static json_t *text(const char *s) {
+  if (!s) return json_null();
+  json_t *string = json_string(s);
+  char *copy = string ? NULL : malloc(strlen(s) + 1);
+  if (!copy) return string;
+  strcpy(copy, s);
+  for (char *c = copy; *c; c++)
+    if (*c & 0x80) *c = '?';
+  string = json_string(copy);
+  free(copy);
+  return string;
+}
+
+static json_t *vector(const double x[3]) {
+  return json_pack("[o, o, o]", real(x[0]), real(x[1]), real(x[2]));
+}
+
+static json_t *mesh_part(const scenario *s, const corot_model *model) {
+  const corot_mesh *mesh = corot_model_mesh(model);
+  return json_pack("{s:o, s:i, s:i, s:i}", "file", text(s->mesh_file), "nodes", mesh->nnode, "tets",
+                   mesh->ntet, "dofs", corot_model_ndof(model));
+}
+
+static json_t *frames_part(const scenario *s, const run_summary *run) {
+  static const char *const history[] = {
+      [COROT_HISTORY_AUTO] = "auto",
+      [COROT_HISTORY_KEEP] = "keep",
+      [COROT_HISTORY_RESTART] = "restart",
+  };
+  bool held = s->frame_policy == FRAMES_HOLD;
+  return json_pack("{s:s, s:o, s:s?, s:o, s:o, s:o}", "policy", held ? "hold" : "exact", "interval",
+                   held ? real(s->frame_interval) : json_null(), "history",
+                   held ? history[s->frame_history] : NULL, "updates", integer(run->nframes),
+                   "angle_max", real(run->angle_max), "energy", real(run->frame_energy));
+}
+
+static json_t *integrator_part(const scenario *s, const corot_integrator_choice *c) {
+  return json_pack("{s:s?, s:s?, s:o, s:o, s:o, s:i}", "method", c->method, "linear_solver",
+                   c->linear_solver, "rtol", real(s->integrator.rtol), "atol_displacement",
+                   real(c->atol_displacement), "atol_velocity", real(c->atol_velocity), "max_order",
+                   c->max_order);
+}
+
+static json_t *statistics_part(const run_summary *run) {
+  const corot_statistics *n = &run->statistics;
+  json_t *part =
+      json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:i}", "nst", integer(n->nst), "nfe",
+                integer(n->nfe), "nsetups", integer(n->nsetups), "netf", integer(n->netf), "nni",
+                integer(n->nni), "ncfn", integer(n->ncfn), "nje", integer(n->nje), "nli",
+                integer(n->nli), "hlast", real(n->hlast), "qlast", n->qlast);
+  json_t *more = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor", integer(n->nfactor),
+                           "nsolve", integer(n->nsolve), "nfresh", integer(n->nfresh),
+                           "nindefinite", integer(n->nindefinite), "nfeQ", integer(n->nfeQ),
+                           "nrestart", integer(n->nrestart), "nframes", integer(run->nframes));
+  bool complete = part && more && json_object_update(part, more) == 0;
+  json_decref(more);
+  if (complete) return part;
+  json_decref(part);
+  return NULL;
+}
+
+/* Wall time by phase; `other` is what the phases leave of `wall`. */
+static json_t *timings_part(const run_summary *run) {
+  const corot_statistics *n = &run->statistics;
+  double known = run->setup_s + n->force_s + n->assembly_s + n->combine_s + n->factor_s +
+                 n->solve_s + n->work_s + run->frames_s + run->output_s;
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "setup",
+                   real(run->setup_s), "force", real(n->force_s), "assembly", real(n->assembly_s),
+                   "combine", real(n->combine_s), "factor", real(n->factor_s), "solve",
+                   real(n->solve_s), "work", real(n->work_s), "frames", real(run->frames_s),
+                   "output", real(run->output_s), "other", real(run->wall_s - known), "wall",
+                   real(run->wall_s), "cpu", real(run->cpu_s));
+}
+
+/* Bytes; `peak` is the largest resident set of the process so far. */
+static json_t *memory_part(const run_summary *run) {
+  struct rusage usage;
+  double peak = getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * (double)usage.ru_maxrss : 0;
+  return json_pack("{s:I, s:I, s:I}", "model", (json_int_t)corot_model_bytes(run->model), "state",
+                   (json_int_t)run->state_bytes, "peak", (json_int_t)peak);
+}
+
+static json_t *probes_part(const outputs *o) {
+  json_t *part = json_object();
+  bool complete = part != NULL;
+  for (int i = 0; complete && i < outputs_nprobe(o); i++) {
+    int node;
+    double u[3], v[3];
+    const char *name = outputs_probe(o, i, &node, u, v);
+    json_t *probe = json_pack("{s:i, s:o, s:o}", "node", node, "u", vector(u), "v", vector(v));
+    complete = json_object_set_new(part, name, probe) == 0;
+  }
+  if (complete) return part;
+  json_decref(part);
+  return NULL;
+}
+
+static json_t *energy_part(const outputs *o) {
+  ledger e = outputs_ledger(o);
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "t", real(e.t), "kinetic",
+                   real(e.kinetic), "elastic", real(e.elastic), "dissipated", real(e.dissipated),
+                   "external_work", real(e.external_work), "balance", real(e.balance),
+                   "frame_energy", real(e.frame_energy), "momentum", vector(e.momentum),
+                   "angular_momentum", vector(e.angular_momentum));
+}
+
+static json_t *versions_part(void) {
+  return json_pack("{s:s, s:s, s:s}", "corot", corot_version(), "sundials",
+                   corot_sundials_version(), "compiler", COMPILER);
+}
+
+corot_status result_make(const scenario *s, const outputs *o, const run_summary *run,
+                         json_t **out) {
+  const hashes *h = &run->hashes;
+  json_t *result = json_pack(
+      "{s:o, s:s, s:o, s:i, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o,"
+      " s:{s:s, s:s, s:s}, s:O}",
+      "title", text(s->title), "status", run->status, "reason", text(run->reason), "exit_code",
+      run->exit_code, "t_reached", real(run->t_reached), "t_end", real(s->t_end), "strain",
+      corot_model_strain(run->model), "mesh", mesh_part(s, run->model), "frames",
+      frames_part(s, run), "integrator", integrator_part(s, &run->chosen), "statistics",
+      statistics_part(run), "timings", timings_part(run), "memory", memory_part(run), "probes",
+      probes_part(o), "energy", energy_part(o), "versions", versions_part(), "hashes", "scenario",
+      h->scenario, "mesh", h->mesh, "run", h->run, "scenario", s->resolved);
+  if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
+  *out = result;
+  return COROT_OK;
+}
+
+corot_status result_text(const json_t *result, char **text) {
+  char *dump = json_dumps(result, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+  char *whole = dump ? malloc(strlen(dump) + 2) : NULL;
+  if (whole) {
+    size_t length = strlen(dump);
+    memcpy(whole, dump, length);
+    memcpy(whole + length, "\n", 2);
+  }
+  free(dump);
+  if (!whole) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
+  *text = whole;
+  return COROT_OK;
+}
+
+corot_status result_write(const char *dir, const char *text) {
+  char *path = folder_path(dir, "result.json");
+  if (!path) return COROT_ENOMEM;
+  corot_status status = file_replace_durably(path, text, strlen(text));
+  free(path);
+  return status;
+}

@@ -1,0 +1,34 @@
+/* result.json: everything about a run that is one number or one word. */
+#ifndef COROT_APP_RESULT_H
+#define COROT_APP_RESULT_H
+
+#include "hash.h"
+#include "outputs.h"
+
+/* What a run has to say when it is over. */
+typedef struct run_summary {
+  const char *status; /* "ok", "failed", "interrupted" */
+  const char *reason; /* NULL: ok */
+  int exit_code;
+  double t_reached; /* [s] */
+  const corot_model *model;
+  size_t state_bytes;
+  corot_statistics statistics;
+  corot_integrator_choice chosen;
+  long nframes;        /* updates of held frames */
+  double angle_max;    /* the largest turn of any frame in any update [rad] */
+  double frame_energy; /* put in by all updates [J] */
+  double setup_s, frames_s, output_s, wall_s, cpu_s; /* [s] */
+  hashes hashes;
+} run_summary;
+
+/* The caller's to json_decref. */
+corot_status result_make(const scenario *s, const outputs *o, const run_summary *run, json_t **out);
+
+/* The text of it, as it stands in the file; the caller's to free. */
+corot_status result_text(const json_t *result, char **text);
+
+/* Puts DIR/result.json in place as a whole. */
+corot_status result_write(const char *dir, const char *text);
+
+#endif

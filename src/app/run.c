@@ -1,0 +1,268 @@
+#include "run.h"
+
+#include <locale.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "clock.h"
+#include "outputs.h"
+#include "progress.h"
+#include "result.h"
+#include "schedule.h"
+
+enum { EXIT_SCENARIO = 3, EXIT_INTEGRATOR = 4, EXIT_SYSTEM = 5, EXIT_SIGNAL = 128 };
+
+typedef struct run {
+  const scenario *scenario;
+  const run_options *options;
+  corot_mesh *mesh;
+  corot_model *model;
+  corot_state *state;
+  corot_integrator *integrator;
+  schedule *schedule;
+  outputs *outputs;
+  progress progress;
+  double *u, *v; /* [n] scratch */
+  double t;      /* reached [s] */
+  double shown;  /* time of the last row of the tables [s]; -1: there is none */
+  long nframes;  /* updates of held frames: how many, their largest turn, their energy so far */
+  double angle_max, frame_energy;
+  double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
+} run;
+
+static volatile sig_atomic_t stop_signal;
+
+void run_interrupt(int signal_number) { stop_signal = signal_number; }
+
+/* Before the first step: nothing is written yet. */
+
+static corot_status start_integrator(run *r) {
+  const scenario *s = r->scenario;
+  size_t n = (size_t)corot_model_ndof(r->model);
+  r->u = calloc(n + 1, sizeof *r->u);
+  r->v = calloc(n + 1, sizeof *r->v);
+  if (!r->u || !r->v) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
+
+  bool held = s->frame_policy == FRAMES_HOLD;
+  COROT_TRY(corot_state_create(r->model, &r->state));
+  corot_state_use(r->state, held ? COROT_FRAMES_HELD : COROT_FRAMES_EXACT);
+  COROT_TRY(schedule_create(r->model, s->t_end, s->output_step, held ? s->frame_interval : 0,
+                            &r->schedule));
+  return corot_integrator_create(&s->integrator, r->model, r->state, 0, r->u, r->v, &r->integrator);
+}
+
+static corot_status prepare(run *r) {
+  COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->model));
+  COROT_TRY(start_integrator(r));
+  r->setup_s = wall_clock() - r->wall_at_start;
+  return COROT_OK;
+}
+
+static void release(run *r) {
+  outputs_destroy(r->outputs);
+  corot_integrator_destroy(r->integrator);
+  schedule_destroy(r->schedule);
+  corot_state_destroy(r->state);
+  corot_model_destroy(r->model);
+  corot_mesh_destroy(r->mesh);
+  free(r->u);
+  free(r->v);
+}
+
+/* Step by step. */
+
+/* Writes the moment t, which is 0 or within the last step. */
+static corot_status write_moment(run *r, double t, bool last) {
+  instant now = {.t = t, .u = r->u, .v = r->v, .frame_energy = r->frame_energy};
+  if (t > 0) {
+    COROT_TRY(corot_integrator_at(r->integrator, t, r->u, r->v));
+    COROT_TRY(corot_integrator_work(r->integrator, t, &now.dissipated, &now.external_work));
+  }
+  corot_status status = outputs_write(r->outputs, r->state, &now, last);
+  if (status > 0) return corot_fail(status, "output at t = %g s: %s", t, corot_error());
+  if (status == COROT_OK) r->shown = t;
+  return status;
+}
+
+/* Writes the output times up to t, with the frames as they were during the step. */
+static corot_status write_outputs(run *r, double t) {
+  double started = wall_clock(), due;
+  corot_status status = COROT_OK;
+  while (status == COROT_OK && schedule_take_output(r->schedule, t, &due))
+    status = write_moment(r, due, due == r->scenario->t_end);
+  r->output_s += wall_clock() - started;
+  return status;
+}
+
+static corot_status update_frames(run *r, step_row *row) {
+  corot_frames_change change;
+  COROT_TRY(corot_integrator_at(r->integrator, row->t, r->u, NULL));
+  COROT_TRY(corot_frames_update(r->model, r->state, row->t, r->u, &change));
+  row->events |= EVENT_FRAMES;
+  row->angle_max = change.angle_max;
+  row->angle_mean = change.angle_mean;
+  row->frame_energy = change.energy;
+  r->nframes++;
+  r->frame_energy += change.energy;
+  if (change.angle_max > r->angle_max) r->angle_max = change.angle_max;
+
+  long before = corot_integrator_statistics(r->integrator).nrestart;
+  COROT_TRY(corot_integrator_changed(r->integrator, r->scenario->frame_history));
+  if (corot_integrator_statistics(r->integrator).nrestart > before) row->events |= EVENT_RESTART;
+  return COROT_OK;
+}
+
+static corot_status handle_events(run *r, step_row *row) {
+  if (schedule_take_kink(r->schedule, row->t)) row->events |= EVENT_KINK;
+  if (!schedule_take_frames(r->schedule, row->t)) return COROT_OK;
+  double started = wall_clock();
+  corot_status status = update_frames(r, row);
+  r->frames_s += wall_clock() - started;
+  if (status == COROT_OK) return COROT_OK;
+  row->events |= EVENT_FAILED;
+  return corot_fail(status, "update of the frames at t = %g s: %s", row->t, corot_error());
+}
+
+static corot_status integrate(run *r) {
+  COROT_TRY(write_outputs(r, 0));
+  while (r->t < r->scenario->t_end && !stop_signal) {
+    corot_step step;
+    COROT_TRY(corot_integrator_step(r->integrator, schedule_stop(r->schedule), &step));
+    r->t = step.t;
+    COROT_TRY(write_outputs(r, step.t));
+
+    step_row row = {step.t, step.h, step.order, step.error, step.newton, 0, 0, 0, 0};
+    corot_status handled = handle_events(r, &row);
+    COROT_TRY(outputs_step(r->outputs, &row));
+    COROT_TRY(handled);
+    progress_show(&r->progress, &step);
+  }
+  return COROT_OK;
+}
+
+/* After the last step. */
+
+static int exit_code(corot_status status) {
+  if (status == COROT_OK) return 0;
+  if (status == COROT_EINVAL || status == COROT_EFORMAT) return EXIT_SCENARIO;
+  if (status == COROT_ENOMEM || status == COROT_EIO) return EXIT_SYSTEM;
+  return EXIT_INTEGRATOR;
+}
+
+static corot_status summarize(const run *r, const char *reason, int code, run_summary *summary) {
+  bool interrupted = code > EXIT_SIGNAL;
+  *summary = (run_summary){
+      .status = code == 0     ? "ok"
+                : interrupted ? "interrupted"
+                              : "failed",
+      .reason = code == 0 ? NULL : reason,
+      .exit_code = code,
+      .t_reached = r->t,
+      .model = r->model,
+      .state_bytes = corot_state_bytes(r->state),
+      .statistics = corot_integrator_statistics(r->integrator),
+      .chosen = corot_integrator_chosen(r->integrator),
+      .nframes = r->nframes,
+      .angle_max = r->angle_max,
+      .frame_energy = r->frame_energy,
+      .setup_s = r->setup_s,
+      .frames_s = r->frames_s,
+      .output_s = r->output_s,
+      .wall_s = wall_clock() - r->wall_at_start,
+      .cpu_s = cpu_clock() - r->cpu_at_start,
+  };
+  return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
+}
+
+static corot_status write_result(const run *r, const run_summary *summary) {
+  json_t *result = NULL;
+  COROT_TRY(result_make(r->scenario, r->outputs, summary, &result));
+  char *text = NULL;
+  corot_status status = result_text(result, &text);
+  json_decref(result);
+  COROT_TRY(status);
+  status = result_write(r->options->dir, text);
+  if (r->options->json && (fputs(text, stdout) == EOF || fflush(stdout) == EOF))
+    status = corot_fail(COROT_EIO, "stdout: cannot write");
+  free(text);
+  return status;
+}
+
+static void tell(const run *r, const run_summary *summary) {
+  const char *path = r->scenario->path, *dir = r->options->dir;
+  if (summary->reason)
+    fprintf(stderr, "corot: %s: stopped at t = %.6g s of %g s: %s\n", path, r->t,
+            r->scenario->t_end, summary->reason);
+  if (r->options->quiet) return;
+  fprintf(stderr,
+          "corot: %s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n",
+          path, r->t, summary->statistics.nst, summary->statistics.nfactor, summary->wall_s,
+          r->t / summary->wall_s, dir);
+}
+
+/* Closes the books after a run that ended with `status`; returns the exit code. */
+static int conclude(run *r, corot_status status) {
+  char reason[1024] = "";
+  int code = exit_code(status);
+  if (code != 0) {
+    snprintf(reason, sizeof reason, "%s", corot_error());
+  } else if (stop_signal && r->t < r->scenario->t_end) {
+    snprintf(reason, sizeof reason, "interrupted by signal %d", (int)stop_signal);
+    code = EXIT_SIGNAL + stop_signal;
+  }
+  stop_signal = 0;
+  progress_clear(&r->progress);
+
+  /* What could be written before can be written now; if it cannot, the first reason stands. */
+  corot_status late = COROT_OK;
+  if (r->shown < r->t && code != EXIT_SYSTEM) late = write_moment(r, r->t, true);
+  corot_status closed = outputs_close(r->outputs);
+  if (late == COROT_OK) late = closed;
+  if (code == 0 && late != COROT_OK) {
+    code = exit_code(late);
+    snprintf(reason, sizeof reason, "%s", corot_error());
+  }
+
+  run_summary summary;
+  late = summarize(r, reason, code, &summary);
+  if (late == COROT_OK) late = write_result(r, &summary);
+  if (late != COROT_OK) fprintf(stderr, "corot: %s\n", corot_error());
+  tell(r, &summary);
+  return late != COROT_OK && code == 0 ? exit_code(late) : code;
+}
+
+static int run_in_c_locale(const scenario *s, const run_options *options) {
+  run r = {.scenario = s, .options = options, .shown = -1};
+  r.wall_at_start = wall_clock();
+  r.cpu_at_start = cpu_clock();
+
+  int code;
+  corot_status status = prepare(&r);
+  if (status != COROT_OK) {
+    fprintf(stderr, "corot: %s\n", corot_error());
+    code = status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
+  } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
+    fprintf(stderr, "corot: %s\n", corot_error());
+    code = exit_code(status);
+  } else {
+    r.progress = progress_start(options->progress && !options->quiet, s->t_end);
+    code = conclude(&r, integrate(&r));
+  }
+  release(&r);
+  return code;
+}
+
+int run_scenario(const scenario *s, const run_options *options) {
+  locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+  if (!plain) {
+    fprintf(stderr, "corot: out of memory\n");
+    return EXIT_SYSTEM;
+  }
+  locale_t before = uselocale(plain);
+  int code = run_in_c_locale(s, options);
+  uselocale(before);
+  freelocale(plain);
+  return code;
+}

@@ -1,0 +1,337 @@
+#include "scenario.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "config.h"
+#include "schema.h"
+
+/* After schema_apply every key has its type, its range and, where there is one, its default: what
+   is left to check is how keys go together. */
+
+static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
+
+static double number_at(config_node *node, const char *path) {
+  return config_find(node, path)->number;
+}
+
+static const char *text_at(config_node *node, const char *path) {
+  const config_node *found = config_find(node, path);
+  return found ? found->text : NULL;
+}
+
+static bool text_is(config_node *node, const char *path, const char *text) {
+  return strcmp(text_at(node, path), text) == 0;
+}
+
+static void vector_at(config_node *node, const char *path, double vector[3]) {
+  const config_node *c = config_find(node, path)->child;
+  for (int i = 0; i < 3; i++, c = c->next) vector[i] = c->number;
+}
+
+/* --- Mesh and groups --- */
+
+/* `file` as seen from the folder of `path`. */
+static const char *beside(config *tree, const char *path, const char *file) {
+  const char *slash = strrchr(path, '/');
+  size_t folder = slash && file[0] != '/' ? (size_t)(slash - path) + 1 : 0;
+  size_t length = strlen(file);
+  char *joined = config_alloc(tree, folder + length + 1, 1);
+  if (!joined) return NULL;
+  memcpy(joined, path, folder);
+  memcpy(joined + folder, file, length);
+  return joined;
+}
+
+static corot_status read_mesh(scenario *s) {
+  config_node *root = s->source->root;
+  config_node *box = config_find(root, "mesh.box");
+  if (!box) {
+    config_node *file = config_find(root, "mesh.file");
+    if (!*file->text) return config_fail(file, "the name is empty");
+    s->mesh_file = beside(s->source, s->path, file->text);
+    return s->mesh_file ? COROT_OK : no_memory();
+  }
+  double cells[3];
+  vector_at(box, "size", s->box.size);
+  vector_at(box, "cells", cells);
+  vector_at(box, "origin", s->box.origin);
+  for (int i = 0; i < 3; i++) s->box.cells[i] = (int)cells[i];
+  return COROT_OK;
+}
+
+static corot_status read_nodes(config *tree, const config_node *list, group_def *group) {
+  int *node = config_alloc(tree, (size_t)list->nchild, sizeof *node);
+  if (!node) return no_memory();
+  const config_node *c = list->child;
+  for (int i = 0; i < list->nchild; i++, c = c->next) node[i] = (int)c->number;
+  group->kind = GROUP_NODES;
+  group->nnode = list->nchild;
+  group->node = node;
+  return COROT_OK;
+}
+
+static corot_status read_group(config *tree, config_node *node, group_def *group) {
+  group->name = node->key;
+  config_node *nodes = config_find(node, "nodes");
+  if (nodes) return read_nodes(tree, nodes, group);
+  config_node *plane = config_find(node, "plane");
+  if (plane) {
+    group->kind = GROUP_PLANE;
+    group->axis = text_at(plane, "axis")[0] - 'x';
+    group->at = number_at(plane, "at");
+    return COROT_OK;
+  }
+  config_node *box = config_find(node, "box");
+  group->kind = GROUP_BOX;
+  vector_at(box, "min", group->min);
+  vector_at(box, "max", group->max);
+  for (int i = 0; i < 3; i++)
+    if (group->min[i] > group->max[i]) return config_fail(box, "min is larger than max");
+  return COROT_OK;
+}
+
+static corot_status read_groups(scenario *s) {
+  config_node *map = config_find(s->source->root, "groups");
+  group_def *group = config_alloc(s->source, (size_t)map->nchild, sizeof *group);
+  if (!group) return no_memory();
+  s->group = group;
+  for (config_node *c = map->child; c; c = c->next)
+    COROT_TRY(read_group(s->source, c, &group[s->ngroup++]));
+  return COROT_OK;
+}
+
+/* --- Material --- */
+
+/* Puts lambda and mu in the place of E and nu, or mu and nu. */
+static corot_status use_lame(config *tree, config_node *node) {
+  config_node *lambda = config_find(node, "lambda"), *mu = config_find(node, "mu");
+  config_node *E = config_find(node, "E"), *nu = config_find(node, "nu");
+  bool lame = lambda && mu && !E && !nu, young = E && nu && !lambda && !mu;
+  bool shear = mu && nu && !lambda && !E;
+  if (!lame && !young && !shear)
+    return config_fail_key(node, "give lambda and mu, or E and nu, or mu and nu");
+  if (lame) return COROT_OK;
+
+  double n = nu->number, m = young ? E->number / (2 * (1 + n)) : mu->number;
+  double l = 2 * m * n / (1 - 2 * n);
+  if (!(l - l == 0)) return config_fail(nu, "too near to 0.5: lambda overflows");
+  config_remove(nu);
+  config_remove(young ? E : mu);
+  COROT_TRY(config_add_number(tree, node, "lambda", l));
+  return config_add_number(tree, node, "mu", m);
+}
+
+static corot_status read_material(config *tree, config_node *node, corot_material *material) {
+  COROT_TRY(use_lame(tree, node));
+  *material = (corot_material){
+      .group = text_at(node, "group"),
+      .lambda = number_at(node, "lambda"),
+      .mu = number_at(node, "mu"),
+      .density = number_at(node, "density"),
+      .damping_lambda = number_at(node, "damping.lambda"),
+      .damping_mu = number_at(node, "damping.mu"),
+  };
+  if (!(3 * material->lambda + 2 * material->mu > 0))
+    return config_fail(config_find(node, "lambda"),
+                       "3 lambda + 2 mu must be > 0, otherwise the solid has no resistance to a "
+                       "change of volume");
+  return COROT_OK;
+}
+
+static corot_status read_materials(scenario *s) {
+  config_node *node = config_find(s->source->root, "material");
+  bool list = node->kind == CONFIG_LIST;
+  int n = list ? node->nchild : 1;
+  corot_material *material = config_alloc(s->source, (size_t)n, sizeof *material);
+  if (!material) return no_memory();
+  s->material = material;
+  for (config_node *c = list ? node->child : node; c; c = list ? c->next : NULL) {
+    COROT_TRY(read_material(s->source, c, &material[s->nmaterial]));
+    for (int i = 0; i < s->nmaterial; i++) {
+      const char *a = material[i].group, *b = material[s->nmaterial].group;
+      if (!a && !b) return config_fail(c, "group is missing; one entry only may go without");
+      if (a && b && strcmp(a, b) == 0)
+        return config_fail(config_find(c, "group"), "%s has a material already", b);
+    }
+    s->nmaterial++;
+  }
+  return COROT_OK;
+}
+
+/* --- Frames, boundary, loads --- */
+
+static corot_status read_frames(scenario *s) {
+  static const char *const history[] = {"auto", "keep", "restart"};
+  config_node *frames = config_find(s->source->root, "frames");
+  config_node *policy = config_find(frames, "policy");
+  config_node *interval = config_find(frames, "interval");
+  s->strain = text_at(s->source->root, "strain");
+  s->frame_policy = text_is(frames, "policy", "hold") ? FRAMES_HOLD : FRAMES_EXACT;
+  if (s->frame_policy == FRAMES_HOLD && !interval)
+    return config_fail(policy, "hold needs frames.interval");
+  if (s->frame_policy == FRAMES_EXACT && interval && !policy->source)
+    return config_fail_key(interval, "has an effect with policy: hold only, and none is given");
+  if (interval) s->frame_interval = interval->number;
+  for (int i = 0; i < 3; i++)
+    if (text_is(frames, "history", history[i])) s->frame_history = (corot_history)i;
+  return COROT_OK;
+}
+
+static corot_status read_boundary(scenario *s) {
+  config_node *list = config_find(s->source->root, "boundary");
+  corot_fix *fix = config_alloc(s->source, (size_t)list->nchild, sizeof *fix);
+  if (!fix) return no_memory();
+  s->fix = fix;
+  for (config_node *c = list->child; c; c = c->next) {
+    corot_fix *f = &fix[s->nfix++];
+    f->group = text_at(c, "group");
+    for (const config_node *axis = config_find(c, "fix")->child; axis; axis = axis->next)
+      f->component[axis->text[0] - 'x'] = true;
+  }
+  return COROT_OK;
+}
+
+static corot_status read_amplitude(config *tree, const config_node *list, corot_amplitude *a) {
+  double *time = config_alloc(tree, 2 * (size_t)list->nchild, sizeof *time);
+  if (!time) return no_memory();
+  double *value = time + list->nchild;
+  const config_node *pair = list->child;
+  for (int i = 0; i < list->nchild; i++, pair = pair->next) {
+    time[i] = pair->child->number;
+    value[i] = pair->child->next->number;
+  }
+  *a = (corot_amplitude){.n = list->nchild, .time = time, .value = value};
+  return COROT_OK;
+}
+
+static corot_status read_load(config *tree, config_node *node, corot_load *load) {
+  config_node *group = config_find(node, "group"), *gravity = config_find(node, "gravity");
+  config_node *amplitude = config_find(node, "amplitude");
+  if (gravity && group) return config_fail_key(group, "gravity acts on the whole body: no group");
+  if (!gravity && !group) return config_fail(node, "group is missing, on which the traction acts");
+  load->kind = gravity ? COROT_GRAVITY : COROT_TRACTION;
+  load->group = group ? group->text : NULL;
+  vector_at(node, gravity ? "gravity" : "traction", load->value);
+  return amplitude ? read_amplitude(tree, amplitude, &load->amplitude) : COROT_OK;
+}
+
+static corot_status read_loads(scenario *s) {
+  config_node *list = config_find(s->source->root, "loads");
+  corot_load *load = config_alloc(s->source, (size_t)list->nchild, sizeof *load);
+  if (!load) return no_memory();
+  s->load = load;
+  for (config_node *c = list->child; c; c = c->next)
+    COROT_TRY(read_load(s->source, c, &load[s->nload++]));
+  return COROT_OK;
+}
+
+/* --- Time, integrator, output --- */
+
+static corot_status read_time(scenario *s) {
+  config_node *time = config_find(s->source->root, "time");
+  s->t_end = number_at(time, "end");
+  if (!config_find(time, "output"))
+    COROT_TRY(config_add_number(s->source, time, "output", s->t_end / 100));
+  s->output_step = number_at(time, "output");
+  if (!(s->output_step > 0)) return config_fail(config_find(time, "end"), "too small");
+  return COROT_OK;
+}
+
+static corot_status read_integrator(scenario *s) {
+  config_node *root = s->source->root, *node = config_find(root, "integrator");
+  s->integrator = (corot_integrator_def){
+      .method = text_at(node, "method"),
+      .linear_solver = text_at(root, "linear_solver"),
+      .rtol = number_at(node, "rtol"),
+      .atol_displacement = number_at(node, "atol.displacement"),
+      .atol_velocity = number_at(node, "atol.velocity"),
+      .max_order = (int)number_at(node, "max_order"),
+      .max_steps = (long)number_at(node, "max_steps"),
+      .first_step = number_at(node, "first_step"),
+      .min_step = number_at(node, "min_step"),
+      .max_step = number_at(node, "max_step"),
+      .tangent =
+          text_is(node, "jacobian.tangent", "exact") ? COROT_TANGENT_EXACT : COROT_TANGENT_HELD,
+      .reassembly = (int)number_at(node, "jacobian.reassembly"),
+      .refactorisation = (int)number_at(node, "jacobian.refactorisation"),
+      .gamma_change = number_at(node, "jacobian.gamma_change"),
+  };
+  const corot_integrator_def *def = &s->integrator;
+  if (def->max_step > 0 && def->min_step > def->max_step)
+    return config_fail(config_find(node, "min_step"), "larger than max_step");
+  if (def->max_step > 0 && def->first_step > def->max_step)
+    return config_fail(config_find(node, "first_step"), "larger than max_step");
+  return COROT_OK;
+}
+
+/* A name becomes the head of columns of a CSV file. */
+static bool is_column_name(const char *name) {
+  static const char letters[] =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  return name[strspn(name, letters)] == '\0';
+}
+
+static corot_status read_probes(scenario *s) {
+  config_node *map = config_find(s->source->root, "probes");
+  probe_def *probe = config_alloc(s->source, (size_t)map->nchild, sizeof *probe);
+  if (!probe) return no_memory();
+  s->probe = probe;
+  for (config_node *c = map->child; c; c = c->next) {
+    if (!is_column_name(c->key))
+      return config_fail_key(c, "the name of a probe is made of letters, digits, _ and -");
+    probe_def *p = &probe[s->nprobe++];
+    const config_node *node = config_find(c, "node");
+    p->name = c->key;
+    p->node = node ? (int)node->number : -1;
+    if (!node) vector_at(c, "point", p->point);
+  }
+  return COROT_OK;
+}
+
+static void read_output(scenario *s) {
+  config_node *root = s->source->root;
+  s->title = text_at(root, "title");
+  s->write_fields = text_is(root, "output.fields", "vtu");
+  s->field_every = (int)number_at(root, "output.every");
+}
+
+/* --- All of it --- */
+
+static corot_status read_all(scenario *s, const char *path, int noverride, char *const *override) {
+  COROT_TRY(config_read(path, &s->source));
+  for (int i = 0; i < noverride; i++) COROT_TRY(config_override(s->source, override[i]));
+  COROT_TRY(schema_apply(s->source));
+  s->path = config_copy(s->source, path, strlen(path));
+  if (!s->path) return no_memory();
+  COROT_TRY(read_mesh(s));
+  COROT_TRY(read_groups(s));
+  COROT_TRY(read_materials(s));
+  COROT_TRY(read_frames(s));
+  COROT_TRY(read_boundary(s));
+  COROT_TRY(read_loads(s));
+  COROT_TRY(read_time(s));
+  COROT_TRY(read_integrator(s));
+  COROT_TRY(read_probes(s));
+  read_output(s);
+  s->resolved = schema_resolve(s->source);
+  return s->resolved ? COROT_OK : no_memory();
+}
+
+corot_status scenario_read(const char *path, int noverride, char *const *override, scenario **out) {
+  scenario *s = calloc(1, sizeof *s);
+  if (!s) return no_memory();
+  corot_status status = read_all(s, path, noverride, override);
+  if (status == COROT_OK)
+    *out = s;
+  else
+    scenario_destroy(s);
+  return status;
+}
+
+void scenario_destroy(scenario *s) {
+  if (!s) return;
+  json_decref(s->resolved);
+  config_destroy(s->source);
+  free(s);
+}

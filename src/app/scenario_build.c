@@ -1,0 +1,145 @@
+/* From scenario to mesh and model. What can be wrong here is how the scenario and the mesh fit. */
+#include <stdio.h>
+#include <string.h>
+
+#include "config.h"
+#include "scenario.h"
+#include "suggest.h"
+
+static config_node *place(const scenario *s, const char *path) {
+  return config_find(s->source->root, path);
+}
+
+/* --- Mesh --- */
+
+static corot_status load_mesh(const scenario *s, corot_mesh **mesh) {
+  corot_status status =
+      s->mesh_file ? corot_mesh_read(s->mesh_file, mesh) : corot_mesh_box(&s->box, mesh);
+  if (status == COROT_OK || status == COROT_ENOMEM) return status;
+  return config_fail(place(s, s->mesh_file ? "mesh.file" : "mesh.box"), "%s", corot_error());
+}
+
+static corot_status add_group(const group_def *g, corot_mesh *mesh) {
+  switch (g->kind) {
+    case GROUP_PLANE:
+      return corot_mesh_group_plane(mesh, g->name, g->axis, g->at, 0);
+    case GROUP_BOX:
+      return corot_mesh_group_box(mesh, g->name, g->min, g->max, 0);
+    default:
+      return corot_mesh_group_nodes(mesh, g->name, g->nnode, g->node);
+  }
+}
+
+static corot_status add_groups(const scenario *s, corot_mesh *mesh) {
+  const config_node *node = place(s, "groups")->child;
+  for (int i = 0; i < s->ngroup; i++, node = node->next) {
+    corot_status status = add_group(&s->group[i], mesh);
+    if (status == COROT_ENOMEM) return status;
+    if (status != COROT_OK) return config_fail_key(node, "%s", corot_error());
+  }
+  return COROT_OK;
+}
+
+static corot_status build_mesh(const scenario *s, corot_mesh **out) {
+  corot_mesh *mesh = NULL;
+  COROT_TRY(load_mesh(s, &mesh));
+  corot_status status = add_groups(s, mesh);
+  if (status == COROT_OK)
+    *out = mesh;
+  else
+    corot_mesh_destroy(mesh);
+  return status;
+}
+
+/* --- Groups in use --- */
+
+static corot_status unknown_group(const config_node *node, const corot_mesh *mesh) {
+  const char *near = NULL;
+  char list[256] = "";
+  size_t used = 0;
+  int nearest = 4;
+  for (int i = 0; i < mesh->ngroup; i++) {
+    const char *name = mesh->group[i].name;
+    int distance = suggest_distance(node->text, name);
+    if (distance < nearest && 2 * distance <= (int)strlen(name)) nearest = distance, near = name;
+    if (used + strlen(name) + 6 < sizeof list)
+      used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", name);
+    else if (used + 6 < sizeof list)
+      used += (size_t)snprintf(list + used, sizeof list - used, ", ...") + sizeof list;
+  }
+  if (near) return config_fail(node, "no group %.64s; did you mean %s?", node->text, near);
+  if (!mesh->ngroup) return config_fail(node, "no group %.64s; there are no groups", node->text);
+  return config_fail(node, "no group %.64s; there are: %s", node->text, list);
+}
+
+/* The group that a map of the scenario refers to; NULL in *group if it refers to none. */
+static corot_status find_group(config_node *map, const corot_mesh *mesh,
+                               const corot_group **group) {
+  const config_node *node = config_find(map, "group");
+  *group = node ? corot_mesh_find_group(mesh, node->text) : NULL;
+  return node && !*group ? unknown_group(node, mesh) : COROT_OK;
+}
+
+static corot_status check_group(config_node *map, const corot_mesh *mesh) {
+  const corot_group *group;
+  COROT_TRY(find_group(map, mesh, &group));
+  const config_node *node = config_find(map, "group");
+  if (config_find(map, "fix") && group->nnode == 0)
+    return config_fail(node, "%s has no nodes to fix", node->text);
+  if (config_find(map, "traction") && group->ntri == 0)
+    return config_fail(node, "%s has no faces for a traction to act on (%d nodes, %d tets)",
+                       node->text, group->nnode, group->ntet);
+  if (config_find(map, "density") && group && group->ntet == 0)
+    return config_fail(node, "%s has no tets for a material to fill (%d nodes, %d faces)",
+                       node->text, group->nnode, group->ntri);
+  return COROT_OK;
+}
+
+static corot_status check_section(const scenario *s, const char *section, const corot_mesh *mesh) {
+  config_node *node = place(s, section);
+  if (node->kind == CONFIG_MAP) return check_group(node, mesh);
+  for (config_node *c = node->child; c; c = c->next) COROT_TRY(check_group(c, mesh));
+  return COROT_OK;
+}
+
+static corot_status check_probes(const scenario *s, const corot_mesh *mesh) {
+  config_node *node = place(s, "probes")->child;
+  for (int i = 0; i < s->nprobe; i++, node = node->next)
+    if (s->probe[i].node >= mesh->nnode)
+      return config_fail(config_find(node, "node"), "the mesh has %d nodes, numbered from 0",
+                         mesh->nnode);
+  return COROT_OK;
+}
+
+/* --- Model --- */
+
+static corot_status build_model(const scenario *s, const corot_mesh *mesh, corot_model **model) {
+  COROT_TRY(check_section(s, "material", mesh));
+  COROT_TRY(check_section(s, "boundary", mesh));
+  COROT_TRY(check_section(s, "loads", mesh));
+  COROT_TRY(check_probes(s, mesh));
+  corot_model_def def = corot_model_defaults();
+  def.mesh = mesh;
+  def.strain = s->strain;
+  def.nmaterial = s->nmaterial;
+  def.material = s->material;
+  def.nfix = s->nfix;
+  def.fix = s->fix;
+  def.nload = s->nload;
+  def.load = s->load;
+  corot_status status = corot_model_create(&def, model);
+  if (status == COROT_OK || status == COROT_ENOMEM) return status;
+  /* names and coefficients are checked above: what is left is which tet has which material */
+  return config_fail_key(place(s, "material"), "%s", corot_error());
+}
+
+corot_status scenario_build(const scenario *s, corot_mesh **out, corot_model **model) {
+  corot_mesh *mesh = NULL;
+  COROT_TRY(build_mesh(s, &mesh));
+  corot_status status = build_model(s, mesh, model);
+  if (status == COROT_OK)
+    *out = mesh;
+  else
+    corot_mesh_destroy(mesh);
+  return status;
+}

@@ -1,0 +1,84 @@
+/* What a scenario may say: one table, from which come validation, defaults and documentation. */
+#ifndef COROT_APP_SCHEMA_H
+#define COROT_APP_SCHEMA_H
+
+#include <jansson.h>
+#include <stdio.h>
+
+#include "config.h"
+
+typedef enum schema_type {
+  SCHEMA_MAP,      /* keys as the table says */
+  SCHEMA_NAMED,    /* keys are names given by the user, "groups.NAME" */
+  SCHEMA_LIST,     /* entries are maps, "loads[]" */
+  SCHEMA_MAPS,     /* one map, or a list of such */
+  SCHEMA_TEXT,
+  SCHEMA_CHOICE,   /* one of `words` */
+  SCHEMA_NUMBER,   /* or the one of `words`, which stands for 0 */
+  SCHEMA_INTEGER,  /* the same */
+  SCHEMA_VECTOR,   /* three numbers */
+  SCHEMA_COUNTS,   /* three integers */
+  SCHEMA_INTEGERS, /* any number of integers */
+  SCHEMA_AXES,     /* some of x, y, z */
+  SCHEMA_CURVE,    /* pairs of time and value, the times increasing */
+} schema_type;
+
+typedef enum schema_status {
+  SCHEMA_OPTIONAL,
+  SCHEMA_REQUIRED,
+  SCHEMA_ONE_OF,  /* exactly one of the keys so marked in a map is given */
+  SCHEMA_NOT_YET, /* known, but refused for now */
+} schema_status;
+
+typedef enum schema_range {
+  SCHEMA_ANY,
+  SCHEMA_POSITIVE,     /* > 0 */
+  SCHEMA_NOT_NEGATIVE, /* >= 0 */
+  SCHEMA_FRACTION,     /* > 0 and < 1 */
+  SCHEMA_ORDER,        /* 1 to 5 */
+  SCHEMA_POISSON,      /* > -1 and < 0.5 */
+  SCHEMA_ZERO_FOR_NOW, /* 0; anything else is not yet supported */
+} schema_range;
+
+typedef struct schema_key {
+  const char *path;
+  schema_type type;
+  schema_status status;
+  schema_range range;
+  const char *unit;     /* "" without one */
+  const char *fallback; /* the default in YAML; NULL: none */
+  const char *words;    /* "a|b|c", see schema_type */
+  const char *not_yet;  /* words that are refused for now, likewise */
+  const char *doc;
+} schema_key;
+
+/* In the order of a well-kept file, every parent before its children. */
+extern const schema_key schema_keys[];
+extern const int schema_nkey;
+
+/* The next key after `previous` (NULL: the first) in maps of this path ("" the root); NULL: no
+   more. */
+const schema_key *schema_child(const char *path, const schema_key *previous);
+
+/* The key of that path; NULL: there is none. */
+const schema_key *schema_find(const char *path);
+
+/* The path of what a SCHEMA_LIST, SCHEMA_NAMED or SCHEMA_MAPS holds. */
+void schema_inside(const schema_key *key, size_t size, char *path);
+
+/* Checks a tree against the table, notes the numbers in its nodes, drops keys without a value and
+   fills in defaults. */
+corot_status schema_apply(config *tree);
+
+/* A checked tree as JSON, its keys in the order of the table. NULL: no memory. */
+json_t *schema_resolve(const config *tree);
+
+/* The table, for people and, as a JSON Schema, for programs. `prefix` narrows the former to the
+   keys that begin with it; returns the number of keys printed. */
+int schema_print(const char *prefix, FILE *out);
+json_t *schema_json(void);
+
+/* A range in words, "> 0"; "" for SCHEMA_ANY. */
+const char *schema_range_words(schema_range range);
+
+#endif

@@ -1,0 +1,328 @@
+/* A tree held against the table: types, ranges, missing and unknown keys, defaults. */
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "schema.h"
+#include "suggest.h"
+
+enum { PATH = 128, LIST = 512 };
+
+static corot_status apply_map(config *tree, config_node *map, const char *path);
+
+/* --- Words for messages --- */
+
+/* What stands there, in words. */
+static void describe(const config_node *node, size_t size, char *text) {
+  if (node->kind == CONFIG_MAP)
+    snprintf(text, size, "a map");
+  else if (node->kind == CONFIG_LIST)
+    snprintf(text, size, "a list of %d", node->nchild);
+  else if (node->quoted)
+    snprintf(text, size, "the text \"%.40s\"", node->text);
+  else if (config_is_null(node))
+    snprintf(text, size, "nothing");
+  else
+    snprintf(text, size, "%.40s", node->text);
+}
+
+static corot_status expected(const config_node *node, const char *what) {
+  char found[PATH];
+  describe(node, sizeof found, found);
+  return config_fail(node, "expected %s, found %s", what, found);
+}
+
+static const char *last_segment(const char *path) {
+  const char *dot = strrchr(path, '.');
+  return dot ? dot + 1 : path;
+}
+
+/* "a|b|c" as "a, b, c". */
+static void comma_list(const char *words, size_t size, char *list) {
+  size_t used = 0;
+  for (; *words && used + 3 < size; words++) {
+    if (*words == '|') list[used++] = ',';
+    list[used++] = *words == '|' ? ' ' : *words;
+  }
+  list[used] = '\0';
+}
+
+/* The keys of a map as "a|b|c". */
+static void keys_of(const char *path, size_t size, char *words) {
+  size_t used = 0;
+  words[0] = '\0';
+  for (const schema_key *k = NULL; (k = schema_child(path, k)) && used < size;)
+    used += (size_t)snprintf(words + used, size - used, "%s%s", used ? "|" : "",
+                             last_segment(k->path));
+}
+
+static bool among(const char *word, const char *words) {
+  size_t length = strlen(word);
+  while (words && *words) {
+    size_t n = strcspn(words, "|");
+    if (n == length && memcmp(word, words, n) == 0) return true;
+    words += n + (words[n] == '|');
+  }
+  return false;
+}
+
+static corot_status unknown_key(const config_node *node, const char *path) {
+  char words[LIST], list[LIST], near[PATH];
+  keys_of(path, sizeof words, words);
+  suggest_among(node->key, words, sizeof near, near);
+  if (*near) return config_fail_key(node, "unknown key; did you mean %s?", near);
+  for (int i = 0; i < schema_nkey; i++)
+    if (strcmp(last_segment(schema_keys[i].path), node->key) == 0)
+      return config_fail_key(node, "unknown key here; did you mean %s?", schema_keys[i].path);
+  comma_list(words, sizeof list, list);
+  return config_fail_key(node, "unknown key; known here: %s", list);
+}
+
+/* --- Numbers --- */
+
+static bool in_range(double x, schema_range range) {
+  switch (range) {
+    case SCHEMA_POSITIVE:
+      return x > 0;
+    case SCHEMA_NOT_NEGATIVE:
+      return x >= 0;
+    case SCHEMA_FRACTION:
+      return x > 0 && x < 1;
+    case SCHEMA_ORDER:
+      return x >= 1 && x <= 5;
+    case SCHEMA_POISSON:
+      return x > -1 && x < 0.5;
+    default:
+      return true;
+  }
+}
+
+static corot_status check_number(config_node *node, schema_range range) {
+  if (!config_parse_number(node, &node->number)) {
+    char word[64];
+    const char *finite = node->kind == CONFIG_SCALAR && strpbrk(node->text, "0123456789.")
+                             ? "a finite number in decimal, such as 1.5 or 1.0e-3"
+                             : "a number";
+    snprintf(word, sizeof word, "%s", finite);
+    return expected(node, node->quoted ? "a number (without quotes)" : word);
+  }
+  if (range == SCHEMA_ZERO_FOR_NOW && node->number != 0)
+    return config_fail(node, "%s is not yet supported; only 0 is", node->text);
+  if (!in_range(node->number, range))
+    return config_fail(node, "must be %s, found %s", schema_range_words(range), node->text);
+  return COROT_OK;
+}
+
+static corot_status check_integer(config_node *node, schema_range range) {
+  COROT_TRY(check_number(node, range));
+  if (node->number != floor(node->number)) return expected(node, "a whole number");
+  if (fabs(node->number) > INT_MAX) return config_fail(node, "must be at most %d", INT_MAX);
+  return COROT_OK;
+}
+
+typedef corot_status check_function(config_node *node, schema_range range);
+
+static corot_status check_entries(config_node *list, schema_range range, check_function *check) {
+  for (config_node *c = list->child; c; c = c->next) COROT_TRY(check(c, range));
+  return COROT_OK;
+}
+
+/* A number or whole number, or the one word that stands for zero. */
+static corot_status check_scalar(config_node *node, const schema_key *key, check_function *check) {
+  if (key->words && node->kind == CONFIG_SCALAR && strcmp(node->text, key->words) == 0)
+    return COROT_OK;
+  double ignored;
+  if (key->words && !config_parse_number(node, &ignored)) {
+    char what[64];
+    snprintf(what, sizeof what, "a number or %s", key->words);
+    return expected(node, what);
+  }
+  return check(node, key->range);
+}
+
+/* --- Other values --- */
+
+static corot_status check_text(const config_node *node) {
+  if (node->kind != CONFIG_SCALAR) return expected(node, "text");
+  return COROT_OK;
+}
+
+static corot_status check_choice(const config_node *node, const schema_key *key) {
+  char list[LIST], near[PATH];
+  comma_list(key->words, sizeof list, list);
+  if (node->kind != CONFIG_SCALAR) return expected(node, list);
+  if (among(node->text, key->words)) return COROT_OK;
+  if (among(node->text, key->not_yet))
+    return config_fail(node, "%s is not yet supported; for now: %s", node->text, list);
+  suggest_among(node->text, key->words, sizeof near, near);
+  if (*near) return config_fail(node, "unknown: %.40s; did you mean %s?", node->text, near);
+  return config_fail(node, "expected one of %s; found %.40s", list, node->text);
+}
+
+static corot_status check_three(config_node *node, const schema_key *key, check_function *check) {
+  bool whole = key->type == SCHEMA_COUNTS;
+  if (node->kind != CONFIG_LIST || node->nchild != 3)
+    return expected(node, whole ? "three whole numbers, such as [2, 2, 12]"
+                                : "three numbers, such as [0.0, 0.0, -9.81]");
+  return check_entries(node, key->range, check);
+}
+
+static corot_status check_integers(config_node *node, schema_range range) {
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return expected(node, "a list of whole numbers, such as [3, 39, 64]");
+  return check_entries(node, range, check_integer);
+}
+
+static corot_status check_axes(const config_node *node) {
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return expected(node, "a list of axes, such as [x, y, z]");
+  bool seen[3] = {false};
+  for (const config_node *c = node->child; c; c = c->next) {
+    if (c->kind != CONFIG_SCALAR || !among(c->text, "x|y|z")) return expected(c, "x, y or z");
+    if (seen[c->text[0] - 'x']) return config_fail(c, "%s is given twice", c->text);
+    seen[c->text[0] - 'x'] = true;
+  }
+  return COROT_OK;
+}
+
+static corot_status check_curve(config_node *node) {
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return expected(node, "a list of [time, value], such as [[0.0, 0.0], [10.0, 1.0]]");
+  const config_node *before = NULL;
+  for (config_node *c = node->child; c; c = c->next) {
+    if (c->kind != CONFIG_LIST || c->nchild != 2) return expected(c, "a pair [time, value]");
+    COROT_TRY(check_entries(c, SCHEMA_ANY, check_number));
+    config_node *time = c->child;
+    if (before && !(time->number > before->number))
+      return config_fail(time, "times must increase, but %s follows %s", time->text, before->text);
+    before = time;
+  }
+  return COROT_OK;
+}
+
+/* --- Maps --- */
+
+static corot_status apply_named(config *tree, config_node *map, const char *path) {
+  if (map->kind != CONFIG_MAP) return expected(map, "a map of names");
+  for (config_node *c = map->child; c; c = c->next) {
+    if (!*c->key) return config_fail_key(c, "a name is empty");
+    COROT_TRY(apply_map(tree, c, path));
+  }
+  return COROT_OK;
+}
+
+static corot_status apply_list(config *tree, config_node *list, const char *path) {
+  if (list->kind != CONFIG_LIST) return expected(list, "a list of maps, each begun by \"- \"");
+  for (config_node *c = list->child; c; c = c->next) COROT_TRY(apply_map(tree, c, path));
+  return COROT_OK;
+}
+
+static corot_status apply_maps(config *tree, config_node *node, const char *path) {
+  if (node->kind == CONFIG_MAP) return apply_map(tree, node, path);
+  if (node->kind != CONFIG_LIST || node->nchild == 0) return expected(node, "a map or a list of maps");
+  return apply_list(tree, node, path);
+}
+
+static corot_status apply_value(config *tree, config_node *node, const schema_key *key) {
+  char inside[PATH];
+  schema_inside(key, sizeof inside, inside);
+  switch (key->type) {
+    case SCHEMA_MAP:
+      return apply_map(tree, node, inside);
+    case SCHEMA_NAMED:
+      return apply_named(tree, node, inside);
+    case SCHEMA_LIST:
+      return apply_list(tree, node, inside);
+    case SCHEMA_MAPS:
+      return apply_maps(tree, node, inside);
+    case SCHEMA_TEXT:
+      return check_text(node);
+    case SCHEMA_CHOICE:
+      return check_choice(node, key);
+    case SCHEMA_NUMBER:
+      return check_scalar(node, key, check_number);
+    case SCHEMA_INTEGER:
+      return check_scalar(node, key, check_integer);
+    case SCHEMA_VECTOR:
+      return check_three(node, key, check_number);
+    case SCHEMA_COUNTS:
+      return check_three(node, key, check_integer);
+    case SCHEMA_INTEGERS:
+      return check_integers(node, key->range);
+    case SCHEMA_AXES:
+      return check_axes(node);
+    case SCHEMA_CURVE:
+      return check_curve(node);
+  }
+  return COROT_OK;
+}
+
+static corot_status apply_given(config *tree, config_node *map, const char *path) {
+  for (config_node *c = map->child, *next; c; c = next) {
+    next = c->next;
+    const schema_key *key = NULL;
+    while ((key = schema_child(path, key)) && strcmp(last_segment(key->path), c->key) != 0) continue;
+    if (!key) return unknown_key(c, path);
+    if (config_is_null(c))
+      config_remove(c);
+    else if (key->status == SCHEMA_NOT_YET)
+      return config_fail_key(c, "not yet supported");
+    else
+      COROT_TRY(apply_value(tree, c, key));
+  }
+  return COROT_OK;
+}
+
+static corot_status add_default(config *tree, config_node *map, const schema_key *key) {
+  static const config_source table = {.name = "default"};
+  config_source *source = config_alloc(tree, 1, sizeof *source);
+  if (!source) return corot_fail(COROT_ENOMEM, "out of memory");
+  *source = table;
+  source->text = key->fallback;
+  source->size = strlen(key->fallback);
+  config_node *node = NULL;
+  COROT_TRY(config_parse(tree, source, false, &node));
+  node->source = NULL;
+  for (config_node *c = node->child; c; c = c->next) c->source = NULL;
+  node->key = last_segment(key->path);
+  config_append(map, node);
+  return apply_value(tree, node, key);
+}
+
+/* Exactly one of the keys marked so. */
+static corot_status check_one_of(const config_node *map, const char *path) {
+  const config_node *found = NULL;
+  char words[LIST] = "";
+  size_t used = 0;
+  for (const schema_key *k = NULL; (k = schema_child(path, k));) {
+    if (k->status != SCHEMA_ONE_OF) continue;
+    const char *name = last_segment(k->path);
+    used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", used ? " or " : "", name);
+    for (const config_node *c = map->child; c; c = c->next) {
+      if (strcmp(c->key, name) != 0) continue;
+      if (found) return config_fail_key(c, "%s and %s exclude each other", found->key, c->key);
+      found = c;
+    }
+  }
+  if (used && !found) return config_fail_key(map, "%s is missing", words);
+  return COROT_OK;
+}
+
+static corot_status apply_map(config *tree, config_node *map, const char *path) {
+  if (map->kind != CONFIG_MAP) return expected(map, "a map");
+  COROT_TRY(apply_given(tree, map, path));
+  COROT_TRY(check_one_of(map, path));
+  for (const schema_key *k = NULL; (k = schema_child(path, k));) {
+    const char *name = last_segment(k->path);
+    bool given = false;
+    for (const config_node *c = map->child; c; c = c->next) given |= strcmp(c->key, name) == 0;
+    if (given) continue;
+    if (k->status == SCHEMA_REQUIRED)
+      return config_fail_key(map, "%s is missing (%s)", name, k->doc);
+    if (k->fallback) COROT_TRY(add_default(tree, map, k));
+  }
+  return COROT_OK;
+}
+
+corot_status schema_apply(config *tree) { return apply_map(tree, tree->root, ""); }

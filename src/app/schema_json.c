@@ -1,0 +1,142 @@
+/* The table as a JSON Schema (draft 2020-12), for editors and other programs. A member that could
+   not be made for lack of memory makes the whole fail: every json_*_new takes NULL for that. */
+#include <string.h>
+
+#include "schema.h"
+
+static json_t *map_schema(const char *path);
+
+/* Sets a member; on failure the object is given up and NULL is handed on. */
+static json_t *with(json_t *object, const char *key, json_t *value) {
+  if (!json_object_set_new(object, key, value)) return object;
+  json_decref(object);
+  return NULL;
+}
+
+static json_t *of_type(const char *type) { return json_pack("{s:s}", "type", type); }
+
+static json_t *ranged(const char *type, schema_range range) {
+  json_t *s = of_type(type);
+  switch (range) {
+    case SCHEMA_POSITIVE:
+      return with(s, "exclusiveMinimum", json_integer(0));
+    case SCHEMA_NOT_NEGATIVE:
+      return with(s, "minimum", json_integer(0));
+    case SCHEMA_FRACTION:
+      return with(with(s, "exclusiveMinimum", json_integer(0)), "exclusiveMaximum",
+                  json_integer(1));
+    case SCHEMA_ORDER:
+      return with(with(s, "minimum", json_integer(1)), "maximum", json_integer(5));
+    case SCHEMA_POISSON:
+      return with(with(s, "exclusiveMinimum", json_integer(-1)), "exclusiveMaximum",
+                  json_real(0.5));
+    case SCHEMA_ZERO_FOR_NOW:
+      return with(s, "const", json_integer(0));
+    default:
+      return s;
+  }
+}
+
+static json_t *words_list(const char *words) {
+  json_t *list = json_array();
+  while (*words) {
+    size_t length = strcspn(words, "|");
+    if (json_array_append_new(list, json_stringn(words, length))) {
+      json_decref(list);
+      return NULL;
+    }
+    words += length + (words[length] == '|');
+  }
+  return list;
+}
+
+static json_t *scalar_schema(const char *type, const schema_key *key) {
+  json_t *number = ranged(type, key->range);
+  if (!key->words) return number;
+  return json_pack("{s:[o, {s:s}]}", "anyOf", number, "const", key->words);
+}
+
+static json_t *list_schema(json_t *items, int least, int most) {
+  json_t *s = with(of_type("array"), "items", items);
+  if (least) s = with(s, "minItems", json_integer(least));
+  return most ? with(s, "maxItems", json_integer(most)) : s;
+}
+
+static json_t *value_schema(const schema_key *key) {
+  char inside[128];
+  schema_inside(key, sizeof inside, inside);
+  switch (key->type) {
+    case SCHEMA_MAP:
+      return map_schema(inside);
+    case SCHEMA_NAMED:
+      return with(of_type("object"), "additionalProperties", map_schema(inside));
+    case SCHEMA_LIST:
+      return list_schema(map_schema(inside), 0, 0);
+    case SCHEMA_MAPS:
+      return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
+                       list_schema(map_schema(inside), 1, 0));
+    case SCHEMA_TEXT:
+      return of_type("string");
+    case SCHEMA_CHOICE:
+      return json_pack("{s:o}", "enum", words_list(key->words));
+    case SCHEMA_NUMBER:
+      return scalar_schema("number", key);
+    case SCHEMA_INTEGER:
+      return scalar_schema("integer", key);
+    case SCHEMA_VECTOR:
+      return list_schema(ranged("number", key->range), 3, 3);
+    case SCHEMA_COUNTS:
+      return list_schema(ranged("integer", key->range), 3, 3);
+    case SCHEMA_INTEGERS:
+      return list_schema(ranged("integer", key->range), 1, 0);
+    case SCHEMA_AXES:
+      return with(list_schema(json_pack("{s:o}", "enum", words_list(key->words)), 1, 3),
+                  "uniqueItems", json_true());
+    case SCHEMA_CURVE:
+      return list_schema(list_schema(of_type("number"), 2, 2), 1, 0);
+  }
+  return NULL;
+}
+
+/* The default as the table has it: a number, a word, an empty map or list, or a list of zeros. */
+static json_t *default_value(const char *text) {
+  if (strcmp(text, "''") == 0) return json_string("");
+  json_t *value = json_loads(text, JSON_DECODE_ANY, NULL);
+  return value ? value : json_string(text);
+}
+
+static json_t *key_schema(const schema_key *key) {
+  bool refused = key->status == SCHEMA_NOT_YET;
+  json_t *s = refused ? json_pack("{s:{}}", "not") : value_schema(key);
+  if (refused)
+    s = with(s, "description", json_sprintf("%s (not yet supported)", key->doc));
+  else
+    s = with(s, "description", json_string(key->doc));
+  if (*key->unit) s = with(s, "unit", json_string(key->unit));
+  if (key->fallback) s = with(s, "default", default_value(key->fallback));
+  return s;
+}
+
+static json_t *map_schema(const char *path) {
+  json_t *properties = json_object(), *required = json_array(), *one_of = json_array();
+  for (const schema_key *k = NULL; (k = schema_child(path, k));) {
+    const char *dot = strrchr(k->path, '.');
+    const char *name = dot ? dot + 1 : k->path;
+    properties = with(properties, name, key_schema(k));
+    if (k->status == SCHEMA_REQUIRED) json_array_append_new(required, json_string(name));
+    if (k->status == SCHEMA_ONE_OF)
+      json_array_append_new(one_of, json_pack("{s:[s]}", "required", name));
+  }
+  json_t *s = with(of_type("object"), "properties", properties);
+  if (json_array_size(required)) s = with(s, "required", json_incref(required));
+  if (json_array_size(one_of)) s = with(s, "oneOf", json_incref(one_of));
+  json_decref(required);
+  json_decref(one_of);
+  return with(s, "additionalProperties", json_false());
+}
+
+json_t *schema_json(void) {
+  json_t *s = map_schema("");
+  s = with(s, "$schema", json_string("https://json-schema.org/draft/2020-12/schema"));
+  return with(s, "title", json_string("corot scenario"));
+}

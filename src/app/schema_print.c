@@ -1,0 +1,90 @@
+/* The table for people. */
+#include <stdio.h>
+#include <string.h>
+
+#include "schema.h"
+
+static const char *type_words(schema_type type) {
+  switch (type) {
+    case SCHEMA_MAP:
+      return "map";
+    case SCHEMA_NAMED:
+      return "map of names";
+    case SCHEMA_LIST:
+      return "list of maps";
+    case SCHEMA_MAPS:
+      return "map or list";
+    case SCHEMA_TEXT:
+      return "text";
+    case SCHEMA_CHOICE:
+      return "choice";
+    case SCHEMA_NUMBER:
+      return "number";
+    case SCHEMA_INTEGER:
+      return "integer";
+    case SCHEMA_VECTOR:
+      return "3 numbers";
+    case SCHEMA_COUNTS:
+      return "3 integers";
+    case SCHEMA_INTEGERS:
+      return "integers";
+    case SCHEMA_AXES:
+      return "list of axes";
+    case SCHEMA_CURVE:
+      return "list of pairs";
+  }
+  return "";
+}
+
+static const char *default_words(const schema_key *key) {
+  switch (key->status) {
+    case SCHEMA_REQUIRED:
+      return "required";
+    case SCHEMA_ONE_OF:
+      return "one of";
+    case SCHEMA_NOT_YET:
+      return "not yet";
+    default:
+      return key->fallback && key->type != SCHEMA_MAP ? key->fallback : "-";
+  }
+}
+
+static void type_and_range(const schema_key *key, size_t size, char *text) {
+  const char *range = schema_range_words(key->range);
+  snprintf(text, size, "%s%s%s", type_words(key->type), *range ? " " : "", range);
+}
+
+static void print_key(const schema_key *key, FILE *out) {
+  char type[48];
+  type_and_range(key, sizeof type, type);
+  fprintf(out, "%-35s %-19s %-8s %-10s %s", key->path, type, *key->unit ? key->unit : "-",
+          default_words(key), key->doc);
+  const char *between = key->type == SCHEMA_CHOICE || key->type == SCHEMA_AXES ? ": " : "; or ";
+  for (const char *w = key->words; w && *w; between = ", ") {
+    int length = (int)strcspn(w, "|");
+    fprintf(out, "%s%.*s", between, length, w);
+    w += length + (w[length] == '|');
+  }
+  fputc('\n', out);
+}
+
+/* Whether `key` is `prefix` or below it; the [] of lists need not be written. */
+static bool begins_with(const char *key, const char *prefix) {
+  while (*prefix) {
+    if (strncmp(key, "[]", 2) == 0 && *prefix != '[') key += 2;
+    if (*key++ != *prefix++) return false;
+  }
+  return *key == '\0' || *key == '.' || *key == '[';
+}
+
+int schema_print(const char *prefix, FILE *out) {
+  int n = 0;
+  for (int i = 0; i < schema_nkey; i++) {
+    const schema_key *key = &schema_keys[i];
+    if (*prefix && !begins_with(key->path, prefix)) continue;
+    if (n++ == 0)
+      fprintf(out, "%-35s %-19s %-8s %-10s %s\n", "KEY", "TYPE", "UNIT", "DEFAULT", "MEANING");
+    print_key(key, out);
+  }
+  return n;
+}

@@ -1,0 +1,190 @@
+#include "write_csv.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include "folder.h"
+
+enum { CELL = 32 }; /* the longest number with its comma and a terminator, and to spare */
+
+struct table {
+  int fd;
+  char *path;
+  char *row; /* the row in the making: each cell is followed by a comma */
+  size_t length;
+  off_t size; /* of the file's whole rows */
+};
+
+corot_status table_close(table *t) {
+  if (!t) return COROT_OK;
+  corot_status status = file_close(t->fd, t->path);
+  free(t->path);
+  free(t->row);
+  free(t);
+  return status;
+}
+
+static corot_status table_open(const char *dir, const char *name, size_t capacity, table **out) {
+  table *t = calloc(1, sizeof *t);
+  if (!t) return corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
+  t->fd = -1;
+  t->path = folder_path(dir, name);
+  t->row = malloc(capacity);
+  corot_status status = COROT_OK;
+  if (!t->path || !t->row)
+    status = corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
+  else
+    status = file_create(t->path, &t->fd);
+  if (status != COROT_OK) {
+    table_close(t);
+    return status;
+  }
+  *out = t;
+  return COROT_OK;
+}
+
+/* A cell as it is. The capacity given to table_open has room for all cells of a row. */
+static void add_text(table *t, const char *text) {
+  size_t length = strlen(text);
+  memcpy(t->row + t->length, text, length);
+  t->row[t->length + length] = ',';
+  t->length += length + 1;
+}
+
+static void add_number(table *t, double x) {
+  char cell[CELL];
+  snprintf(cell, sizeof cell, "%.17g", x);
+  add_text(t, cell);
+}
+
+static void add_integer(table *t, int i) {
+  char cell[CELL];
+  snprintf(cell, sizeof cell, "%d", i);
+  add_text(t, cell);
+}
+
+static corot_status end_row(table *t) {
+  t->row[t->length - 1] = '\n';
+  corot_status status = file_write(t->fd, t->path, t->row, t->length);
+  if (status == COROT_OK)
+    t->size += (off_t)t->length;
+  else if (ftruncate(t->fd, t->size) == 0) /* fails where there is no length, as on a terminal */
+    lseek(t->fd, t->size, SEEK_SET);
+  t->length = 0;
+  return status;
+}
+
+/* NAME.ux as a cell: in quotes, with quotes doubled, where the name would break the table. */
+static void add_probe_title(table *t, const char *name, const char *component) {
+  bool quote = strpbrk(name, ",\"\r\n") != NULL;
+  char *c = t->row + t->length;
+  if (quote) *c++ = '"';
+  for (; *name; name++) {
+    if (*name == '"') *c++ = '"';
+    *c++ = *name;
+  }
+  c += sprintf(c, ".%s", component);
+  if (quote) *c++ = '"';
+  *c++ = ',';
+  t->length = (size_t)(c - t->row);
+}
+
+corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **out) {
+  size_t capacity = CELL + 3 * CELL * (size_t)nprobe;
+  for (int i = 0; i < nprobe; i++) capacity += 3 * 2 * strlen(name[i]);
+  table *t = NULL;
+  COROT_TRY(table_open(dir, "probes.csv", capacity, &t));
+  add_text(t, "t");
+  for (int i = 0; i < nprobe; i++) {
+    add_probe_title(t, name[i], "ux");
+    add_probe_title(t, name[i], "uy");
+    add_probe_title(t, name[i], "uz");
+  }
+  corot_status status = end_row(t);
+  if (status != COROT_OK) {
+    table_close(t);
+    return status;
+  }
+  *out = t;
+  return COROT_OK;
+}
+
+corot_status probes_row(table *probes, double t, int nprobe, const int *node,
+                        const double (*displacement)[3]) {
+  add_number(probes, t);
+  for (int i = 0; i < nprobe; i++)
+    for (int c = 0; c < 3; c++) add_number(probes, displacement[node[i]][c]);
+  return end_row(probes);
+}
+
+/* Opens a table whose header is known beforehand. */
+static corot_status open_with_header(const char *dir, const char *name, const char *header,
+                                     table **out) {
+  table *t = NULL;
+  COROT_TRY(table_open(dir, name, 1024, &t));
+  add_text(t, header);
+  corot_status status = end_row(t);
+  if (status != COROT_OK) {
+    table_close(t);
+    return status;
+  }
+  *out = t;
+  return COROT_OK;
+}
+
+corot_status energy_open(const char *dir, table **energy) {
+  return open_with_header(dir, "energy.csv",
+                          "t,kinetic,elastic,dissipated,external_work,balance,frame_energy,"
+                          "px,py,pz,lx,ly,lz",
+                          energy);
+}
+
+corot_status energy_row(table *energy, const ledger *row) {
+  add_number(energy, row->t);
+  add_number(energy, row->kinetic);
+  add_number(energy, row->elastic);
+  add_number(energy, row->dissipated);
+  add_number(energy, row->external_work);
+  add_number(energy, row->balance);
+  add_number(energy, row->frame_energy);
+  for (int c = 0; c < 3; c++) add_number(energy, row->momentum[c]);
+  for (int c = 0; c < 3; c++) add_number(energy, row->angular_momentum[c]);
+  return end_row(energy);
+}
+
+corot_status steps_open(const char *dir, table **steps) {
+  return open_with_header(dir, "steps.csv",
+                          "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy", steps);
+}
+
+static void add_events(table *t, unsigned events) {
+  static const char *const word[] = {"kink", "frames", "restart", "failed"};
+  char cell[64] = "";
+  for (int i = 0; i < 4; i++) {
+    if (!(events & 1u << i)) continue;
+    if (cell[0]) strcat(cell, "+");
+    strcat(cell, word[i]);
+  }
+  add_text(t, cell);
+}
+
+corot_status steps_add(table *steps, const step_row *row) {
+  add_number(steps, row->t);
+  add_number(steps, row->h);
+  add_integer(steps, row->order);
+  add_number(steps, row->error);
+  add_integer(steps, row->newton);
+  add_events(steps, row->events);
+  if (row->events & EVENT_FRAMES) {
+    add_number(steps, row->angle_max);
+    add_number(steps, row->angle_mean);
+    add_number(steps, row->frame_energy);
+  } else {
+    for (int i = 0; i < 3; i++) add_text(steps, "");
+  }
+  return end_row(steps);
+}

@@ -1,0 +1,75 @@
+/* The tables of a run. Commas, a point for decimals, one header line, numbers with 17 significant
+   digits (they read back to the same bits), an empty cell where there is nothing to say.
+
+   Each row is handed to the system as a whole as soon as it is made, so that a program that is
+   killed leaves whole rows. A row that did not fit on the disk is taken back.
+   `dir` is the run's folder. */
+#ifndef COROT_APP_WRITE_CSV_H
+#define COROT_APP_WRITE_CSV_H
+
+#include <corot/base.h>
+
+typedef struct table table;
+
+/* probes.csv: the probes' displacements, one row an output time
+
+     t         [s]
+     NAME.ux, NAME.uy, NAME.uz  for each probe: displacement of its node [m] */
+
+corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **probes);
+
+/* displacement: [nnode] of all nodes; node: [nprobe]. */
+corot_status probes_row(table *probes, double t, int nprobe, const int *node,
+                        const double (*displacement)[3]);
+
+/* energy.csv: where the energy went, one row an output time
+
+     t              [s]
+     kinetic, elastic            of the moment [J]
+     dissipated, external_work   from the start to t: by damping, by loads [J]
+     balance        kinetic + elastic + dissipated - external_work - frame_energy - what there was
+                    at the start [J]: the error of the integration in energy, zero up to the
+   tolerance frame_energy   put in by the updates of held frames from the start to t [J]; an update
+   is an error of the model, not of the integration px, py, pz     momentum [kg m/s];  lx, ly, lz
+   angular momentum about the origin [kg m^2/s] */
+
+typedef struct ledger {
+  double t, kinetic, elastic, dissipated, external_work, balance, frame_energy;
+  double momentum[3], angular_momentum[3];
+} ledger;
+
+corot_status energy_open(const char *dir, table **energy);
+corot_status energy_row(table *energy, const ledger *row);
+
+/* steps.csv: one row a step of the integrator, so that the h add up to the last t
+
+     t, h           reached, and the step's length [s]
+     order          of the method
+     error          estimated local error over the tolerance
+     newton         nonlinear iterations
+     event          what happened at t, after the step: nothing (empty), or words joined by '+':
+                      kink      an amplitude has a corner there
+                      frames    the held frames were updated
+                      restart   the integrator dropped its history
+                      failed    the update failed, and the run ended
+     angle_max, angle_mean       largest and mean turn of a frame in that update [rad]
+     frame_energy   elastic energy that update put in [J]; the last three are empty without one */
+
+enum { EVENT_KINK = 1, EVENT_FRAMES = 2, EVENT_RESTART = 4, EVENT_FAILED = 8 };
+
+typedef struct step_row {
+  double t, h;
+  int order;
+  double error;
+  int newton;
+  unsigned events;                            /* a sum of EVENT_s */
+  double angle_max, angle_mean, frame_energy; /* read where events has EVENT_FRAMES */
+} step_row;
+
+corot_status steps_open(const char *dir, table **steps);
+corot_status steps_add(table *steps, const step_row *row);
+
+/* Reports an error that shows up on closing. Takes NULL; the table is gone either way. */
+corot_status table_close(table *table);
+
+#endif

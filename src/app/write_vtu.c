@@ -1,0 +1,252 @@
+#include "write_vtu.h"
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include "folder.h"
+
+enum { HEADER = 4096, VTK_TETRA = 10 };
+
+typedef enum section { FIELD, POINT, CELL, POINTS, CELLS } section;
+
+/* The arrays of a file, in the order of its header. */
+enum {
+  TIME,
+  DISPLACEMENT,
+  VELOCITY,
+  FRAME,
+  STRAIN,
+  VON_MISES,
+  DET,
+  MATERIAL,
+  REST,
+  NODES,
+  OFFSETS,
+  TYPES,
+  NARRAY
+};
+
+static const struct layout {
+  const char *name, *type;
+  section section;
+  int components;
+  size_t item; /* bytes of a component */
+  const char *attributes;
+} layout[NARRAY] = {
+    [TIME] = {"TimeValue", "Float64", FIELD, 1, 8, " NumberOfTuples=\"1\""},
+    [DISPLACEMENT] = {"displacement", "Float64", POINT, 3, 8, ""},
+    [VELOCITY] = {"velocity", "Float64", POINT, 3, 8, ""},
+    [FRAME] = {"frame", "Float64", CELL, 9, 8, ""},
+    [STRAIN] = {"strain", "Float64", CELL, 6, 8,
+                " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\""
+                " ComponentName3=\"XY\" ComponentName4=\"YZ\" ComponentName5=\"XZ\""},
+    [VON_MISES] = {"von_mises", "Float64", CELL, 1, 8, ""},
+    [DET] = {"det", "Float64", CELL, 1, 8, ""},
+    [MATERIAL] = {"material", "Int32", CELL, 1, 4, ""},
+    [REST] = {"Points", "Float64", POINTS, 3, 8, ""},
+    [NODES] = {"connectivity", "Int32", CELLS, 4, 4, ""},
+    [OFFSETS] = {"offsets", "Int32", CELLS, 1, 4, ""},
+    [TYPES] = {"types", "UInt8", CELLS, 1, 1, ""},
+};
+
+static const struct {
+  const char *open, *close;
+} tag[] = {
+    [FIELD] = {"<FieldData>\n", "</FieldData>\n"},
+    [POINT] = {"<PointData Vectors=\"displacement\">\n", "</PointData>\n"},
+    [CELL] = {"<CellData Scalars=\"von_mises\" Tensors=\"frame\">\n", "</CellData>\n"},
+    [POINTS] = {"<Points>\n", "</Points>\n"},
+    [CELLS] = {"<Cells>\n", "</Cells>\n"},
+};
+
+static const char pvd_head[] =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+static const char pvd_tail[] = "</Collection>\n</VTKFile>\n";
+static const char file_tail[] = "\n</AppendedData>\n</VTKFile>\n";
+
+struct vtu {
+  char *image; /* [size] the file of the next frame: header, arrays, closing tags */
+  size_t size;
+  char *array[NARRAY]; /* in the image */
+  char *path;          /* DIR/fields/fields_NNNNNN.vtu, the number being rewritten */
+  size_t path_size, number_at;
+  char *temporary; /* DIR/fields/frame.tmp */
+  char *pvd_path;
+  int pvd;
+  off_t pvd_end; /* where the closing tags stand */
+  int nframe;
+};
+
+corot_status vtu_finish(vtu *w) {
+  int fd = w->pvd;
+  w->pvd = -1;
+  return file_close(fd, w->pvd_path);
+}
+
+void vtu_destroy(vtu *w) {
+  if (!w) return;
+  vtu_finish(w);
+  free(w->image);
+  free(w->path);
+  free(w->temporary);
+  free(w->pvd_path);
+  free(w);
+}
+
+static size_t padded(size_t size) { return (size + 7) / 8 * 8; }
+
+static size_t array_bytes(int i, const corot_mesh *mesh) {
+  const struct layout *a = &layout[i];
+  size_t tuples = a->section == FIELD                           ? 1
+                  : a->section == POINT || a->section == POINTS ? (size_t)mesh->nnode
+                                                                : (size_t)mesh->ntet;
+  return tuples * (size_t)a->components * a->item;
+}
+
+/* Appends to text [HEADER], which is known to be long enough. */
+static void append(char *text, const char *format, ...) {
+  size_t length = strlen(text);
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text + length, HEADER - length, format, arguments);
+  va_end(arguments);
+}
+
+/* The XML before the data; padded with blanks so that the data begins at a multiple of 8. */
+static void make_header(const corot_mesh *mesh, char text[HEADER]) {
+  const uint16_t one = 1;
+  bool little = *(const char *)&one == 1;
+  text[0] = '\0';
+  append(text,
+         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\""
+         " byte_order=\"%s\" header_type=\"UInt64\">\n<UnstructuredGrid>\n",
+         little ? "LittleEndian" : "BigEndian");
+  size_t offset = 0;
+  for (int i = 0; i < NARRAY; i++) {
+    const struct layout *a = &layout[i];
+    if (i == 0 || layout[i - 1].section != a->section) append(text, "%s", tag[a->section].open);
+    append(text,
+           "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"%s format=\"appended\""
+           " offset=\"%zu\"/>\n",
+           a->type, a->name, a->components, a->attributes, offset);
+    offset += 8 + padded(array_bytes(i, mesh));
+    if (i + 1 < NARRAY && layout[i + 1].section == a->section) continue;
+    append(text, "%s", tag[a->section].close);
+    if (a->section == FIELD)
+      append(text, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n", mesh->nnode, mesh->ntet);
+  }
+  append(text, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n");
+  int blanks = (int)(padded(strlen(text) + 1) - strlen(text) - 1);
+  append(text, "%*s_", blanks, "");
+}
+
+/* Lays out the image: everything that stays the same from frame to frame is put in place. */
+static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *material) {
+  char header[HEADER];
+  make_header(mesh, header);
+  size_t at = strlen(header);
+  w->size = at + sizeof file_tail - 1;
+  for (int i = 0; i < NARRAY; i++) w->size += 8 + padded(array_bytes(i, mesh));
+  w->image = calloc(1, w->size);
+  if (!w->image)
+    return corot_fail(COROT_ENOMEM, "%zu bytes for the fields: out of memory", w->size);
+
+  memcpy(w->image, header, at);
+  for (int i = 0; i < NARRAY; i++) {
+    uint64_t bytes = array_bytes(i, mesh);
+    memcpy(w->image + at, &bytes, 8);
+    w->array[i] = w->image + at + 8;
+    at += 8 + padded(bytes);
+  }
+  memcpy(w->image + at, file_tail, sizeof file_tail - 1);
+
+  int32_t *nodes = (void *)w->array[NODES], *offsets = (void *)w->array[OFFSETS];
+  int32_t *number = (void *)w->array[MATERIAL];
+  memcpy(w->array[REST], mesh->x, array_bytes(REST, mesh));
+  for (int e = 0; e < mesh->ntet; e++) {
+    for (int k = 0; k < 4; k++) nodes[4 * e + k] = mesh->tet[e][k];
+    offsets[e] = 4 * (e + 1);
+    number[e] = material[e];
+  }
+  memset(w->array[TYPES], VTK_TETRA, (size_t)mesh->ntet);
+  return COROT_OK;
+}
+
+/* Writes `text` over the closing tags of the list, and the closing tags after it: at once, so that
+   the list is well-formed at any time. */
+static corot_status extend_list(vtu *w, const char *text) {
+  char block[256];
+  int length = snprintf(block, sizeof block, "%s%s", text, pvd_tail);
+  if (lseek(w->pvd, w->pvd_end, SEEK_SET) < 0)
+    return corot_fail(COROT_EIO, "%s: not a file one can write to anywhere", w->pvd_path);
+  COROT_TRY(file_write(w->pvd, w->pvd_path, block, (size_t)length));
+  w->pvd_end += (off_t)strlen(text);
+  return COROT_OK;
+}
+
+static corot_status open_files(vtu *w, const char *dir) {
+  static const char frame_name[] = "fields/fields_";
+  char *fields = folder_path(dir, "fields");
+  if (!fields) return COROT_ENOMEM;
+  corot_status status = folder_make(fields);
+  free(fields);
+  COROT_TRY(status);
+
+  w->number_at = strlen(dir) + sizeof frame_name;
+  w->path_size = w->number_at + 32;
+  w->path = malloc(w->path_size);
+  w->temporary = folder_path(dir, "fields/frame.tmp");
+  w->pvd_path = folder_path(dir, "fields.pvd");
+  if (!w->path || !w->temporary || !w->pvd_path)
+    return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
+  snprintf(w->path, w->path_size, "%s/%s", dir, frame_name);
+  COROT_TRY(file_create(w->pvd_path, &w->pvd));
+  return extend_list(w, pvd_head);
+}
+
+corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out) {
+  if (mesh->ntet > INT32_MAX / 4)
+    return corot_fail(COROT_EINVAL, "%d tets are too many for the fields' 32-bit indices",
+                      mesh->ntet);
+  vtu *w = calloc(1, sizeof *w);
+  if (!w) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
+  w->pvd = -1;
+  corot_status status = make_image(w, mesh, material);
+  if (status == COROT_OK) status = open_files(w, dir);
+  if (status != COROT_OK) {
+    vtu_destroy(w);
+    return status;
+  }
+  *out = w;
+  return COROT_OK;
+}
+
+vtu_fields vtu_arrays(vtu *w) {
+  return (vtu_fields){
+      .displacement = (void *)w->array[DISPLACEMENT],
+      .velocity = (void *)w->array[VELOCITY],
+      .frame = (void *)w->array[FRAME],
+      .strain = (void *)w->array[STRAIN],
+      .von_mises = (void *)w->array[VON_MISES],
+      .det = (void *)w->array[DET],
+  };
+}
+
+corot_status vtu_write(vtu *w, double t) {
+  memcpy(w->array[TIME], &t, sizeof t);
+  snprintf(w->path + w->number_at, w->path_size - w->number_at, "%06d.vtu", w->nframe);
+  COROT_TRY(file_replace(w->path, w->temporary, w->image, w->size));
+
+  char entry[160];
+  snprintf(entry, sizeof entry, "<DataSet timestep=\"%.17g\" file=\"fields/fields_%06d.vtu\"/>\n",
+           t, w->nframe);
+  COROT_TRY(extend_list(w, entry));
+  w->nframe++;
+  return COROT_OK;
+}

@@ -1,0 +1,70 @@
+/* What a run shows of a state: nodal vectors, and tensors of the tets. */
+#include "core/kernel.h"
+
+static void spread3(const corot_model *m, const double *free_values, double (*nodal)[3]) {
+  if (!nodal) return;
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      nodal[n][c] = i >= 0 ? free_values[i] : 0;
+    }
+}
+
+void corot_nodal(const corot_model *m, double t, const double *u, const double *v,
+                 double (*displacement)[3], double (*velocity)[3]) {
+  (void)t; /* supports do not move */
+  spread3(m, u, displacement);
+  spread3(m, v, velocity);
+}
+
+/* sqrt(3/2 dev:dev) of sym(A). */
+static vd von_mises_of(mat3 A) {
+  vd mean = mat3_trace(A) / 3, square = vd_all(0);
+  EACH_IJ {
+    vd a = 0.5 * (A.m[i][j] + A.m[j][i]) - (i == j ? mean : vd_all(0));
+    square += a * a;
+  }
+  for (int l = 0; l < W; l++) square[l] = sqrt(1.5 * square[l]);
+  return square;
+}
+
+static void store_lane(const corot_element_fields *f, int tet, int l, mat3 R, mat3 e, vd mises,
+                       vd det) {
+  static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
+  if (f->frame) mat3_store(R, l, f->frame[tet]);
+  if (f->strain)
+    for (int k = 0; k < 6; k++) f->strain[tet][k] = e.m[ij[k][0]][ij[k][1]][l];
+  if (f->von_mises) f->von_mises[tet] = mises[l];
+  if (f->det) f->det[tet] = det[l];
+}
+
+corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
+                            const corot_element_fields *fields) {
+  (void)t;
+  const strain_measure *measure = &strain_measures[m->strain];
+  bool linear = measure->frame == FRAME_IDENTITY && measure->shear == BY_FRAME;
+  double(*nodal)[4] = s->u;
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      nodal[n][c] = i >= 0 ? u[i] : 0;
+    }
+  s->inverted = -1;
+  for (int b = 0; b < m->tets.nblock; b++) {
+    const tet_block *block = &m->tets.block[b];
+    const material *mat = &m->material[block->material];
+    vi inverted = {0};
+    mat3 F = deformation(block, (const double(*)[4])nodal);
+    mat3 R = frame_in_use(measure, m, s, b, F, &inverted);
+    mat3 P = stress(measure, vd_all(mat->lambda), vd_all(mat->mu), F, R);
+    vd det = mat3_det(F, mat3_cofactor(F));
+    mat3 cauchy = linear ? P : mat3_scale(1.0 / det, mat3_mul(P, mat3_transpose(F)));
+    vd mises = von_mises_of(cauchy);
+    mat3 e = strain_of(measure->shear, F, R);
+    for (int l = 0; l < block->ntet; l++)
+      store_lane(fields, m->tets.number[b * W + l], l, R, e, mises, det);
+    if (s->inverted < 0) s->inverted = first_inverted(m, b, inverted);
+  }
+  if (s->inverted >= 0) return corot_fail(COROT_RETRY, "tet %d is inverted", s->inverted);
+  return COROT_OK;
+}

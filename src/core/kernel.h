@@ -1,0 +1,87 @@
+/* Loops over all tets. Each reads the nodal fields in the state, writes where it says, and returns
+   the number of the first inverted tet, or -1; after an inversion the output means nothing. */
+#ifndef COROT_CORE_KERNEL_H
+#define COROT_CORE_KERNEL_H
+
+#include "core/state.h"
+
+/* state->force = -(internal + viscous force) for state->u and, if `damped`, state->v. */
+int kernel_force(const corot_model *m, corot_state *state, bool damped);
+
+/* state->force = the change of that for the directions state->du and state->dv. */
+int kernel_derivative(const corot_model *m, corot_state *state, corot_tangent tangent);
+
+/* Elastic energy and, if `damped`, the power of the viscous forces. */
+int kernel_energy(const corot_model *m, corot_state *state, bool damped, double *elastic,
+                  double *power);
+
+/* R [tets.nblock] = the measure's own frames. */
+int kernel_frames(const corot_model *m, corot_state *state, mat3 *R);
+
+/* Adds the element matrices to K and D; either may be NULL. */
+int kernel_tangent(const corot_model *m, corot_state *state, corot_tangent tangent, double (*K)[9],
+                   double (*D)[9]);
+
+/* --- shared by the loops --------------------------------------------------------------------- */
+
+/* Gradient of a nodal field. */
+COROT_INLINE mat3 gradient(const tet_block *block, const double (*x)[4]) {
+  vd x0[3];
+  vd_gather3(x, block->node[0], x0);
+  mat3 G;
+  for (int a = 0; a < 3; a++) {
+    vd xa[3];
+    vd_gather3(x, block->node[a + 1], xa);
+    EACH_IJ {
+      vd term = (xa[i] - x0[i]) * block->g.m[a][j];
+      G.m[i][j] = a == 0 ? term : G.m[i][j] + term;
+    }
+  }
+  return G;
+}
+
+/* F = I + grad u. */
+COROT_INLINE mat3 deformation(const tet_block *block, const double (*u)[4]) {
+  return mat3_add_identity(gradient(block, u), vd_all(1));
+}
+
+/* The frame in use, held or exact, and the lanes whose F is not that of a deformation. Cauchy
+   strain is linear in F, so there nothing can invert. */
+COROT_INLINE mat3 frame_in_use(const strain_measure *s, const corot_model *m,
+                               const corot_state *state, int b, mat3 F, vi *inverted) {
+  if (s->frame == FRAME_IDENTITY && s->shear == BY_FRAME) return mat3_identity();
+  const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+  vi bad;
+  mat3 R;
+  if (state->frames == COROT_FRAMES_HELD) {
+    bad = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
+    R = s->frame == FRAME_IDENTITY ? mat3_identity() : state->R[b];
+  } else {
+    R = frame_of(s->frame, F, Q0, &bad);
+  }
+  *inverted |= bad;
+  return R;
+}
+
+/* Nodal forces -V P g_a into the buffer. */
+COROT_INLINE void store_forces(const tet_block *block, mat3 P, vd force[4][3]) {
+  for (int i = 0; i < 3; i++) {
+    vd rest = vd_all(0);
+    for (int a = 1; a < 4; a++) {
+      vd f = -block->volume * (P.m[i][0] * block->g.m[a - 1][0] + P.m[i][1] * block->g.m[a - 1][1] +
+                               P.m[i][2] * block->g.m[a - 1][2]);
+      force[a][i] = f;
+      rest -= f;
+    }
+    force[0][i] = rest;
+  }
+}
+
+/* The mesh's number of the first inverted tet of block b; -1 if there is none. */
+COROT_INLINE int first_inverted(const corot_model *m, int b, vi inverted) {
+  for (int l = 0; l < W; l++)
+    if (inverted[l]) return m->tets.number[b * W + l];
+  return -1;
+}
+
+#endif

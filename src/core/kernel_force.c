@@ -1,0 +1,76 @@
+#include "core/kernel.h"
+
+COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+                            bool damped) {
+  for (int b = 0; b < m->tets.nblock; b++) {
+    const tet_block *block = &m->tets.block[b];
+    const material *mat = &m->material[block->material];
+    vi inverted = {0};
+    mat3 F = deformation(block, (const double(*)[4])state->u);
+    mat3 R = frame_in_use(s, m, state, b, F, &inverted);
+    mat3 P = stress(s, vd_all(mat->lambda), vd_all(mat->mu), F, R);
+    if (damped) {
+      mat3 V = gradient(block, (const double(*)[4])state->v);
+      P = mat3_add(P, stress_viscous(s, vd_all(mat->damping_lambda), vd_all(mat->damping_mu), F, R,
+                                     V));
+    }
+    store_forces(block, P, state->force[b]);
+    if (vi_any(inverted)) return first_inverted(m, b, inverted);
+  }
+  return -1;
+}
+
+/* The hot loop is compiled for each measure, so that its branches on the measure fall away. */
+COROT_CLONES int kernel_force(const corot_model *m, corot_state *state, bool damped) {
+  switch (m->strain) {
+    case CAUCHY: return force_loop(&strain_measures[CAUCHY], m, state, damped);
+    case WARP: return force_loop(&strain_measures[WARP], m, state, damped);
+    case POLAR: return force_loop(&strain_measures[POLAR], m, state, damped);
+    case HYBRID: return force_loop(&strain_measures[HYBRID], m, state, damped);
+    default: return force_loop(&strain_measures[GREEN], m, state, damped);
+  }
+}
+
+COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+                             bool damped, double *elastic, double *power) {
+  double sum_elastic = 0, sum_power = 0;
+  for (int b = 0; b < m->tets.nblock; b++) {
+    const tet_block *block = &m->tets.block[b];
+    const material *mat = &m->material[block->material];
+    vi inverted = {0};
+    mat3 F = deformation(block, (const double(*)[4])state->u);
+    mat3 R = frame_in_use(s, m, state, b, F, &inverted);
+    if (vi_any(inverted)) return first_inverted(m, b, inverted);
+    sum_elastic +=
+        vd_sum(block->volume * strain_energy(s, vd_all(mat->lambda), vd_all(mat->mu), F, R));
+    if (!damped) continue;
+    mat3 V = gradient(block, (const double(*)[4])state->v);
+    mat3 P =
+        stress_viscous(s, vd_all(mat->damping_lambda), vd_all(mat->damping_mu), F, R, V);
+    sum_power += vd_sum(block->volume * mat3_dot(P, V));
+  }
+  *elastic = sum_elastic;
+  *power = sum_power;
+  return -1;
+}
+
+COROT_CLONES int kernel_energy(const corot_model *m, corot_state *state, bool damped,
+                               double *elastic, double *power) {
+  return energy_loop(&strain_measures[m->strain], m, state, damped, elastic, power);
+}
+
+COROT_INLINE int frames_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+                             mat3 *R) {
+  for (int b = 0; b < m->tets.nblock; b++) {
+    vi inverted = {0};
+    mat3 F = deformation(&m->tets.block[b], (const double(*)[4])state->u);
+    const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+    R[b] = frame_of(s->frame, F, Q0, &inverted);
+    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(m, b, inverted);
+  }
+  return -1;
+}
+
+COROT_CLONES int kernel_frames(const corot_model *m, corot_state *state, mat3 *R) {
+  return frames_loop(&strain_measures[m->strain], m, state, R);
+}

@@ -1,0 +1,175 @@
+#include <corot/ode.h>
+#include <string.h>
+
+#include "core/kernel.h"
+
+/* Free degrees of freedom to all nodes; held components are zero. */
+static void spread(const corot_model *m, const double *free_values, double (*nodal)[4]) {
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      nodal[n][c] = i >= 0 ? free_values[i] : 0;
+    }
+}
+
+/* Adds to r each node's own element forces, in the order of the tets. Returns the sum of r, which
+   is finite only if r is. */
+static double collect(const corot_model *m, const corot_state *s, double *r) {
+  const double *force = (const double *)s->force;
+  const int *first = m->pattern.first, *slot = m->pattern.slot;
+  double check = 0;
+  for (int n = 0; n < m->mesh->nnode; n++) {
+    double f[3] = {0, 0, 0};
+    for (int k = first[n]; k < first[n + 1]; k++)
+      for (int c = 0; c < 3; c++) f[c] += force[slot[k] + c * W];
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      if (i >= 0) check += r[i] += f[c];
+    }
+  }
+  return check;
+}
+
+static corot_status inverted(corot_state *s, int tet) {
+  s->inverted = tet;
+  if (tet < 0) return COROT_OK;
+  return corot_fail(COROT_RETRY, "tet %d is inverted", tet);
+}
+
+static void external_force(const corot_model *m, double t, double *f) {
+  memset(f, 0, m->ndof * sizeof *f);
+  for (int k = 0; k < m->nload; k++) {
+    double a = amplitude_at(&m->load[k], t);
+    const double *force = m->load[k].force;
+    if (a != 0)
+      for (int i = 0; i < m->ndof; i++) f[i] += a * force[i];
+  }
+}
+
+corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
+                            const double *v, double *r) {
+  spread(m, u, s->u);
+  if (m->damped) spread(m, v, s->v);
+  COROT_TRY(inverted(s, kernel_force(m, s, m->damped)));
+  external_force(m, t, r);
+  if (!isfinite(collect(m, s, r)))
+    return corot_fail(COROT_RETRY, "the forces exceed double precision at t = %g", t);
+  return COROT_OK;
+}
+
+corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
+                       double *ydot) {
+  int n = m->ndof;
+  COROT_TRY(corot_residual(m, s, t, y, y + n, ydot + n));
+  memcpy(ydot, y + n, n * sizeof *ydot);
+  for (int i = 0; i < n; i++) ydot[n + i] *= m->inverse_mass[i];
+  return COROT_OK;
+}
+
+corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, const double *u,
+                            const double *v, corot_tangent tangent, double (*K)[9],
+                            double (*D)[9]) {
+  (void)t, (void)v; /* dead loads, and viscous forces linear in v: neither enters K and D */
+  spread(m, u, s->u);
+  size_t bytes = m->pattern.nblock * sizeof *K;
+  if (K) memset(K, 0, bytes);
+  if (D) memset(D, 0, bytes);
+  return inverted(s, kernel_tangent(m, s, tangent, K, m->damped ? D : NULL));
+}
+
+corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const double *u,
+                       const double *v, corot_tangent tangent, const double *du, const double *dv,
+                       double *jv) {
+  (void)t; /* dead loads */
+  spread(m, u, s->u);
+  spread(m, v, s->v);
+  spread(m, du, s->du);
+  spread(m, dv, s->dv);
+  COROT_TRY(inverted(s, kernel_derivative(m, s, tangent)));
+  memset(jv, 0, m->ndof * sizeof *jv);
+  collect(m, s, jv);
+  return COROT_OK;
+}
+
+/* Largest and mean angle between two sets of frames: tr(A' B) = 1 + 2 cos, |A - B| = sqrt(8) sin
+   of half the angle, which keeps its digits where the angle is small. */
+static void compare_frames(const corot_model *m, const mat3 *A, const mat3 *B,
+                           corot_frames_change *change) {
+  double sum = 0;
+  for (int b = 0; b < m->tets.nblock; b++)
+    for (int l = 0; l < m->tets.block[b].ntet; l++) {
+      double square = 0;
+      EACH_IJ {
+        double d = A[b].m[i][j][l] - B[b].m[i][j][l];
+        square += d * d;
+      }
+      double angle = 2 * asin(fmin(1, sqrt(square / 8)));
+      sum += angle;
+      if (angle > change->angle_max) {
+        change->angle_max = angle;
+        change->angle_tet = m->tets.number[b * W + l];
+      }
+    }
+  change->angle_mean = sum / m->mesh->ntet;
+}
+
+/* Elastic energy with the held frames, whatever the policy. */
+static corot_status held_energy(const corot_model *m, corot_state *s, double *energy) {
+  corot_frames policy = s->frames;
+  double power;
+  s->frames = COROT_FRAMES_HELD;
+  int tet = kernel_energy(m, s, false, energy, &power);
+  s->frames = policy;
+  return inverted(s, tet);
+}
+
+corot_status corot_frames_update(const corot_model *m, corot_state *s, double t, const double *u,
+                                 corot_frames_change *change) {
+  (void)t; /* supports do not move */
+  corot_frames_change c = {0};
+  double before = 0, after = 0;
+  spread(m, u, s->u);
+  COROT_TRY(inverted(s, kernel_frames(m, s, s->new_R)));
+  if (change) {
+    COROT_TRY(held_energy(m, s, &before));
+    compare_frames(m, s->R, s->new_R, &c);
+  }
+  mat3 *old = s->R;
+  s->R = s->new_R;
+  s->new_R = old;
+  if (!change) return COROT_OK;
+  COROT_TRY(held_energy(m, s, &after));
+  c.energy = after - before;
+  *change = c;
+  return COROT_OK;
+}
+
+static void add_cross(double a[3], double m, const double x[3], const double v[3]) {
+  a[0] += m * (x[1] * v[2] - x[2] * v[1]);
+  a[1] += m * (x[2] * v[0] - x[0] * v[2]);
+  a[2] += m * (x[0] * v[1] - x[1] * v[0]);
+}
+
+corot_status corot_energy(const corot_model *m, corot_state *s, double t, const double *u,
+                          const double *v, corot_energies *energies) {
+  corot_energies e = {0};
+  spread(m, u, s->u);
+  spread(m, v, s->v);
+  COROT_TRY(inverted(s, kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
+  external_force(m, t, s->r);
+  for (int i = 0; i < m->ndof; i++) {
+    e.kinetic += 0.5 * m->mass[i] * v[i] * v[i];
+    e.power_external += s->r[i] * v[i];
+  }
+  for (int n = 0; n < m->mesh->nnode; n++) {
+    double x[3], mass = 0;
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      x[c] = m->mesh->x[n][c] + s->u[n][c];
+      if (i >= 0) mass = m->mass[i], e.momentum[c] += mass * v[i];
+    }
+    add_cross(e.angular_momentum, mass, x, s->v[n]);
+  }
+  *energies = e;
+  return COROT_OK;
+}

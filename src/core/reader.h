@@ -1,0 +1,65 @@
+/* A file in memory, read from front to back as text or as binary numbers; failures say where.
+
+   In text, values stand on lines: no value is taken from the next line, and a line must be
+   finished by corot_reader_end_line before the next is begun. */
+#ifndef COROT_CORE_READER_H
+#define COROT_CORE_READER_H
+
+#include <corot/base.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct corot_reader {
+  const char *path; /* as messages call it */
+  const char *data; /* data[size] is 0 */
+  size_t size;
+  size_t at;
+  char comment; /* from here to the end of its line; 0: none */
+  bool binary;  /* the values are binary */
+  bool swap;    /* of the other byte order */
+} corot_reader;
+
+/* The whole file, a 0 added behind it; the caller frees. COROT_EIO: it cannot be read. */
+corot_status corot_file_load(const char *path, char **data, size_t *size);
+
+/* COROT_EFORMAT with "FILE:LINE: ", in a binary file "FILE: byte N: ", before the message. */
+corot_status corot_reader_fail(const corot_reader *r, size_t at, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 3, 4)))
+#endif
+    ;
+
+/* Goes past blanks, blank lines and comments. */
+void corot_reader_skip_lines(corot_reader *r);
+
+/* Goes to the next non-blank on this line; false if there is none. */
+bool corot_reader_more(corot_reader *r);
+
+/* The rest of the line must be blank; goes to the next line that is not. Nothing in binary. */
+corot_status corot_reader_end_line(corot_reader *r);
+
+/* Goes past the next `\n`. */
+void corot_reader_skip_line(corot_reader *r);
+
+/* Whether the text here is the whole word `word`; if so, goes past it. */
+bool corot_reader_word(corot_reader *r, const char *word);
+
+/* One value, decimal in text, 4 or 8 bytes in binary. `what` it is, for messages. */
+corot_status corot_reader_int(corot_reader *r, const char *what, int *value);
+corot_status corot_reader_long(corot_reader *r, const char *what, int64_t *value);
+corot_status corot_reader_real(corot_reader *r, const char *what, double *value);
+
+/* Integers in text even where the file is binary. */
+corot_status corot_reader_text_int(corot_reader *r, const char *what, int *value);
+corot_status corot_reader_text_long(corot_reader *r, const char *what, int64_t *value);
+
+/* A number of items that are still to come, each of at least `bytes` bytes: not negative, not
+   more than the file can hold, at most INT_MAX. Text if `text`, else as corot_reader_long. */
+corot_status corot_reader_count(corot_reader *r, const char *what, size_t bytes, int *value);
+corot_status corot_reader_text_count(corot_reader *r, const char *what, size_t bytes, int *value);
+
+/* Goes past n bytes. */
+corot_status corot_reader_skip_bytes(corot_reader *r, const char *what, size_t n);
+
+#endif

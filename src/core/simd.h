@@ -1,0 +1,85 @@
+/* Vectors of eight doubles, one lane a tet. The only header with compiler extensions.
+
+   A function marked COROT_CLONES is compiled once for each instruction set and the best one the
+   processor has is taken at load time; what it calls must be COROT_INLINE to be compiled with it.
+   Clang refuses 64-byte arguments between clones, so there the build's own -march decides. */
+#ifndef COROT_CORE_SIMD_H
+#define COROT_CORE_SIMD_H
+
+#include <math.h>
+#include <string.h>
+
+enum { W = 8 }; /* lanes */
+
+typedef double vd __attribute__((vector_size(64)));
+typedef double vd4 __attribute__((vector_size(32)));
+typedef long long vi __attribute__((vector_size(64))); /* a comparison's mask: 0 or -1 a lane */
+
+#define COROT_INLINE static inline __attribute__((always_inline))
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__linux__)
+#define COROT_CLONES \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define COROT_CLONES
+#endif
+
+COROT_INLINE vd vd_all(double x) { return (vd){x, x, x, x, x, x, x, x}; }
+
+/* mask ? a : b */
+COROT_INLINE vd vd_select(vi mask, vd a, vd b) { return (vd)((mask & (vi)a) | (~mask & (vi)b)); }
+
+COROT_INLINE int vi_any(vi mask) {
+  long long any = 0;
+  for (int l = 0; l < W; l++) any |= mask[l];
+  return any != 0;
+}
+
+COROT_INLINE double vd_sum(vd a) {
+  return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+}
+
+COROT_INLINE vd4 vd4_load(const double *x) {
+  vd4 a;
+  memcpy(&a, x, sizeof a);
+  return a;
+}
+
+COROT_INLINE vd vd_join(vd4 low, vd4 high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+/* Rows of four (three used) for eight lanes become three vectors. */
+COROT_INLINE void vd_gather3(const double (*x)[4], const int *row, vd out[3]) {
+  vd r0 = vd_join(vd4_load(x[row[0]]), vd4_load(x[row[4]]));
+  vd r1 = vd_join(vd4_load(x[row[1]]), vd4_load(x[row[5]]));
+  vd r2 = vd_join(vd4_load(x[row[2]]), vd4_load(x[row[6]]));
+  vd r3 = vd_join(vd4_load(x[row[3]]), vd4_load(x[row[7]]));
+  vd xz01 = __builtin_shufflevector(r0, r1, 0, 8, 2, 10, 4, 12, 6, 14);
+  vd xz23 = __builtin_shufflevector(r2, r3, 0, 8, 2, 10, 4, 12, 6, 14);
+  vd y01 = __builtin_shufflevector(r0, r1, 1, 9, 3, 11, 5, 13, 7, 15);
+  vd y23 = __builtin_shufflevector(r2, r3, 1, 9, 3, 11, 5, 13, 7, 15);
+  out[0] = __builtin_shufflevector(xz01, xz23, 0, 1, 8, 9, 4, 5, 12, 13);
+  out[1] = __builtin_shufflevector(y01, y23, 0, 1, 8, 9, 4, 5, 12, 13);
+  out[2] = __builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/* Rows to columns: out[l][k] = in[k][l]; in [W]. */
+COROT_INLINE void vd_transpose(const vd *in, vd out[W]) {
+  vd a[W], b[W];
+  for (int k = 0; k < W; k += 2) { /* pairs of lanes */
+    a[k] = __builtin_shufflevector(in[k], in[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    a[k + 1] = __builtin_shufflevector(in[k], in[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int k = 0; k < W; k += 4)
+    for (int o = 0; o < 2; o++) { /* quads */
+      b[k + o] = __builtin_shufflevector(a[k + o], a[k + 2 + o], 0, 1, 8, 9, 4, 5, 12, 13);
+      b[k + 2 + o] = __builtin_shufflevector(a[k + o], a[k + 2 + o], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  for (int o = 0; o < 4; o++) { /* halves */
+    out[o] = __builtin_shufflevector(b[o], b[4 + o], 0, 1, 2, 3, 8, 9, 10, 11);
+    out[4 + o] = __builtin_shufflevector(b[o], b[4 + o], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
+#endif

@@ -1,0 +1,57 @@
+#include "core/state.h"
+
+#include <stdlib.h>
+
+static corot_status allocate(const corot_model *m, corot_state *s) {
+  int nnode = m->mesh->nnode, nblock = m->tets.nblock;
+  s->u = vector_calloc(nnode, sizeof *s->u);
+  s->v = vector_calloc(nnode, sizeof *s->v);
+  s->du = vector_calloc(nnode, sizeof *s->du);
+  s->dv = vector_calloc(nnode, sizeof *s->dv);
+  s->R = vector_calloc(nblock, sizeof *s->R);
+  s->new_R = vector_calloc(nblock, sizeof *s->new_R);
+  s->force = vector_calloc(nblock, sizeof *s->force);
+  s->r = calloc(m->ndof, sizeof *s->r);
+  if (!s->u || !s->v || !s->du || !s->dv || !s->R || !s->new_R || !s->force || !s->r)
+    return corot_fail(COROT_ENOMEM, "no memory for a state of %d nodes", nnode);
+  for (int b = 0; b < nblock; b++) s->R[b] = mat3_identity();
+  return COROT_OK;
+}
+
+corot_status corot_state_create(const corot_model *m, corot_state **state) {
+  corot_state *s = calloc(1, sizeof *s);
+  if (!s) return corot_fail(COROT_ENOMEM, "no memory for a state");
+  s->inverted = -1;
+  corot_status status = allocate(m, s);
+  if (status) {
+    corot_state_destroy(s);
+    return status;
+  }
+  s->nnode = m->mesh->nnode;
+  s->nblock = m->tets.nblock;
+  s->ndof = m->ndof;
+  *state = s;
+  return COROT_OK;
+}
+
+void corot_state_destroy(corot_state *s) {
+  if (!s) return;
+  free(s->u);
+  free(s->v);
+  free(s->du);
+  free(s->dv);
+  free(s->R);
+  free(s->new_R);
+  free(s->force);
+  free(s->r);
+  free(s);
+}
+
+size_t corot_state_bytes(const corot_state *s) {
+  return sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
+         s->nblock * (2 * sizeof *s->R + sizeof *s->force);
+}
+
+void corot_state_use(corot_state *s, corot_frames frames) { s->frames = frames; }
+corot_frames corot_state_frames(const corot_state *s) { return s->frames; }
+int corot_state_inverted(const corot_state *s) { return s->inverted; }

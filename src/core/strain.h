@@ -1,0 +1,147 @@
+/* Strain measures: one table, one stress, one tangent.
+
+   Cauchy, warped, polar, hybrid and Green strain differ in the basis B of the pressure (lambda)
+   term, that of the shear (mu) term, each the frame R or the gradient F, and in the rule that
+   finds R. With e = sym(R'F) - I for B = R and (F'F - I)/2 for B = F:
+
+     P = lambda tr(e_p) B_p + 2 mu B_s e_s,     energy = lambda/2 tr(e_p)^2 + mu e_s:e_s
+
+   For B = R this is the paper's (4.12) read as e = e^C(R' phi); its (5.6), with u in place of phi,
+   is not invariant. All functions work on eight tets at a time. */
+#ifndef COROT_CORE_STRAIN_H
+#define COROT_CORE_STRAIN_H
+
+#include "core/polar.h"
+
+typedef enum basis { BY_FRAME, BY_GRADIENT } basis;
+typedef enum frame_rule { FRAME_IDENTITY, FRAME_WARP, FRAME_POLAR } frame_rule;
+
+typedef struct strain_measure {
+  const char *name;
+  basis pressure, shear;
+  frame_rule frame;
+} strain_measure;
+
+enum { CAUCHY, WARP, POLAR, HYBRID, GREEN, NSTRAIN };
+
+static const strain_measure strain_measures[NSTRAIN] = {
+    /* name     pressure     shear        frame */
+    {"cauchy", BY_FRAME, BY_FRAME, FRAME_IDENTITY},
+    {"warp", BY_FRAME, BY_FRAME, FRAME_WARP},
+    {"polar", BY_FRAME, BY_FRAME, FRAME_POLAR},
+    {"hybrid", BY_GRADIENT, BY_FRAME, FRAME_POLAR},
+    {"green", BY_GRADIENT, BY_GRADIENT, FRAME_IDENTITY},
+};
+
+COROT_INLINE mat3 basis_of(basis b, mat3 F, mat3 R) { return b == BY_FRAME ? R : F; }
+
+COROT_INLINE mat3 strain_of(basis b, mat3 F, mat3 R) {
+  if (b == BY_FRAME) return mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
+  return mat3_scale(vd_all(0.5), mat3_add_identity(mat3_gram(F), vd_all(-1)));
+}
+
+/* tr(e), without the rest of e. */
+COROT_INLINE vd dilatation_of(basis b, mat3 F, mat3 R) {
+  return b == BY_FRAME ? mat3_dot(R, F) - 3 : 0.5 * (mat3_dot(F, F) - 3);
+}
+
+/* First Piola-Kirchhoff stress; see above. */
+COROT_INLINE mat3 stress(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R) {
+  mat3 Bp = basis_of(s->pressure, F, R), Bs = basis_of(s->shear, F, R);
+  mat3 e = strain_of(s->shear, F, R);
+  vd p = lambda * (s->pressure == s->shear ? mat3_trace(e) : dilatation_of(s->pressure, F, R));
+  return mat3_sum(p, Bp, 2 * mu, mat3_mul(Bs, e));
+}
+
+/* Strain energy density. */
+COROT_INLINE vd strain_energy(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R) {
+  mat3 e = strain_of(s->shear, F, R);
+  vd trace = dilatation_of(s->pressure, F, R);
+  return 0.5 * lambda * trace * trace + mu * mat3_dot(e, e);
+}
+
+/* Viscous stress: the same law on the rate sym(B' dF/dt) (the paper's D). With the elastic
+   coefficients and a change dF it is also the change of P at constant bases. */
+COROT_INLINE mat3 stress_viscous(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R,
+                                 mat3 dF) {
+  mat3 Bp = basis_of(s->pressure, F, R), Bs = basis_of(s->shear, F, R);
+  vd p = lambda * mat3_dot(Bp, dF);
+  return mat3_sum(p, Bp, 2 * mu, mat3_mul(Bs, mat3_sym_tmul(Bs, dF)));
+}
+
+/* The frame of F by the measure's own rule. Q0 (the rest edges' Gram-Schmidt basis) is looked at
+   by warp only. */
+COROT_INLINE mat3 frame_of(frame_rule rule, mat3 F, const mat3 *Q0, vi *inverted) {
+  if (rule == FRAME_POLAR) return polar(F, inverted);
+  *inverted = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
+  if (rule == FRAME_IDENTITY) return mat3_identity();
+  return mat3_mul(gram_schmidt(mat3_mul(F, *Q0)), mat3_transpose(*Q0));
+}
+
+/* The change of the frame R = frame_of(F) with F. */
+COROT_INLINE mat3 frame_derivative(frame_rule rule, mat3 F, const mat3 *Q0, mat3 R, mat3 dF) {
+  if (rule == FRAME_POLAR) {
+    vec3 w = mat3_apply(polar_inverse_g(mat3_tmul(R, F)), mat3_vee(mat3_tmul(R, dF)));
+    return mat3_mul(R, mat3_skew(w));
+  }
+  if (rule == FRAME_IDENTITY) return mat3_scale(vd_all(0), R);
+  mat3 dQ = gram_schmidt_derivative(mat3_mul(R, *Q0), mat3_mul(F, *Q0), mat3_mul(dF, *Q0));
+  return mat3_mul(dQ, mat3_transpose(*Q0));
+}
+
+/* The change of the elastic stress with (dF, dR). */
+COROT_INLINE mat3 stress_derivative(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R,
+                                    mat3 dF, mat3 dR) {
+  mat3 dBp = basis_of(s->pressure, dF, dR), dBs = basis_of(s->shear, dF, dR);
+  mat3 e = strain_of(s->shear, F, R);
+  vd p = lambda * dilatation_of(s->pressure, F, R);
+  mat3 dP = stress_viscous(s, lambda, mu, F, R, dF); /* B sigma(sym(B' dF)) */
+  dP = mat3_add(dP, mat3_sum(p, dBp, 2 * mu, mat3_mul(dBs, e)));
+  if (s->pressure == BY_FRAME) dP = mat3_add(dP, mat3_scale(lambda * mat3_dot(dR, F), R));
+  if (s->shear == BY_FRAME)
+    dP = mat3_add(dP, mat3_scale(2 * mu, mat3_mul(R, mat3_sym_tmul(dR, F))));
+  return dP;
+}
+
+/* The change of the viscous stress for the rate V = dF/dt with (dF, dR) and with dV. */
+COROT_INLINE mat3 stress_viscous_derivative(const strain_measure *s, vd lambda, vd mu, mat3 F,
+                                            mat3 R, mat3 V, mat3 dF, mat3 dR, mat3 dV) {
+  mat3 Bp = basis_of(s->pressure, F, R), Bs = basis_of(s->shear, F, R);
+  mat3 dBp = basis_of(s->pressure, dF, dR), dBs = basis_of(s->shear, dF, dR);
+  mat3 dP = stress_viscous(s, lambda, mu, F, R, dV);
+  dP = mat3_add(dP, mat3_sum(lambda * mat3_dot(dBp, V), Bp, lambda * mat3_dot(Bp, V), dBp));
+  mat3 rate = mat3_sym_tmul(Bs, V), change = mat3_sym_tmul(dBs, V);
+  return mat3_add(dP, mat3_scale(2 * mu, mat3_add(mat3_mul(Bs, change), mat3_mul(dBs, rate))));
+}
+
+/* What the tangent of a tet needs beside the gradients g_a of its nodes: its element matrix is V
+   times
+     lambda p_a p_b' + mu (g_a.g_b Bs Bs' + s_b s_a')   at constant bases, p_a = Bp g_a, s_a = Bs g_a
+   + (g_a . Z g_b) I                                    the stress on a basis F that turns with it
+   + [s_a]x' H [s_b]x                                   the variation of an exact polar frame
+   with Z = lambda tr(e_p) I for Bp = F, plus 2 mu e_s for Bs = F, and H = R h R' (so that all is in
+   spatial axes), h = lambda tr(e_p) G^-1 for Bp = R, plus mu I - 2 mu G^-1 for Bs = R. The damping
+   matrix is the first line with the damping coefficients. */
+typedef struct tangent_terms {
+  mat3 Bp, Bs, BsBs, Z, H;
+} tangent_terms;
+
+COROT_INLINE tangent_terms tangent_terms_of(const strain_measure *s, int exact, vd lambda, vd mu,
+                                            mat3 F, mat3 R) {
+  tangent_terms k = {.Bp = basis_of(s->pressure, F, R), .Bs = basis_of(s->shear, F, R)};
+  k.BsBs = s->shear == BY_GRADIENT ? mat3_gram(mat3_transpose(F)) : mat3_identity();
+  vd p = lambda * dilatation_of(s->pressure, F, R);
+  if (s->pressure == BY_GRADIENT) k.Z = mat3_scale(p, mat3_identity());
+  if (s->shear == BY_GRADIENT)
+    k.Z = mat3_add(k.Z, mat3_scale(2 * mu, strain_of(BY_GRADIENT, F, R)));
+  if (exact && s->frame == FRAME_POLAR) {
+    vd c = -2 * mu;
+    if (s->pressure == BY_FRAME) c += p;
+    mat3 h = mat3_scale(c, polar_inverse_g(mat3_tmul(R, F)));
+    h = mat3_add(h, mat3_scale(mu, mat3_identity()));
+    k.H = mat3_mul(R, mat3_mul(h, mat3_transpose(R)));
+  }
+  return k;
+}
+
+#endif
