@@ -100,6 +100,9 @@ typedef struct corot_integrator_choice {
 
 corot_integrator_choice corot_integrator_chosen(const corot_integrator *integrator);
 
+/* The version of the SUNDIALS that was linked. */
+const char *corot_sundials_version(void);
+
 #ifdef __cplusplus
 }
 #endif

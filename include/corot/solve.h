@@ -62,6 +62,9 @@ corot_pencil_counts corot_pencil_statistics(const corot_pencil *pencil);
 
 /* --- SUNDIALS ------------------------------------------------------------------------------- */
 
+/* The version of the SUNDIALS library in use, "MAJOR.MINOR.PATCH". */
+const char *corot_sundials_version(void);
+
 /* A SUNMatrix (SUNMATRIX_CUSTOM) and a SUNLinearSolver (SUNLINEARSOLVER_DIRECT) that stand for the
    Newton matrix I - gamma J of y = (u, v) [2n] by way of the pencil. Give both to
    CVodeSetLinearSolver, and corot_sun_linsys to CVodeSetLinSysFn; free them by SUNMatDestroy and

@@ -49,8 +49,7 @@ int dispatch(const char *program, const char *help, const command *table, int ar
     name[nname++] = c->name;
   }
   const char *near = suggest(argv[1], nname, name);
-  if (near)
-    return usage_error(program, "unknown command %s; did you mean %s?", argv[1], near);
+  if (near) return usage_error(program, "unknown command %s; did you mean %s?", argv[1], near);
   return usage_error(program, "unknown command %s", argv[1]);
 }
 

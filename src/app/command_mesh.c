@@ -94,7 +94,9 @@ int command_mesh_box(int argc, char **argv) {
   if (optind < argc) return usage_error("corot mesh box", "unexpected: %s", argv[optind]);
   if (!a.size || !a.cells || !a.file)
     return usage_error("corot mesh box", "%s is missing",
-                       !a.size ? "--size" : !a.cells ? "--cells" : "-o FILE");
+                       !a.size    ? "--size"
+                       : !a.cells ? "--cells"
+                                  : "-o FILE");
   return write_box(&a);
 }
 
@@ -110,7 +112,9 @@ static const char info_help[] =
     "example: corot mesh info bar.msh\n";
 
 static const struct option info_options[] = {
-    {"json", no_argument, NULL, 'j'}, {"help", no_argument, NULL, 'h'}, {0},
+    {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
 
 static void print_info(const char *path, const corot_mesh *mesh) {

@@ -71,12 +71,18 @@ int command_run(int argc, char **argv) {
   int noverride = 0, code = -1;
   opterr = 0;
   for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":o:qh", options, NULL)) != -1;) {
-    if (answer == 'o') o.dir = optarg;
-    else if (answer == 's') override[noverride++] = optarg;
-    else if (answer == 'q') o.quiet = true, o.progress = false;
-    else if (answer == 'j') o.json = true;
-    else if (answer == 'h') fputs(help, stdout), code = EXIT_OK;
-    else code = option_error("corot run", answer, argv, options);
+    if (answer == 'o')
+      o.dir = optarg;
+    else if (answer == 's')
+      override[noverride++] = optarg;
+    else if (answer == 'q')
+      o.quiet = true, o.progress = false;
+    else if (answer == 'j')
+      o.json = true;
+    else if (answer == 'h')
+      fputs(help, stdout), code = EXIT_OK;
+    else
+      code = option_error("corot run", answer, argv, options);
   }
   if (code < 0 && argc - optind != 1)
     code = usage_error("corot run", "expected one scenario, found %d", argc - optind);

@@ -17,7 +17,9 @@ static const char help[] =
     "example: corot schema integrator\n";
 
 static const struct option options[] = {
-    {"json", no_argument, NULL, 'j'}, {"help", no_argument, NULL, 'h'}, {0},
+    {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
 
 static int print_json(void) {

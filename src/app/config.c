@@ -244,8 +244,7 @@ corot_status config_fail_at(const config_source *source, size_t at, const char *
 }
 
 /* A node that no source has, a default, is shown where the map that lacks it stands. */
-static corot_status fail_node(const config_node *node, bool key, const char *format,
-                              va_list args) {
+static corot_status fail_node(const config_node *node, bool key, const char *format, va_list args) {
   char path[128], message[700];
   config_path(node, sizeof path, path);
   int used = snprintf(message, sizeof message, "%s%s", path, *path ? ": " : "");

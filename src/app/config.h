@@ -19,12 +19,12 @@ typedef enum config_kind { CONFIG_SCALAR, CONFIG_LIST, CONFIG_MAP } config_kind;
 
 typedef struct config_node {
   config_kind kind;
-  bool quoted;                  /* scalar in quotes: text, never a number */
-  const char *key;              /* in a map; NULL elsewhere */
-  const char *text;             /* of a scalar */
-  double number;                /* of a scalar that the schema has found to be a number */
-  const config_source *source;  /* NULL: a default */
-  size_t key_at, at;            /* where key and value begin, in bytes from the source's start */
+  bool quoted;                 /* scalar in quotes: text, never a number */
+  const char *key;             /* in a map; NULL elsewhere */
+  const char *text;            /* of a scalar */
+  double number;               /* of a scalar that the schema has found to be a number */
+  const config_source *source; /* NULL: a default */
+  size_t key_at, at;           /* where key and value begin, in bytes from the source's start */
   struct config_node *parent, *child, *last, *next;
   int nchild;
 } config_node;

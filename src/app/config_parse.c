@@ -9,10 +9,10 @@
 #include "config.h"
 
 enum {
-  MAX_SIZE = 16 << 20,  /* bytes of a file */
-  MAX_DEPTH = 32,       /* levels */
-  MAX_NODES = 1000000,  /* values, aliases unfolded */
-  MAX_KEYS = 10000,     /* of one map */
+  MAX_SIZE = 16 << 20, /* bytes of a file */
+  MAX_DEPTH = 32,      /* levels */
+  MAX_NODES = 1000000, /* values, aliases unfolded */
+  MAX_KEYS = 10000,    /* of one map */
 };
 
 typedef struct anchor {
@@ -101,6 +101,8 @@ static corot_status take_event(reader *r, const struct fy_event *e, event *out) 
   if (e->type == FYET_SCALAR) {
     enum fy_scalar_style style = token.value ? fy_token_scalar_style(token.value) : FYSS_PLAIN;
     out->quoted = style != FYSS_PLAIN && style != FYSS_ANY;
+    bool quotes = style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
+    if (mark && quotes && r->at > 0) out->at = r->at - 1; /* libfyaml's mark is behind the quote */
   }
   if (token.anchor) COROT_TRY(copy_token(r, token.anchor, &out->anchor));
   return COROT_OK;

@@ -21,7 +21,8 @@ static const char help[] =
     "  corot COMMAND --help, corot --version\n"
     "\n"
     "Data goes to stdout, messages to stderr. Exit codes: 0 ok, 1 a check failed, 2 usage,\n"
-    "3 bad scenario or mesh, 4 the integrator gave up, 5 input or output, 130 and 143 interrupted.\n"
+    "3 bad scenario or mesh, 4 the integrator gave up, 5 input or output, 130 and 143 "
+    "interrupted.\n"
     "\n"
     "example: corot run models/bar/bar.yaml -o out/bar --set integrator.rtol=1e-6\n";
 

@@ -6,13 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli.h"
 #include "clock.h"
 #include "outputs.h"
 #include "progress.h"
 #include "result.h"
 #include "schedule.h"
 
-enum { EXIT_SCENARIO = 3, EXIT_INTEGRATOR = 4, EXIT_SYSTEM = 5, EXIT_SIGNAL = 128 };
+enum { EXIT_SIGNAL = 128 }; /* and the number of the signal that ended the run */
 
 typedef struct run {
   const scenario *scenario;
@@ -145,7 +146,7 @@ static corot_status integrate(run *r) {
 /* After the last step. */
 
 static int exit_code(corot_status status) {
-  if (status == COROT_OK) return 0;
+  if (status == COROT_OK) return EXIT_OK;
   if (status == COROT_EINVAL || status == COROT_EFORMAT) return EXIT_SCENARIO;
   if (status == COROT_ENOMEM || status == COROT_EIO) return EXIT_SYSTEM;
   return EXIT_INTEGRATOR;
@@ -193,11 +194,10 @@ static corot_status write_result(const run *r, const run_summary *summary) {
 static void tell(const run *r, const run_summary *summary) {
   const char *path = r->scenario->path, *dir = r->options->dir;
   if (summary->reason)
-    fprintf(stderr, "corot: %s: stopped at t = %.6g s of %g s: %s\n", path, r->t,
-            r->scenario->t_end, summary->reason);
+    fprintf(stderr, "%s: stopped at t = %.6g s of %g s: %s\n", path, r->t, r->scenario->t_end,
+            summary->reason);
   if (r->options->quiet) return;
-  fprintf(stderr,
-          "corot: %s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n",
+  fprintf(stderr, "%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n",
           path, r->t, summary->statistics.nst, summary->statistics.nfactor, summary->wall_s,
           r->t / summary->wall_s, dir);
 }
@@ -228,7 +228,7 @@ static int conclude(run *r, corot_status status) {
   run_summary summary;
   late = summarize(r, reason, code, &summary);
   if (late == COROT_OK) late = write_result(r, &summary);
-  if (late != COROT_OK) fprintf(stderr, "corot: %s\n", corot_error());
+  if (late != COROT_OK) fprintf(stderr, "%s\n", corot_error());
   tell(r, &summary);
   return late != COROT_OK && code == 0 ? exit_code(late) : code;
 }
@@ -241,10 +241,10 @@ static int run_in_c_locale(const scenario *s, const run_options *options) {
   int code;
   corot_status status = prepare(&r);
   if (status != COROT_OK) {
-    fprintf(stderr, "corot: %s\n", corot_error());
+    fprintf(stderr, "%s\n", corot_error());
     code = status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
   } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
-    fprintf(stderr, "corot: %s\n", corot_error());
+    fprintf(stderr, "%s\n", corot_error());
     code = exit_code(status);
   } else {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
@@ -257,7 +257,7 @@ static int run_in_c_locale(const scenario *s, const run_options *options) {
 int run_scenario(const scenario *s, const run_options *options) {
   locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!plain) {
-    fprintf(stderr, "corot: out of memory\n");
+    fprintf(stderr, "out of memory\n");
     return EXIT_SYSTEM;
   }
   locale_t before = uselocale(plain);

@@ -267,8 +267,7 @@ static corot_status read_integrator(scenario *s) {
 
 /* A name becomes the head of columns of a CSV file. */
 static bool is_column_name(const char *name) {
-  static const char letters[] =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   return name[strspn(name, letters)] == '\0';
 }
 

@@ -59,7 +59,7 @@ typedef struct scenario {
   bool write_fields; /* output.fields: vtu */
   int field_every;   /* every so many output times */
 
-  json_t *resolved; /* the whole scenario, defaults and overrides included */
+  json_t *resolved;      /* the whole scenario, defaults and overrides included */
   struct config *source; /* the file as a tree, for the places in messages; owns the memory */
 } scenario;
 

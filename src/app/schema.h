@@ -8,10 +8,10 @@
 #include "config.h"
 
 typedef enum schema_type {
-  SCHEMA_MAP,      /* keys as the table says */
-  SCHEMA_NAMED,    /* keys are names given by the user, "groups.NAME" */
-  SCHEMA_LIST,     /* entries are maps, "loads[]" */
-  SCHEMA_MAPS,     /* one map, or a list of such */
+  SCHEMA_MAP,   /* keys as the table says */
+  SCHEMA_NAMED, /* keys are names given by the user, "groups.NAME" */
+  SCHEMA_LIST,  /* entries are maps, "loads[]" */
+  SCHEMA_MAPS,  /* one map, or a list of such */
   SCHEMA_TEXT,
   SCHEMA_CHOICE,   /* one of `words` */
   SCHEMA_NUMBER,   /* or the one of `words`, which stands for 0 */

@@ -53,8 +53,8 @@ static void keys_of(const char *path, size_t size, char *words) {
   size_t used = 0;
   words[0] = '\0';
   for (const schema_key *k = NULL; (k = schema_child(path, k)) && used < size;)
-    used += (size_t)snprintf(words + used, size - used, "%s%s", used ? "|" : "",
-                             last_segment(k->path));
+    used +=
+        (size_t)snprintf(words + used, size - used, "%s%s", used ? "|" : "", last_segment(k->path));
 }
 
 static bool among(const char *word, const char *words) {
@@ -220,7 +220,8 @@ static corot_status apply_list(config *tree, config_node *list, const char *path
 
 static corot_status apply_maps(config *tree, config_node *node, const char *path) {
   if (node->kind == CONFIG_MAP) return apply_map(tree, node, path);
-  if (node->kind != CONFIG_LIST || node->nchild == 0) return expected(node, "a map or a list of maps");
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return expected(node, "a map or a list of maps");
   return apply_list(tree, node, path);
 }
 
@@ -262,7 +263,8 @@ static corot_status apply_given(config *tree, config_node *map, const char *path
   for (config_node *c = map->child, *next; c; c = next) {
     next = c->next;
     const schema_key *key = NULL;
-    while ((key = schema_child(path, key)) && strcmp(last_segment(key->path), c->key) != 0) continue;
+    while ((key = schema_child(path, key)) && strcmp(last_segment(key->path), c->key) != 0)
+      continue;
     if (!key) return unknown_key(c, path);
     if (config_is_null(c))
       config_remove(c);

@@ -59,8 +59,8 @@ static json_t *named(const config_node *map, const char *path) {
 static json_t *resolve_value(const config_node *node, const schema_key *key) {
   char inside[128];
   schema_inside(key, sizeof inside, inside);
-  bool whole = key->type == SCHEMA_INTEGER || key->type == SCHEMA_INTEGERS ||
-               key->type == SCHEMA_COUNTS;
+  bool whole =
+      key->type == SCHEMA_INTEGER || key->type == SCHEMA_INTEGERS || key->type == SCHEMA_COUNTS;
   switch (key->type) {
     case SCHEMA_MAP:
       return resolve_map(node, inside);

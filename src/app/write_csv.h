@@ -25,13 +25,16 @@ corot_status probes_row(table *probes, double t, int nprobe, const int *node,
 /* energy.csv: where the energy went, one row an output time
 
      t              [s]
-     kinetic, elastic            of the moment [J]
-     dissipated, external_work   from the start to t: by damping, by loads [J]
-     balance        kinetic + elastic + dissipated - external_work - frame_energy - what there was
-                    at the start [J]: the error of the integration in energy, zero up to the
-   tolerance frame_energy   put in by the updates of held frames from the start to t [J]; an update
-   is an error of the model, not of the integration px, py, pz     momentum [kg m/s];  lx, ly, lz
-   angular momentum about the origin [kg m^2/s] */
+     kinetic        at t [J]
+     elastic        at t [J]
+     dissipated     by damping, from the start to t [J]
+     external_work  by loads, from the start to t [J]
+     balance        kinetic + elastic + dissipated - external_work - frame_energy, less what there
+                    was at the start [J]: the integration's error in energy
+     frame_energy   put in by the updates of held frames, from the start to t [J]: an error of the
+                    model, not of the integration
+     px, py, pz     momentum [kg m/s]
+     lx, ly, lz     angular momentum about the origin [kg m^2/s] */
 
 typedef struct ledger {
   double t, kinetic, elastic, dissipated, external_work, balance, frame_energy;

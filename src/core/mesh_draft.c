@@ -28,7 +28,7 @@ static int compare_tags(const void *a, const void *b) {
 
 static bool consecutive(const corot_draft *d) {
   for (int i = 1; i < d->nnode; i++)
-    if (d->node[i].tag - 1 != d->node[i - 1].tag) return false;
+    if (d->node[i - 1].tag == INT64_MAX || d->node[i].tag != d->node[i - 1].tag + 1) return false;
   return true;
 }
 
@@ -71,8 +71,7 @@ corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_eleme
   return COROT_OK;
 }
 
-/* Makes room for one more item of `size` bytes. */
-static corot_status make_room(void **items, size_t n, size_t *room, size_t size) {
+corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size) {
   if (n < *room) return COROT_OK;
   size_t more = *room ? 2 * *room : 64;
   void *p = more <= SIZE_MAX / size ? realloc(*items, more * size) : NULL;
@@ -84,24 +83,25 @@ static corot_status make_room(void **items, size_t n, size_t *room, size_t size)
 
 corot_status corot_draft_add_element(corot_draft *d, const corot_draft_element *element) {
   void *items = d->element;
-  COROT_TRY(make_room(&items, d->nelement, &d->element_room, sizeof *element));
+  COROT_TRY(corot_make_room(&items, d->nelement, &d->element_room, sizeof *element));
   d->element = items;
   d->element[d->nelement++] = *element;
   return COROT_OK;
 }
 
-corot_status corot_draft_add_member(corot_draft *d, int physical) {
+corot_status corot_draft_add_member(corot_draft *d, int element, int physical) {
   void *items = d->member;
-  COROT_TRY(make_room(&items, d->nmember, &d->member_room, sizeof *d->member));
+  if (physical == 0) return COROT_OK;
+  COROT_TRY(corot_make_room(&items, d->nmember, &d->member_room, sizeof *d->member));
   d->member = items;
-  d->member[d->nmember++] = (corot_draft_member){(int)d->nelement - 1, physical};
+  d->member[d->nmember++] = (corot_draft_member){element, physical};
   return COROT_OK;
 }
 
 corot_status corot_draft_add_name(corot_draft *d, int dim, int physical, const char *name) {
   void *items = d->name;
   COROT_TRY(corot_group_name_check(name));
-  COROT_TRY(make_room(&items, d->nname, &d->name_room, sizeof *d->name));
+  COROT_TRY(corot_make_room(&items, d->nname, &d->name_room, sizeof *d->name));
   d->name = items;
   corot_draft_name *n = &d->name[d->nname];
   n->dim = dim;

@@ -62,9 +62,12 @@ corot_status corot_draft_index_nodes(corot_draft *d);
 corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_element *element,
                                    int64_t tag, int *index);
 
-/* Appends. A member is the last element; a name must be sound and its group have no other. */
+/* Makes room for one more item of `size` bytes. */
+corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size);
+
+/* Append; physical 0 is no group. COROT_EINVAL: not a name for a group. */
 corot_status corot_draft_add_element(corot_draft *d, const corot_draft_element *element);
-corot_status corot_draft_add_member(corot_draft *d, int physical);
+corot_status corot_draft_add_member(corot_draft *d, int element, int physical);
 corot_status corot_draft_add_name(corot_draft *d, int dim, int physical, const char *name);
 
 /* The mesh that the draft describes, its groups in the order of their names, then the nameless

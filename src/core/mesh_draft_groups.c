@@ -1,6 +1,7 @@
 /* The groups of a draft: members gathered, named, and turned into nodes, triangles and tets. */
 #include "core/mesh_draft.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -37,6 +38,8 @@ static int compare_sorted(const void *a, const void *b) {
   return (p->member.element > q->member.element) - (p->member.element < q->member.element);
 }
 
+static int magnitude(int physical) { return physical == INT_MIN ? INT_MAX : abs(physical); }
+
 /* Sorts the members and lists the parts they fall into. */
 static corot_status find_parts(gather *g) {
   corot_draft *d = g->d;
@@ -44,7 +47,7 @@ static corot_status find_parts(gather *g) {
   COROT_TRY(COROT_ALLOC(s, d->nmember));
   for (size_t i = 0; i < d->nmember; i++) {
     corot_draft_member m = d->member[i];
-    s[i] = (sorted){d->element[m.element].dim, abs(m.physical), m};
+    s[i] = (sorted){d->element[m.element].dim, magnitude(m.physical), m};
   }
   qsort(s, d->nmember, sizeof *s, compare_sorted);
 
@@ -92,9 +95,22 @@ static bool is_ambiguous(const gather *g, const part *p) {
   return false;
 }
 
+static corot_status sort_names(corot_draft *d) {
+  if (d->nname == 0) return COROT_OK;
+  qsort(d->name, d->nname, sizeof *d->name, compare_names);
+  for (size_t i = 1; i < d->nname; i++) {
+    const corot_draft_name *a = &d->name[i - 1], *b = &d->name[i];
+    if (compare_names(a, b) == 0)
+      return corot_fail(COROT_EFORMAT,
+                        "%s: physical group %d of dimension %d is named '%s' and '%s'",
+                        d->element_file->path, a->physical, a->dim, a->text, b->text);
+  }
+  return COROT_OK;
+}
+
+/* The names are sorted. */
 static void name_parts(gather *g) {
   static const char *const word[4] = {"point", "line", "surface", "volume"};
-  qsort(g->d->name, g->d->nname, sizeof *g->d->name, compare_names);
   for (size_t i = 0; i < g->npart; i++) {
     part *p = &g->part[i];
     const corot_draft_name *name = find_name(g->d, p->dim, p->physical);
@@ -242,6 +258,7 @@ static corot_status fill_group(gather *g, const part *p, size_t npart, corot_gro
 
 static corot_status gather_groups(gather *g) {
   COROT_TRY(find_parts(g));
+  COROT_TRY(sort_names(g->d));
   name_parts(g);
   int ngroup = merge_parts(g);
   COROT_TRY(COROT_ALLOC(g->mesh->group, ngroup));

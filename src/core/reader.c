@@ -51,7 +51,7 @@ corot_status corot_reader_fail(const corot_reader *r, size_t at, const char *for
   va_start(args, format);
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
-  if (r->binary) return corot_fail(COROT_EFORMAT, "%s: byte %zu: %s", r->path, at, text);
+  if (r->bytes) return corot_fail(COROT_EFORMAT, "%s: byte %zu: %s", r->path, at, text);
   return corot_fail(COROT_EFORMAT, "%s:%ld: %s", r->path, line_of(r, at), text);
 }
 
@@ -117,7 +117,11 @@ static corot_status expected(corot_reader *r, const char *what) {
   return corot_reader_fail(r, r->at, "expected %s, found %s", what, e.text);
 }
 
-corot_status corot_reader_text_long(corot_reader *r, const char *what, int64_t *value) {
+corot_status corot_reader_expect(corot_reader *r, const char *word) {
+  return corot_reader_word(r, word) ? COROT_OK : expected(r, word);
+}
+
+static corot_status text_long(corot_reader *r, const char *what, int64_t *value) {
   if (!corot_reader_more(r)) return expected(r, what);
   const char *start = r->data + r->at, *p = start + (*start == '-' || *start == '+');
   int64_t v = 0;
@@ -136,10 +140,10 @@ corot_status corot_reader_text_long(corot_reader *r, const char *what, int64_t *
   return COROT_OK;
 }
 
-corot_status corot_reader_text_int(corot_reader *r, const char *what, int *value) {
+static corot_status text_int(corot_reader *r, const char *what, int *value) {
   size_t at = r->at;
-  int64_t v;
-  COROT_TRY(corot_reader_text_long(r, what, &v));
+  int64_t v = 0;
+  COROT_TRY(text_long(r, what, &v));
   if (v < INT_MIN || v > INT_MAX)
     return corot_reader_fail(r, at, "%s is too large: %lld", what, (long long)v);
   *value = (int)v;
@@ -157,57 +161,46 @@ static corot_status text_real(corot_reader *r, const char *what, double *value) 
   return COROT_OK;
 }
 
-corot_status corot_reader_skip_bytes(corot_reader *r, const char *what, size_t n) {
-  if (r->size - r->at < n)
-    return corot_reader_fail(r, r->at, "expected %s, found the end of the file", what);
-  r->at += n;
-  return COROT_OK;
-}
-
 /* n bytes in the order of this machine. */
 static corot_status take(corot_reader *r, const char *what, size_t n, void *value) {
   const char *from = r->data + r->at;
-  COROT_TRY(corot_reader_skip_bytes(r, what, n));
+  if (r->size - r->at < n)
+    return corot_reader_fail(r, r->at, "expected %s, found the end of the file", what);
+  r->at += n;
   for (size_t i = 0; i < n; i++) ((char *)value)[i] = from[r->swap ? n - 1 - i : i];
   return COROT_OK;
 }
 
 corot_status corot_reader_int(corot_reader *r, const char *what, int *value) {
-  int32_t v;
-  if (!r->binary) return corot_reader_text_int(r, what, value);
+  int32_t v = 0;
+  if (!r->binary) return text_int(r, what, value);
   COROT_TRY(take(r, what, sizeof v, &v));
   *value = v;
   return COROT_OK;
 }
 
 corot_status corot_reader_long(corot_reader *r, const char *what, int64_t *value) {
-  return r->binary ? take(r, what, sizeof *value, value) : corot_reader_text_long(r, what, value);
+  return r->binary ? take(r, what, sizeof *value, value) : text_long(r, what, value);
 }
 
 corot_status corot_reader_real(corot_reader *r, const char *what, double *value) {
   return r->binary ? take(r, what, sizeof *value, value) : text_real(r, what, value);
 }
 
-static corot_status check_count(const corot_reader *r, size_t at, const char *what, size_t bytes,
-                                int64_t v, int *value) {
+corot_status corot_reader_point(corot_reader *r, double x[3]) {
+  COROT_TRY(corot_reader_real(r, "x", &x[0]));
+  COROT_TRY(corot_reader_real(r, "y", &x[1]));
+  return corot_reader_real(r, "z", &x[2]);
+}
+
+corot_status corot_reader_count(corot_reader *r, const char *what, size_t bytes, int *value) {
+  size_t at = r->at;
+  int64_t v = 0;
+  COROT_TRY(corot_reader_long(r, what, &v));
   if (v < 0) return corot_reader_fail(r, at, "%s is %lld", what, (long long)v);
   if ((uint64_t)v > (r->size - r->at) / bytes || v > INT_MAX)
     return corot_reader_fail(r, at, "%s is %lld, more than the rest of the file can hold", what,
                              (long long)v);
   *value = (int)v;
   return COROT_OK;
-}
-
-corot_status corot_reader_count(corot_reader *r, const char *what, size_t bytes, int *value) {
-  size_t at = r->at;
-  int64_t v;
-  COROT_TRY(corot_reader_long(r, what, &v));
-  return check_count(r, at, what, bytes, v, value);
-}
-
-corot_status corot_reader_text_count(corot_reader *r, const char *what, size_t bytes, int *value) {
-  size_t at = r->at;
-  int64_t v;
-  COROT_TRY(corot_reader_text_long(r, what, &v));
-  return check_count(r, at, what, bytes, v, value);
 }

@@ -16,14 +16,15 @@ typedef struct corot_reader {
   size_t size;
   size_t at;
   char comment; /* from here to the end of its line; 0: none */
-  bool binary;  /* the values are binary */
-  bool swap;    /* of the other byte order */
+  bool bytes;   /* messages give the byte instead of the line */
+  bool binary;  /* the values that follow are binary */
+  bool swap;    /* and of the other byte order */
 } corot_reader;
 
 /* The whole file, a 0 added behind it; the caller frees. COROT_EIO: it cannot be read. */
 corot_status corot_file_load(const char *path, char **data, size_t *size);
 
-/* COROT_EFORMAT with "FILE:LINE: ", in a binary file "FILE: byte N: ", before the message. */
+/* COROT_EFORMAT with "FILE:LINE: " or "FILE: byte N: " before the message. */
 corot_status corot_reader_fail(const corot_reader *r, size_t at, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 3, 4)))
@@ -45,21 +46,17 @@ void corot_reader_skip_line(corot_reader *r);
 /* Whether the text here is the whole word `word`; if so, goes past it. */
 bool corot_reader_word(corot_reader *r, const char *word);
 
+/* The word must be here. */
+corot_status corot_reader_expect(corot_reader *r, const char *word);
+
 /* One value, decimal in text, 4 or 8 bytes in binary. `what` it is, for messages. */
 corot_status corot_reader_int(corot_reader *r, const char *what, int *value);
 corot_status corot_reader_long(corot_reader *r, const char *what, int64_t *value);
 corot_status corot_reader_real(corot_reader *r, const char *what, double *value);
+corot_status corot_reader_point(corot_reader *r, double x[3]);
 
-/* Integers in text even where the file is binary. */
-corot_status corot_reader_text_int(corot_reader *r, const char *what, int *value);
-corot_status corot_reader_text_long(corot_reader *r, const char *what, int64_t *value);
-
-/* A number of items that are still to come, each of at least `bytes` bytes: not negative, not
-   more than the file can hold, at most INT_MAX. Text if `text`, else as corot_reader_long. */
+/* A number of items that are still to come, each of at least `bytes` bytes: not negative, and not
+   more than the file can hold. As a long in binary. */
 corot_status corot_reader_count(corot_reader *r, const char *what, size_t bytes, int *value);
-corot_status corot_reader_text_count(corot_reader *r, const char *what, size_t bytes, int *value);
-
-/* Goes past n bytes. */
-corot_status corot_reader_skip_bytes(corot_reader *r, const char *what, size_t n);
 
 #endif

@@ -1,0 +1,78 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli.h"
+#include "facts.h"
+#include "json_text.h"
+
+static const char help[] =
+    "usage: corot check MODEL.yaml [--set KEY=VALUE]... [--resolved | --json]\n"
+    "\n"
+    "Reads a scenario and its mesh, builds the model and starts the integrator, as a run would;\n"
+    "says what is wrong (exit code 3), or what it amounts to: sizes, masses, groups, choices.\n"
+    "\n"
+    "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
+    "      --resolved       the whole scenario with all defaults and overrides, as JSON, which is\n"
+    "                       YAML as well; paths remain relative to the scenario's folder\n"
+    "      --json           the facts as JSON\n"
+    "\n"
+    "example: corot check bar.yaml --set strain=green\n";
+
+static const struct option options[] = {
+    {"set", required_argument, NULL, 's'},
+    {"resolved", no_argument, NULL, 'r'},
+    {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
+};
+
+typedef enum report { REPORT_TEXT, REPORT_RESOLVED, REPORT_JSON } report;
+
+static int print_report(const scenario *s, const facts *f, report kind) {
+  if (kind == REPORT_TEXT) {
+    facts_print(s, f, stdout);
+    return EXIT_OK;
+  }
+  json_t *value = kind == REPORT_JSON ? facts_json(s, f) : json_incref(s->resolved);
+  if (!value) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
+  json_text_write(value, stdout);
+  json_decref(value);
+  return EXIT_OK;
+}
+
+static int check(const char *path, int noverride, char **override, report kind) {
+  scenario *s = NULL;
+  facts f = {0};
+  corot_status status = scenario_read(path, noverride, override, &s);
+  if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
+  if (status == COROT_OK) status = facts_find(s, &f);
+  int code = status == COROT_OK ? print_report(s, &f, kind) : failure(status);
+  facts_free(&f);
+  scenario_destroy(s);
+  return code;
+}
+
+int command_check(int argc, char **argv) {
+  char **override = calloc((size_t)argc, sizeof *override);
+  if (!override) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
+  int noverride = 0, code = -1;
+  report kind = REPORT_TEXT;
+  opterr = 0;
+  for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":h", options, NULL)) != -1;) {
+    if (answer == 's')
+      override[noverride++] = optarg;
+    else if (answer == 'r')
+      kind = REPORT_RESOLVED;
+    else if (answer == 'j')
+      kind = REPORT_JSON;
+    else if (answer == 'h')
+      fputs(help, stdout), code = EXIT_OK;
+    else
+      code = option_error("corot check", answer, argv, options);
+  }
+  if (code < 0 && argc - optind != 1)
+    code = usage_error("corot check", "expected one scenario, found %d", argc - optind);
+  if (code < 0) code = check(argv[optind], noverride, override, kind);
+  free(override);
+  return code;
+}

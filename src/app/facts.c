@@ -1,0 +1,212 @@
+#include "facts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "config.h"
+
+/* --- Finding --- */
+
+static double tet_volume(const corot_mesh *mesh, int e) {
+  const double *o = mesh->x[mesh->tet[e][0]];
+  double d[3][3];
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 3; k++) d[i][k] = mesh->x[mesh->tet[e][i + 1]][k] - o[k];
+  return (d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) +
+          d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
+          d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0])) /
+         6;
+}
+
+static double group_volume(const corot_mesh *mesh, const corot_group *group) {
+  double volume = 0;
+  for (int i = 0; i < group->ntet; i++) volume += tet_volume(mesh, group->tet[i]);
+  return volume;
+}
+
+/* Each tet has one material: that of its group, or else the one without a group. */
+static double total_mass(const scenario *s, const facts *f) {
+  double mass = 0, rest = f->quality.volume, density = 0;
+  for (int i = 0; i < s->nmaterial; i++) {
+    const corot_material *m = &s->material[i];
+    if (!m->group) {
+      density = m->density;
+      continue;
+    }
+    double volume = group_volume(f->mesh, corot_mesh_find_group(f->mesh, m->group));
+    mass += m->density * volume;
+    rest -= volume;
+  }
+  return mass + density * rest;
+}
+
+static corot_status choose(const scenario *s, facts *f, corot_state *state) {
+  size_t n = (size_t)corot_model_ndof(f->model);
+  double *zero = calloc(n + 1, sizeof *zero);
+  if (!zero) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
+  corot_integrator *integrator = NULL;
+  corot_status status =
+      corot_integrator_create(&s->integrator, f->model, state, 0, zero, zero, &integrator);
+  if (status == COROT_OK) f->chosen = corot_integrator_chosen(integrator);
+  corot_integrator_destroy(integrator);
+  free(zero);
+  return status;
+}
+
+corot_status facts_find(const scenario *s, facts *f) {
+  corot_state *state = NULL;
+  COROT_TRY(scenario_build(s, &f->mesh, &f->model));
+  f->quality = corot_mesh_measure(f->mesh);
+  f->mass = total_mass(s, f);
+  COROT_TRY(corot_state_create(f->model, &state));
+  f->bytes = corot_model_bytes(f->model) + corot_state_bytes(state);
+  corot_status status = choose(s, f, state);
+  corot_state_destroy(state);
+  if (status != COROT_EINVAL) return status;
+  return config_fail(config_find(s->source->root, "linear_solver"), "%s", corot_error());
+}
+
+void facts_free(facts *f) {
+  corot_model_destroy(f->model);
+  corot_mesh_destroy(f->mesh);
+}
+
+/* --- What both reports say --- */
+
+static int probe_node(const probe_def *p, const corot_mesh *mesh) {
+  return p->node >= 0 ? p->node : corot_mesh_nearest(mesh, p->point);
+}
+
+/* How far the node is from the point that was asked for. */
+static double probe_distance(const probe_def *p, const double x[3]) {
+  double sum = 0;
+  for (int k = 0; k < 3 && p->node < 0; k++) sum += (x[k] - p->point[k]) * (x[k] - p->point[k]);
+  return sqrt(sum);
+}
+
+/* --- Text --- */
+
+static void print_uses(const scenario *s, const char *group, FILE *out) {
+  for (int i = 0; i < s->nfix; i++) {
+    if (strcmp(s->fix[i].group, group) != 0) continue;
+    fputs("; fixed", out);
+    for (int k = 0; k < 3; k++)
+      if (s->fix[i].component[k]) fprintf(out, " %c", "xyz"[k]);
+  }
+  for (int i = 0; i < s->nload; i++)
+    if (s->load[i].group && strcmp(s->load[i].group, group) == 0) fputs("; traction", out);
+  for (int i = 0; i < s->nmaterial; i++)
+    if (s->material[i].group && strcmp(s->material[i].group, group) == 0) fputs("; material", out);
+}
+
+static void print_mesh(const scenario *s, const facts *f, FILE *out) {
+  const corot_mesh_quality *q = &f->quality;
+  fprintf(out, "mesh           %s: %d nodes, %d tets, %.6g m^3\n",
+          s->mesh_file ? s->mesh_file : "box", f->mesh->nnode, f->mesh->ntet, q->volume);
+  fprintf(out, "extent         [%g, %g] x [%g, %g] x [%g, %g] m\n", q->min[0], q->max[0], q->min[1],
+          q->max[1], q->min[2], q->max[2]);
+  fprintf(out, "shape          mean %.3f, worst %.3f (tet %d)\n", q->shape_mean, q->shape_min,
+          q->shape_worst);
+  for (int i = 0; i < f->mesh->ngroup; i++) {
+    const corot_group *g = &f->mesh->group[i];
+    fprintf(out, "group          %s: %d nodes, %d triangles, %d tets", g->name, g->nnode, g->ntri,
+            g->ntet);
+    print_uses(s, g->name, out);
+    fputc('\n', out);
+  }
+}
+
+static void print_model(const scenario *s, const facts *f, FILE *out) {
+  int ndof = corot_model_ndof(f->model), all = 3 * f->mesh->nnode;
+  for (int i = 0; i < s->nmaterial; i++) {
+    const corot_material *m = &s->material[i];
+    fprintf(out, "material       %s%slambda %g, mu %g Pa; %g kg/m^3; damping %g, %g Pa s\n",
+            m->group ? m->group : "", m->group ? ": " : "", m->lambda, m->mu, m->density,
+            m->damping_lambda, m->damping_mu);
+  }
+  fprintf(out, "mass           %.6g kg\n", f->mass);
+  fprintf(out, "freedom        %d of %d components%s\n", ndof, all,
+          ndof == all ? ": a free body" : "");
+  fprintf(out, "loads          %d\n", s->nload);
+  fprintf(out, "strain         %s, frames ", s->strain);
+  if (s->frame_policy == FRAMES_HOLD)
+    fprintf(out, "held for %g s\n", s->frame_interval);
+  else
+    fputs("exact\n", out);
+  fprintf(out, "memory         %.3g MB, %.0f bytes a tet\n", 1e-6 * (double)f->bytes,
+          (double)f->bytes / f->mesh->ntet);
+}
+
+static void print_run(const scenario *s, const facts *f, FILE *out) {
+  const corot_integrator_choice *c = &f->chosen;
+  fprintf(out, "integrator     %s, order up to %d, linear solver %s\n", c->method, c->max_order,
+          c->linear_solver);
+  fprintf(out, "tolerances     relative %g; absolute %g m, %g m/s\n", s->integrator.rtol,
+          c->atol_displacement, c->atol_velocity);
+  fprintf(out, "time           0 to %g s, output every %g s\n", s->t_end, s->output_step);
+  for (int i = 0; i < s->nprobe; i++) {
+    int node = probe_node(&s->probe[i], f->mesh);
+    const double *x = f->mesh->x[node];
+    fprintf(out, "probe          %s: node %d at (%g, %g, %g)", s->probe[i].name, node, x[0], x[1],
+            x[2]);
+    double distance = probe_distance(&s->probe[i], x);
+    if (distance > 0) fprintf(out, ", %.3g m from its point", distance);
+    fputc('\n', out);
+  }
+}
+
+void facts_print(const scenario *s, const facts *f, FILE *out) {
+  fprintf(out, "scenario       %s: ok\n", s->path);
+  if (*s->title) fprintf(out, "title          %s\n", s->title);
+  print_mesh(s, f, out);
+  print_model(s, f, out);
+  print_run(s, f, out);
+}
+
+/* --- JSON --- */
+
+static json_t *groups_json(const corot_mesh *mesh) {
+  json_t *list = json_array();
+  for (int i = 0; i < mesh->ngroup; i++) {
+    const corot_group *g = &mesh->group[i];
+    json_array_append_new(list, json_pack("{s:s, s:i, s:i, s:i}", "name", g->name, "nodes",
+                                          g->nnode, "triangles", g->ntri, "tets", g->ntet));
+  }
+  return list;
+}
+
+static json_t *probes_json(const scenario *s, const corot_mesh *mesh) {
+  json_t *list = json_array();
+  for (int i = 0; i < s->nprobe; i++) {
+    int node = probe_node(&s->probe[i], mesh);
+    const double *x = mesh->x[node];
+    json_array_append_new(
+        list, json_pack("{s:s, s:i, s:[f, f, f], s:f}", "name", s->probe[i].name, "node", node, "x",
+                        x[0], x[1], x[2], "distance", probe_distance(&s->probe[i], x)));
+  }
+  return list;
+}
+
+static json_t *mesh_json(const scenario *s, const facts *f) {
+  const corot_mesh_quality *q = &f->quality;
+  return json_pack("{s:s?, s:i, s:i, s:f, s:[f, f, f], s:[f, f, f], s:f, s:f}", "file",
+                   s->mesh_file, "nodes", f->mesh->nnode, "tets", f->mesh->ntet, "volume",
+                   q->volume, "min", q->min[0], q->min[1], q->min[2], "max", q->max[0], q->max[1],
+                   q->max[2], "shape_mean", q->shape_mean, "shape_min", q->shape_min);
+}
+
+json_t *facts_json(const scenario *s, const facts *f) {
+  const corot_integrator_choice *c = &f->chosen;
+  json_t *integrator =
+      json_pack("{s:s, s:s, s:i, s:f, s:f, s:f}", "method", c->method, "linear_solver",
+                c->linear_solver, "max_order", c->max_order, "rtol", s->integrator.rtol,
+                "atol_displacement", c->atol_displacement, "atol_velocity", c->atol_velocity);
+  json_t *run = json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step);
+  return json_pack("{s:s, s:s, s:o, s:o, s:f, s:i, s:i, s:s, s:s, s:I, s:o, s:o, s:o}", "scenario",
+                   s->path, "title", s->title, "mesh", mesh_json(s, f), "groups",
+                   groups_json(f->mesh), "mass", f->mass, "dofs", corot_model_ndof(f->model),
+                   "loads", s->nload, "strain", s->strain, "frames",
+                   s->frame_policy == FRAMES_HOLD ? "hold" : "exact", "bytes", (json_int_t)f->bytes,
+                   "integrator", integrator, "time", run, "probes", probes_json(s, f->mesh));
+}

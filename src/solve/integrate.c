@@ -1,0 +1,167 @@
+/* What every method of integration has in common: definition, choices, dispatch. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/integrator.h"
+
+corot_integrator_def corot_integrator_defaults(void) {
+  return (corot_integrator_def){.method = "cvode",
+                                .linear_solver = "auto",
+                                .rtol = 1e-4,
+                                .tangent = COROT_TANGENT_HELD,
+                                .reassembly = 20,
+                                .refactorisation = 20,
+                                .gamma_change = 0.3};
+}
+
+static corot_status find_method(const char *name, const integrator_ops **ops) {
+  static const integrator_ops *const built[] = {&integrator_cvode};
+  for (size_t k = 0; k < sizeof built / sizeof *built; k++)
+    if (name && strcmp(name, built[k]->name) == 0) {
+      *ops = built[k];
+      return COROT_OK;
+    }
+  return corot_fail(COROT_EINVAL, "no integrator '%s': cvode", name ? name : "");
+}
+
+static corot_status check(const corot_integrator_def *d) {
+  const struct {
+    const char *name;
+    double value;
+    bool zero; /* stands for "choose" or "none" */
+  } number[] = {
+      {"rtol", d->rtol, false},
+      {"atol_displacement", d->atol_displacement, true},
+      {"atol_velocity", d->atol_velocity, true},
+      {"first_step", d->first_step, true},
+      {"min_step", d->min_step, true},
+      {"max_step", d->max_step, true},
+      {"gamma_change", d->gamma_change, false},
+      {"reassembly", d->reassembly, false},
+      {"refactorisation", d->refactorisation, false},
+      {"max_steps", (double)d->max_steps, true},
+  };
+  for (size_t k = 0; k < sizeof number / sizeof *number; k++)
+    if (!(number[k].value > 0 || (number[k].zero && number[k].value == 0)) ||
+        !isfinite(number[k].value))
+      return corot_fail(COROT_EINVAL, "integrator: %s = %g is not positive", number[k].name,
+                        number[k].value);
+  if (d->max_order < 0 || d->max_order > 5)
+    return corot_fail(COROT_EINVAL, "integrator: max_order = %d is not in 1 to 5 (0: choose)",
+                      d->max_order);
+  if (d->max_step > 0 && d->min_step > d->max_step)
+    return corot_fail(COROT_EINVAL, "integrator: min_step = %g exceeds max_step = %g", d->min_step,
+                      d->max_step);
+  return COROT_OK;
+}
+
+/* Order 2 unless higher orders are stable or cheap. BDF 3, 4, 5 of step h are stable for all modes
+   of M u'' + beta K u' + K u = 0 if beta/h >= 0.145, 0.367, 0.738 (numerical scan of their
+   stability regions); below, lightly damped modes hold the step down or grow. The largest step to
+   expect is taken as the time a shear wave needs across the body at a tolerance of 1e-3, falling
+   with the cube root of the tolerance as that of order 2 does. At 1e-6 and below error control
+   alone keeps the steps short enough, given any damping. */
+static int choose_max_order(const corot_integrator_def *d, const corot_model *model) {
+  double beta = corot_model_damping_time(model);
+  if (d->rtol <= 1e-6 && beta > 0) return 5;
+  double h = cbrt(d->rtol / 1e-3) / corot_model_frequency(model);
+  if (d->max_step > 0) h = fmin(h, d->max_step);
+  return beta >= 0.738 * h ? 5 : beta >= 0.367 * h ? 4 : beta >= 0.145 * h ? 3 : 2;
+}
+
+static void choose(corot_integrator_def *d, const corot_model *model) {
+  if (d->atol_displacement == 0) d->atol_displacement = 0.01 * d->rtol * corot_model_length(model);
+  if (d->atol_velocity == 0) d->atol_velocity = d->atol_displacement * corot_model_frequency(model);
+  if (d->max_order == 0) d->max_order = choose_max_order(d, model);
+}
+
+corot_status corot_integrator_create(const corot_integrator_def *def, const corot_model *model,
+                                     corot_state *state, double t, const double *u, const double *v,
+                                     corot_integrator **integrator) {
+  const integrator_ops *ops;
+  COROT_TRY(check(def));
+  COROT_TRY(find_method(def->method, &ops));
+  corot_integrator *self = calloc(1, sizeof *self);
+  if (!self) return corot_fail(COROT_ENOMEM, "no memory for an integrator");
+  *self = (corot_integrator){
+      .ops = ops, .model = model, .state = state, .def = *def, .t = t};
+  choose(&self->def, model);
+  self->def.method = ops->name;
+  self->def.linear_solver = NULL;
+
+  corot_status status = corot_pencil_create(model, state, def->linear_solver, &self->pencil);
+  if (!status) {
+    corot_pencil_use(self->pencil, def->tangent);
+    status = ops->create(self, u, v);
+  }
+  if (status) {
+    corot_integrator_destroy(self);
+    return status;
+  }
+  *integrator = self;
+  return COROT_OK;
+}
+
+void corot_integrator_destroy(corot_integrator *self) {
+  if (!self) return;
+  if (self->method) self->ops->destroy(self->method);
+  corot_pencil_destroy(self->pencil);
+  free(self);
+}
+
+corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_step *step) {
+  if (!(t_stop > self->t))
+    return corot_fail(COROT_EINVAL, "integrator: cannot stop at t = %.17g, being at %.17g", t_stop,
+                      self->t);
+  if (self->def.max_steps > 0 && self->nst >= self->def.max_steps)
+    return corot_fail(COROT_EINTEGRATE, "%s: max_steps = %ld reached at t = %g", self->ops->name,
+                      self->def.max_steps, self->t);
+  double before = self->t;
+  COROT_TRY(self->ops->step(self, t_stop, step));
+  self->t = step->t;
+  self->nst++;
+  step->h = step->t - before;
+  return COROT_OK;
+}
+
+corot_status corot_integrator_at(corot_integrator *self, double t, double *u, double *v) {
+  return self->ops->at(self, t, u, v);
+}
+
+corot_status corot_integrator_work(corot_integrator *self, double t, double *dissipated,
+                                   double *external) {
+  return self->ops->work(self, t, dissipated, external);
+}
+
+corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
+  corot_pencil_invalidate(self->pencil);
+  return self->ops->changed(self, history);
+}
+
+corot_statistics corot_integrator_statistics(const corot_integrator *self) {
+  corot_pencil_counts p = corot_pencil_statistics(self->pencil);
+  corot_statistics s = {.nje = p.nassembly,
+                        .nfactor = p.nfactor,
+                        .nsolve = p.nsolve,
+                        .nfresh = p.nfresh,
+                        .nindefinite = p.nindefinite,
+                        .force_s = self->force_s,
+                        .work_s = self->work_s,
+                        .assembly_s = p.assembly_s,
+                        .combine_s = p.combine_s,
+                        .factor_s = p.factor_s,
+                        .solve_s = p.solve_s};
+  self->ops->statistics(self, &s);
+  s.nst = self->nst;
+  return s;
+}
+
+corot_integrator_choice corot_integrator_chosen(const corot_integrator *self) {
+  return (corot_integrator_choice){.method = self->ops->name,
+                                   .linear_solver = corot_pencil_solver(self->pencil),
+                                   .atol_displacement = self->def.atol_displacement,
+                                   .atol_velocity = self->def.atol_velocity,
+                                   .max_order = self->def.max_order};
+}

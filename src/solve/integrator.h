@@ -1,0 +1,34 @@
+/* Inside of an integrator: what all methods share, and the functions each of them provides. */
+#ifndef COROT_SOLVE_INTEGRATOR_H
+#define COROT_SOLVE_INTEGRATOR_H
+
+#include <corot/integrate.h>
+
+#include "solve/pencil.h"
+
+typedef struct integrator_ops {
+  const char *name;
+  corot_status (*create)(corot_integrator *self, const double *u, const double *v);
+  void (*destroy)(void *method);
+  corot_status (*step)(corot_integrator *self, double t_stop, corot_step *step);
+  corot_status (*at)(corot_integrator *self, double t, double *u, double *v);
+  corot_status (*work)(corot_integrator *self, double t, double *dissipated, double *external);
+  corot_status (*changed)(corot_integrator *self, corot_history history);
+  void (*statistics)(const corot_integrator *self, corot_statistics *statistics);
+} integrator_ops;
+
+extern const integrator_ops integrator_cvode;
+
+struct corot_integrator {
+  const integrator_ops *ops;
+  const corot_model *model;
+  corot_state *state;
+  corot_pencil *pencil;
+  corot_integrator_def def; /* choices made; its strings are not kept */
+  double t;                 /* reached */
+  long nst;                 /* steps taken */
+  double force_s, work_s;   /* wall time in the right-hand side and the work integrands [s] */
+  void *method;             /* the method's own part */
+};
+
+#endif

@@ -1,0 +1,87 @@
+/* CHOLMOD: sparse Cholesky, by dense blocks where the factor is large enough for them to pay. A
+   pivot that is not positive is an answer, not an accident: the matrix is indefinite. */
+#include <stdlib.h>
+#include <string.h>
+#include <suitesparse/cholmod.h>
+
+#include "solve/linsol.h"
+
+typedef struct cholesky {
+  cholmod_common common;
+  cholmod_sparse A; /* view of the pattern; its values are the caller's */
+  cholmod_factor *L;
+  cholmod_dense *b, *x, *y, *e; /* right-hand side, solution, and workspace kept by cholmod */
+} cholesky;
+
+static corot_status failure(const cholesky *c, const char *phase) {
+  int status = c->common.status;
+  if (status == CHOLMOD_NOT_POSDEF)
+    return corot_fail(COROT_RETRY, "cholmod: the matrix is not positive definite (column %zu)",
+                      c->L->minor);
+  if (status == CHOLMOD_OUT_OF_MEMORY)
+    return corot_fail(COROT_ENOMEM, "cholmod: %s: out of memory", phase);
+  return corot_fail(COROT_EINVAL, "cholmod: %s failed (status %d)", phase, status);
+}
+
+static void cholesky_destroy(void *solver) {
+  cholesky *c = solver;
+  if (!c) return;
+  cholmod_free_factor(&c->L, &c->common);
+  cholmod_free_dense(&c->b, &c->common);
+  cholmod_free_dense(&c->x, &c->common);
+  cholmod_free_dense(&c->y, &c->common);
+  cholmod_free_dense(&c->e, &c->common);
+  cholmod_finish(&c->common);
+  free(c);
+}
+
+static corot_status cholesky_create(const corot_csc *pattern, void **solver) {
+  cholesky *c = calloc(1, sizeof *c);
+  if (!c) return corot_fail(COROT_ENOMEM, "no memory for cholmod");
+  cholmod_start(&c->common);
+  c->common.print = 0;
+  c->common.error_handler = NULL;
+  c->common.final_ll = 1; /* L L', so that a negative pivot stops it */
+  c->common.quick_return_if_not_posdef = 1;
+  c->A = (cholmod_sparse){.nrow = pattern->n,
+                          .ncol = pattern->n,
+                          .nzmax = pattern->nnz,
+                          .p = pattern->colptr,
+                          .i = pattern->row,
+                          .stype = -1, /* lower triangle */
+                          .itype = CHOLMOD_INT,
+                          .xtype = CHOLMOD_PATTERN,
+                          .dtype = CHOLMOD_DOUBLE,
+                          .sorted = 1,
+                          .packed = 1};
+  c->L = cholmod_analyze(&c->A, &c->common);
+  c->b = c->L ? cholmod_allocate_dense(pattern->n, 1, pattern->n, CHOLMOD_REAL, &c->common) : NULL;
+  if (!c->b) {
+    corot_status status = failure(c, "analysis");
+    cholesky_destroy(c);
+    return status;
+  }
+  c->A.xtype = CHOLMOD_REAL;
+  *solver = c;
+  return COROT_OK;
+}
+
+static corot_status cholesky_factor(void *solver, const double *value, bool *fresh) {
+  cholesky *c = solver;
+  *fresh = true;
+  c->A.x = (double *)value; /* cholmod does not write to it */
+  cholmod_factorize(&c->A, c->L, &c->common);
+  return c->common.status == CHOLMOD_OK ? COROT_OK : failure(c, "factorisation");
+}
+
+static corot_status cholesky_solve(void *solver, double *x) {
+  cholesky *c = solver;
+  memcpy(c->b->x, x, c->b->nrow * sizeof *x);
+  if (!cholmod_solve2(CHOLMOD_A, c->L, c->b, NULL, &c->x, NULL, &c->y, &c->e, &c->common))
+    return failure(c, "solve");
+  memcpy(x, c->x->x, c->b->nrow * sizeof *x);
+  return COROT_OK;
+}
+
+const linsol_ops linsol_cholmod = {"cholmod",       COROT_LOWER,    cholesky_create,
+                                   cholesky_factor, cholesky_solve, cholesky_destroy};

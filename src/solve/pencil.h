@@ -1,0 +1,25 @@
+/* Inside of a pencil. */
+#ifndef COROT_SOLVE_PENCIL_H
+#define COROT_SOLVE_PENCIL_H
+
+#include <corot/solve.h>
+
+#include "solve/linsol.h"
+
+struct corot_pencil {
+  const corot_model *model;
+  corot_state *state;
+  int n;
+  corot_tangent tangent;
+  bool dirty; /* K and D do not belong to the present frames, or were never assembled */
+  double (*K)[9], (*D)[9]; /* [nblock] */
+  corot_csc *csc;
+  double *S;    /* [csc->nnz] */
+  double *work; /* [2 n] */
+  const linsol_ops *ops;
+  void *solver;
+  double gamma; /* of S, as set by corot_sun_linsys */
+  corot_pencil_counts counts;
+};
+
+#endif

@@ -1,0 +1,43 @@
+. "$(dirname "$0")/lib.sh"
+
+expect 0 check model.yaml; no_err
+out "model.yaml: ok"
+out "box: 12 nodes, 12 tets, 0.002 m^3"
+out "base: 4 nodes, 2 triangles, 0 tets; fixed x y z"
+out "zmax: 4 nodes, 2 triangles, 0 tets; traction"
+out "mass           2 kg"
+out "24 of 36 components"
+out "corner: node 11 at (0.1, 0.1, 0.2)"
+out "cvode"
+
+expect 0 check model.yaml --json; no_err
+json 'd["mesh"]["tets"] == 12 and d["dofs"] == 24 and abs(d["mass"] - 2) < 1e-12'
+json 'd["probes"][0]["node"] == 11 and d["integrator"]["method"] == "cvode"'
+
+expect 0 check model.yaml --set integrator.rtol=1e-6 --set strain=green --resolved; no_err
+json 'd["integrator"]["rtol"] == 1e-6 and d["strain"] == "green" and d["linear_solver"] == "auto"'
+out '"rtol": 1.0e-06'
+cp stdout resolved.yaml
+expect 0 check resolved.yaml --resolved
+cmp -s stdout resolved.yaml || complain "the resolved scenario does not resolve to itself"
+
+# A mesh lies beside its scenario, wherever the tool is called from.
+mkdir sub
+expect 0 mesh box --size 0.1,0.1,0.2 --cells 1,1,2 -o sub/block.msh
+sed 's/^mesh:.*/mesh: {file: block.msh}/' model.yaml >sub/model.yaml
+expect 0 check sub/model.yaml; out "sub/block.msh: 12 nodes"
+
+# What is wrong, and where.
+expect 3 check none.yaml; no_out; err "none.yaml: No such file"
+expect 3 check .; no_out
+expect 3 check model.yaml --set loads.0.group=zmin2; err "--set loads.0.group=zmin2: loads[0].group: no group"
+expect 3 check model.yaml --set material.nu=0.6; err "must be > -1, < 0.5"
+expect 3 check model.yaml --set material.density=-1; err "material.density: must be > 0, found -1"
+expect 3 check model.yaml --set mesh.refine=1; err "not yet supported"
+printf 'mesh: {file: none.msh}\n' >bad.yaml
+sed 1,2d model.yaml >>bad.yaml
+expect 3 check bad.yaml; no_out; err "bad.yaml:1:14: mesh.file: none.msh"; err "  mesh: {file: none.msh}"
+sed 's/strain/starin/; s/^time/tim/' model.yaml >bad.yaml
+expect 3 check bad.yaml; err "bad.yaml:10:1: tim: unknown key; did you mean time?"
+expect 2 check model.yaml --set
+exit $failed

@@ -1,0 +1,24 @@
+. "$(dirname "$0")/lib.sh"
+
+expect 0 mesh box --size 0.1,0.1,0.6 --cells 2,2,12 --origin -1,0,1e-1 -o box.msh; no_out
+err "box.msh: 117 nodes, 288 tets"
+expect 0 mesh info box.msh; no_err
+out "nodes     117"; out "[-1, -0.9] x [0, 0.1] x [0.1, 0.7]"; out "zmax: 9 nodes, 8 triangles"
+expect 0 mesh info box.msh --json
+json 'd["tets"] == 288 and len(d["groups"]) == 6 and abs(d["volume"] - 0.006) < 1e-12'
+
+expect 2 mesh box --size 1,1 --cells 1,1,1 -o x.msh; err "--size 1,1: expected X,Y,Z"
+expect 2 mesh box --size 1,1,1 --cells 1,1,0 -o x.msh; err "--cells 1,1,0"
+expect 2 mesh box --size 1,1,1 --cells 1,1,1.5 -o x.msh; err "--cells"
+expect 2 mesh box --size 1,1,-1 --cells 1,1,1 -o x.msh; no_out
+expect 2 mesh box --size 1,1,1 -o x.msh; err "--cells is missing"
+expect 2 mesh box --size 1,1,1 --cells 1,1,1; err "-o FILE is missing"
+expect 2 mesh box --size 1,1,1 --cells 1,1,1 -o x.msh y; err "unexpected: y"
+expect 5 mesh box --size 1,1,1 --cells 1,1,1 -o none/x.msh; err "none/x.msh"
+[ ! -e x.msh ] || complain "x.msh was written"
+
+expect 3 mesh info none.msh; err "none.msh"; no_out
+echo garbage >bad.msh
+expect 3 mesh info bad.msh; err "bad.msh"; no_out
+expect 2 mesh info
+exit $failed

@@ -1,0 +1,17 @@
+. "$(dirname "$0")/lib.sh"
+
+expect 0 run model.yaml; no_out
+[ -s out/model/probes.csv ] && [ -s out/model/result.json ] || complain "no output in out/model"
+
+expect 0 run model.yaml -o a/b --quiet; no_out; no_err
+[ -s a/b/energy.csv ] || complain "no a/b/energy.csv"
+
+expect 0 run model.yaml --output a/b --json --set time.end=0.02
+json 'd is not None'
+
+expect 3 run none.yaml; no_out; err "none.yaml"
+expect 3 run model.yaml --set boundary.0.group=bse -o c; err "did you mean base?"; no_out
+expect 3 run model.yaml --set mesh.box=null --set mesh.file=none.msh -o c; err "none.msh"
+echo >file
+expect 5 run model.yaml -o file/x; err "file: exists and is not a folder"; no_out
+exit $failed

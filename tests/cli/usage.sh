@@ -1,0 +1,39 @@
+. "$(dirname "$0")/lib.sh"
+
+expect 0 --version; out "corot 0."; no_err
+expect 0 --help; out "usage: corot COMMAND"; no_err
+expect 2; err "usage: corot COMMAND"; no_out
+expect 2 chek; err "unknown command chek; did you mean check?"; no_out
+expect 2 wombat; err "unknown command wombat"; no_out
+for command in run check schema "mesh box" "mesh info"; do
+  # shellcheck disable=SC2086
+  expect 0 $command --help; out "usage: corot $command"; out "example: corot $command"; no_err
+done
+expect 0 mesh --help; out "usage: corot mesh box"
+expect 2 mesh; err "usage: corot mesh box"
+expect 2 mesh bx; err "did you mean box?"
+
+expect 2 run; err "expected one scenario, found 0"
+expect 2 run a b; err "expected one scenario, found 2"
+expect 2 run --outptu d model.yaml; err "unknown option --outptu; did you mean --output?"
+expect 2 run -z model.yaml; err "unknown option -z"
+expect 2 run model.yaml -o; err "-o needs a value"
+expect 2 run model.yaml --set; err "--set needs a value"
+expect 2 run model.yaml --quiet=3; err "--quiet takes no value"
+expect 2 run model.yaml -o ""; err "the name is empty"
+expect 2 check; err "expected one scenario"
+expect 2 schema a b; err "at most one key"
+expect 2 schema intergrator; err "did you mean integrator?"
+no_out
+
+# A full disk and a reader that has left are errors, not silence.
+"$corot" schema >/dev/full 2>stderr
+[ $? = 5 ] || complain "full disk"
+err "standard output"
+# shellcheck disable=SC2216
+{ "$corot" schema --json; echo $? >code; } 2>stderr | true
+sleep 0.2
+case $(cat code) in 0 | 5) ;; *) complain "closed pipe: $(cat code)" ;; esac
+"$corot" schema >&- 2>stderr
+[ $? = 5 ] || complain "closed stdout"
+exit $failed

@@ -1,0 +1,26 @@
+/* Allocations that fail on demand, in programs made by corot_alloc_test(): there malloc, calloc,
+   realloc, aligned_alloc and free of the program and of our static libraries pass through here.
+   Those inside shared libraries (the C library, SUNDIALS, jansson) do not. */
+#ifndef ALLOC_H
+#define ALLOC_H
+
+#include <corot/base.h>
+
+/* Starts counting anew, and makes the k-th allocation from now on fail; 0: none. */
+void alloc_fail_at(long k);
+
+/* Allocations since then, the failed one included. */
+long alloc_count(void);
+
+/* Blocks allocated since then and not freed. */
+long alloc_live(void);
+
+/* Makes whatever is to be tested, destroys it if that succeeded, returns the status of making. */
+typedef corot_status (*alloc_case)(void *context);
+
+/* Runs the case with its first, second, ... allocation failing until none is left to fail: each
+   time the status must be COROT_ENOMEM with a message, and nothing be left allocated; the last time
+   COROT_OK. The value is the number of allocations. */
+long assert_survives_failed_allocations(alloc_case make, void *context);
+
+#endif

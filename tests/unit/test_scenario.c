@@ -1,0 +1,807 @@
+/* Scenario files: every accepted form, and every refusal with the place it points at. */
+#include "check.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#include "app/config.h"
+#include "app/json_text.h"
+#include "app/scenario.h"
+#include "app/schema.h"
+#include "app/suggest.h"
+
+#define MESH "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}}\n"
+#define MATERIAL "material: {lambda: 1.0e5, mu: 1.0e4, density: 1000}\n"
+#define TIME "time: {end: 2}\n"
+#define MINIMAL MESH MATERIAL TIME /* 3 lines */
+
+#define FILE_NAME BINARY_DIR "/scenario.yaml"
+#define JSON_NAME BINARY_DIR "/scenario.json"
+
+static void write_file(const char *path, const char *text, size_t size) {
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fwrite(text, 1, size, file), size);
+  assert_int_equal(fclose(file), 0);
+}
+
+static corot_status read_as(const char *path, const char *text, scenario **s) {
+  write_file(path, text, strlen(text));
+  return scenario_read(path, 0, NULL, s);
+}
+
+static scenario *accept(const char *text) {
+  scenario *s = NULL;
+  assert_ok(read_as(FILE_NAME, text, &s));
+  return s;
+}
+
+/* The message is FILE:PLACE: WORDS. */
+static void refuse(const char *text, const char *place_and_words) {
+  scenario *s = NULL;
+  char expected[1024];
+  snprintf(expected, sizeof expected, "%s:%s", FILE_NAME, place_and_words);
+  assert_fails(read_as(FILE_NAME, text, &s), COROT_EFORMAT, expected);
+  assert_null(s);
+}
+
+/* --- Defaults and accepted forms --- */
+
+static void defaults(void **state) {
+  (void)state;
+  scenario *s = accept(MINIMAL);
+  corot_integrator_def d = corot_integrator_defaults(), *i = &s->integrator;
+  assert_string_equal(i->method, d.method);
+  assert_string_equal(i->linear_solver, d.linear_solver);
+  assert_close(i->rtol, d.rtol, 0, 0);
+  assert_close(i->atol_displacement, d.atol_displacement, 0, 0);
+  assert_close(i->atol_velocity, d.atol_velocity, 0, 0);
+  assert_int_equal(i->max_order, d.max_order);
+  assert_int_equal(i->max_steps, d.max_steps);
+  assert_close(i->first_step, d.first_step, 0, 0);
+  assert_close(i->min_step, d.min_step, 0, 0);
+  assert_close(i->max_step, d.max_step, 0, 0);
+  assert_int_equal(i->tangent, d.tangent);
+  assert_int_equal(i->reassembly, d.reassembly);
+  assert_int_equal(i->refactorisation, d.refactorisation);
+  assert_close(i->gamma_change, d.gamma_change, 0, 0);
+
+  assert_string_equal(s->title, "");
+  assert_string_equal(s->strain, "polar");
+  assert_int_equal(s->frame_policy, FRAMES_EXACT);
+  assert_int_equal(s->frame_history, COROT_HISTORY_AUTO);
+  assert_int_equal(s->nfix + s->nload + s->nprobe + s->ngroup, 0);
+  assert_close(s->t_end, 2, 0, 0);
+  assert_close(s->output_step, 0.02, 0, 0);
+  assert_true(s->write_fields);
+  assert_int_equal(s->field_every, 1);
+  assert_null(s->mesh_file);
+  assert_int_equal(s->box.cells[2], 2);
+  assert_close(s->box.size[2], 2, 0, 0);
+  scenario_destroy(s);
+}
+
+static const char everything[] =
+    "title: all of it\n"
+    "mesh: {box: {size: [.5, 1., 2], cells: [1, 2, 3], origin: [-1, 0, 1e-1], split: kuhn},\n"
+    "       refine: 0}\n"
+    "groups:\n"
+    "  base: {plane: {axis: z, at: 0.1}}\n"
+    "  tip:  {box: {min: [-1, 0, 2], max: [1, 1, 3]}}\n"
+    "  some: {nodes: [3, 5]}\n"
+    "material: {lambda: 1.0e+5, mu: 1e4, density: 5.E2, damping: {lambda: 3, mu: 4, mass: 0}}\n"
+    "strain: green\n"
+    "frames: {policy: hold, interval: 0.25, history: restart}\n"
+    "boundary:\n"
+    "  - {group: base, fix: [x, z]}\n"
+    "loads:\n"
+    "  - {group: tip, traction: [1, 2, 3], amplitude: [[0, 0], [10, 1]]}\n"
+    "  - {gravity: [0, 0, -9.81]}\n"
+    "time: {end: 4, output: 0.5}\n"
+    "integrator: {method: cvode, rtol: 1e-6, atol: {displacement: 1e-7, velocity: 1e-5},\n"
+    "  max_order: 5, max_steps: 1e6, first_step: 1e-3, min_step: 1e-9, max_step: 0.1,\n"
+    "  jacobian: {tangent: exact, reassembly: 3, refactorisation: 4, gamma_change: 0.5}}\n"
+    "linear_solver: klu\n"
+    "probes:\n"
+    "  corner: {point: [1, 2, 3]}\n"
+    "  n-17_b: {node: 17}\n"
+    "output: {fields: none, every: 7}\n";
+
+static void all_keys(void **state) {
+  (void)state;
+  scenario *s = accept(everything);
+  assert_string_equal(s->title, "all of it");
+  assert_close(s->box.size[0], 0.5, 0, 0);
+  assert_close(s->box.origin[2], 0.1, 0, 0);
+  assert_int_equal(s->ngroup, 3);
+  assert_string_equal(s->group[0].name, "base");
+  assert_int_equal(s->group[0].kind, GROUP_PLANE);
+  assert_int_equal(s->group[0].axis, 2);
+  assert_close(s->group[0].at, 0.1, 0, 0);
+  assert_int_equal(s->group[1].kind, GROUP_BOX);
+  assert_close(s->group[1].max[2], 3, 0, 0);
+  assert_int_equal(s->group[2].kind, GROUP_NODES);
+  assert_int_equal(s->group[2].nnode, 2);
+  assert_int_equal(s->group[2].node[1], 5);
+  assert_close(s->material[0].lambda, 1e5, 0, 0);
+  assert_close(s->material[0].mu, 1e4, 0, 0);
+  assert_close(s->material[0].density, 500, 0, 0);
+  assert_close(s->material[0].damping_lambda, 3, 0, 0);
+  assert_close(s->material[0].damping_mu, 4, 0, 0);
+  assert_null(s->material[0].group);
+  assert_int_equal(s->frame_policy, FRAMES_HOLD);
+  assert_close(s->frame_interval, 0.25, 0, 0);
+  assert_int_equal(s->frame_history, COROT_HISTORY_RESTART);
+  scenario_destroy(s);
+}
+
+static void all_keys_of_loads_and_run(void **state) {
+  (void)state;
+  scenario *s = accept(everything);
+  assert_true(s->fix[0].component[0] && !s->fix[0].component[1] && s->fix[0].component[2]);
+  assert_int_equal(s->nload, 2);
+  assert_int_equal(s->load[0].kind, COROT_TRACTION);
+  assert_string_equal(s->load[0].group, "tip");
+  assert_close(s->load[0].value[1], 2, 0, 0);
+  assert_int_equal(s->load[0].amplitude.n, 2);
+  assert_close(s->load[0].amplitude.time[1], 10, 0, 0);
+  assert_close(s->load[0].amplitude.value[1], 1, 0, 0);
+  assert_int_equal(s->load[1].kind, COROT_GRAVITY);
+  assert_null(s->load[1].group);
+  assert_close(s->load[1].value[2], -9.81, 0, 0);
+  assert_int_equal(s->load[1].amplitude.n, 0);
+  corot_integrator_def *i = &s->integrator;
+  assert_close(i->rtol, 1e-6, 0, 0);
+  assert_close(i->atol_displacement, 1e-7, 0, 0);
+  assert_close(i->atol_velocity, 1e-5, 0, 0);
+  assert_int_equal(i->max_order, 5);
+  assert_int_equal(i->max_steps, 1000000);
+  assert_close(i->min_step, 1e-9, 0, 0);
+  assert_int_equal(i->tangent, COROT_TANGENT_EXACT);
+  assert_int_equal(i->refactorisation, 4);
+  assert_string_equal(i->linear_solver, "klu");
+  assert_int_equal(s->probe[0].node, -1);
+  assert_close(s->probe[0].point[1], 2, 0, 0);
+  assert_string_equal(s->probe[1].name, "n-17_b");
+  assert_int_equal(s->probe[1].node, 17);
+  assert_false(s->write_fields);
+  assert_int_equal(s->field_every, 7);
+  scenario_destroy(s);
+}
+
+static void material_forms(void **state) {
+  (void)state;
+  scenario *s = accept(MESH TIME "material: {E: 260, nu: 0.3, density: 1}\n");
+  assert_close(s->material->mu, 100, 1e-15, 0);
+  assert_close(s->material->lambda, 150, 1e-15, 0);
+  scenario_destroy(s);
+
+  s = accept(MESH TIME "material: {mu: 100, nu: 0.3, density: 1}\n");
+  assert_close(s->material->lambda, 150, 1e-15, 0);
+  json_t *material = json_object_get(s->resolved, "material");
+  assert_close(json_real_value(json_object_get(material, "lambda")), 150, 1e-15, 0);
+  assert_null(json_object_get(material, "nu"));
+  scenario_destroy(s);
+
+  s = accept(MESH TIME
+             "material:\n"
+             "  - {group: hard, E: 2, nu: 0, density: 1}\n"
+             "  - {lambda: 1, mu: 2, density: 3}\n");
+  assert_int_equal(s->nmaterial, 2);
+  assert_string_equal(s->material[0].group, "hard");
+  assert_close(s->material[0].mu, 1, 0, 0);
+  assert_null(s->material[1].group);
+  assert_close(s->material[1].density, 3, 0, 0);
+  scenario_destroy(s);
+}
+
+/* What was left empty is as if it were not there; anchors repeat a value. */
+static void yaml_features(void **state) {
+  (void)state;
+  scenario *s = accept("%YAML 1.1\n---\n" MINIMAL "loads:\nboundary: null\nstrain: ~\n");
+  assert_int_equal(s->nload, 0);
+  assert_string_equal(s->strain, "polar");
+  scenario_destroy(s);
+
+  s = accept(MINIMAL
+             "groups: {a: {nodes: [0]}}\n"
+             "loads:\n"
+             "  - {gravity: [0, 0, -1], amplitude: &ramp [[0, 0], [1, 1]]}\n"
+             "  - {gravity: [1, 0, 0], amplitude: *ramp}\n");
+  assert_int_equal(s->load[1].amplitude.n, 2);
+  scenario_destroy(s);
+
+  s = accept("# comment\r\n" MESH MATERIAL "title: \"caf\xC3\xA9\"\r\n" TIME);
+  assert_string_equal(s->title, "caf\xC3\xA9");
+  scenario_destroy(s);
+}
+
+static void json_files(void **state) {
+  (void)state;
+  static const char text[] =
+      "{\n\t\"mesh\": {\"box\": {\"size\": [1, 1, 2], \"cells\": [1, 1, 2]}},\n"
+      "\t\"material\": {\"lambda\": 1E5, \"mu\": 1e4, \"density\": 1000.0},\n"
+      "\t\"time\": {\"end\": 2.0}\n}\n";
+  scenario *s = NULL;
+  assert_ok(read_as(JSON_NAME, text, &s));
+  assert_close(s->material->lambda, 1e5, 0, 0);
+  scenario_destroy(s);
+  s = accept(text); /* under any name */
+  assert_close(s->t_end, 2, 0, 0);
+  scenario_destroy(s);
+  s = NULL;
+  assert_fails(read_as(JSON_NAME, "{\"mesh\": 'x'}\n", &s), COROT_EFORMAT, "scenario.json:1:");
+  assert_fails(read_as(JSON_NAME, "{\"tme\": {}}", &s), COROT_EFORMAT, "scenario.json:1:2: tme:");
+}
+
+static void mesh_path(void **state) {
+  (void)state;
+  scenario *s = accept("mesh: {file: sub/bar.msh}\n" MATERIAL TIME);
+  assert_string_equal(s->mesh_file, BINARY_DIR "/sub/bar.msh");
+  scenario_destroy(s);
+  s = accept("mesh: {file: /tmp/bar.msh}\n" MATERIAL TIME);
+  assert_string_equal(s->mesh_file, "/tmp/bar.msh");
+  scenario_destroy(s);
+}
+
+/* --- Refusals --- */
+
+typedef struct refusal {
+  const char *text;
+  const char *message; /* from LINE:COLUMN on */
+} refusal;
+
+static void refuse_all(int n, const refusal *r) {
+  for (int i = 0; i < n; i++) refuse(r[i].text, r[i].message);
+}
+
+static void unknown_keys(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {MINIMAL "integrator: {rtoll: 1e-4}",
+       "4:14: integrator.rtoll: unknown key; did you mean rtol?"
+       "\n  integrator: {rtoll: 1e-4}\n               ^"},
+      {MINIMAL "Strain: polar", "4:1: Strain: unknown key; did you mean strain?"},
+      {MINIMAL "rtol: 1e-4", "4:1: rtol: unknown key here; did you mean integrator.rtol?"},
+      {MINIMAL "wombat: 1", "4:1: wombat: unknown key; known here: title, mesh, groups, material"},
+      {MINIMAL "loads:\n- {gravity: [0, 0, 1], amplitud: 1}",
+       "5:24: loads[0].amplitud: unknown key; did you mean amplitude?"},
+      {MINIMAL "probes: {a: {nod: 1}}", "4:14: probes.a.nod: unknown key; did you mean node?"},
+      {MESH TIME "material: {mu: 1, nu: 0, density: 1, damping: {mv: 1}}",
+       "3:48: material.damping.mv: unknown key; did you mean mu?"},
+      {MINIMAL "title: a\ntitle: b", "5:1: title: given twice"},
+      {MINIMAL "? [a, b]\n: 1", "4:3: a key must be a word"},
+  };
+  refuse_all(sizeof r / sizeof *r, r);
+}
+
+static void wrong_types(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {MINIMAL "integrator: 3", "4:13: integrator: expected a map, found 3"},
+      {MINIMAL "integrator: {rtol: abc}", "4:20: integrator.rtol: expected a number, found abc"},
+      {MINIMAL "integrator: {rtol: \"1e-4\"}",
+       "4:20: integrator.rtol: expected a number (without quotes), found the text \"1e-4\""},
+      {MINIMAL "integrator: {rtol: [1]}", "4:20: integrator.rtol: expected a number, found a list"},
+      {MINIMAL "time: 1", "4:1: time: given twice"},
+      {MESH MATERIAL "time: {end: 0x10}", "3:13: time.end: expected a finite number in decimal"},
+      {MESH MATERIAL "time: {end: 0o10}", "3:13: time.end: expected"},
+      {MESH MATERIAL "time: {end: 010}", "3:13: time.end: expected"},
+      {MESH MATERIAL "time: {end: 1_000}", "3:13: time.end: expected"},
+      {MESH MATERIAL "time: {end: .inf}", "3:13: time.end: expected"},
+      {MESH MATERIAL "time: {end: .nan}", "3:13: time.end: expected"},
+      {MESH MATERIAL "time: {end: 1e999}", "3:13: time.end: expected a finite number"},
+      {MESH MATERIAL "time: {end: 1e}", "3:13: time.end: expected"},
+      {MESH MATERIAL "time: {end: .}", "3:13: time.end: expected"},
+      {MESH MATERIAL "time: {end: !!float 1}", "3:21: tags (\"!\") mean nothing here"},
+      {MINIMAL "output: {every: 1.5}", "4:17: output.every: expected a whole number, found 1.5"},
+      {MINIMAL "output: {every: 3e9}", "4:17: output.every: must be at most 2147483647"},
+      {MINIMAL "title: [a]", "4:8: title: expected text, found a list of 1"},
+      {MINIMAL "loads: {gravity: [0, 0, 1]}", "4:8: loads: expected a list of maps"},
+      {MINIMAL "loads: [1]", "4:9: loads[0]: expected a map, found 1"},
+      {MINIMAL "loads: [{gravity: [0, 1]}]",
+       "4:19: loads[0].gravity: expected three numbers, such as [0.0, 0.0, -9.81], found a list of "
+       "2"},
+      {MINIMAL "loads: [{gravity: [0, 1, z]}]",
+       "4:26: loads[0].gravity[2]: expected a number, found z"},
+      {MINIMAL "groups: [a]", "4:9: groups: expected a map of names"},
+      {MINIMAL "groups: {a: {nodes: []}}",
+       "4:21: groups.a.nodes: expected a list of whole numbers"},
+      {MINIMAL "groups: {a: {nodes: [-1]}}", "4:22: groups.a.nodes[0]: must be >= 0, found -1"},
+      {MINIMAL "boundary: [{group: a, fix: x}]", "4:28: boundary[0].fix: expected a list of axes"},
+      {MINIMAL "boundary: [{group: a, fix: [w]}]", "4:29: boundary[0].fix[0]: expected x, y or z"},
+      {MINIMAL "boundary: [{group: a, fix: [x, x]}]", "4:32: boundary[0].fix[1]: x is given twice"},
+      {MINIMAL "strain: [polar]",
+       "4:9: strain: expected cauchy, green, polar, warp, hybrid, found"},
+      {MINIMAL "strain: polr", "4:9: strain: unknown: polr; did you mean polar?"},
+      {MINIMAL "strain: neohooke",
+       "4:9: strain: expected one of cauchy, green, polar, warp, hybrid"},
+  };
+  refuse_all(sizeof r / sizeof *r, r);
+}
+
+static void out_of_range(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {MINIMAL "integrator: {rtol: 0}", "4:20: integrator.rtol: must be > 0, < 1, found 0"},
+      {MINIMAL "integrator: {rtol: -1e-4}", "4:20: integrator.rtol: must be > 0"},
+      {MINIMAL "integrator: {rtol: 1}", "4:20: integrator.rtol: must be > 0, < 1"},
+      {MINIMAL "integrator: {atol: {velocity: 0}}", "4:31: integrator.atol.velocity: must be > 0"},
+      {MINIMAL "integrator: {atol: {velocity: x}}",
+       "4:31: integrator.atol.velocity: expected a number or auto, found x"},
+      {MINIMAL "integrator: {max_order: 6}", "4:25: integrator.max_order: must be 1 to 5, found 6"},
+      {MINIMAL "integrator: {max_steps: 0}", "4:25: integrator.max_steps: must be > 0"},
+      {MINIMAL "integrator: {min_step: 2, max_step: 1}",
+       "4:24: integrator.min_step: larger than max_step"},
+      {MINIMAL "integrator: {first_step: 2, max_step: 1}",
+       "4:26: integrator.first_step: larger than max_step"},
+      {MESH MATERIAL "time: {end: 0}", "3:13: time.end: must be > 0, found 0"},
+      {MESH MATERIAL "time: {end: 1, output: -1}", "3:24: time.output: must be > 0"},
+      {MESH TIME "material: {lambda: 1, mu: 1, density: -5}",
+       "3:39: material.density: must be > 0, found -5"},
+      {MESH TIME "material: {E: 1, nu: 0.5, density: 1}",
+       "3:22: material.nu: must be > -1, < 0.5, found 0.5"},
+      {MESH TIME "material: {E: 1, nu: -1, density: 1}", "3:22: material.nu: must be > -1"},
+      {MESH TIME "material: {lambda: -1, mu: 1, density: 1}",
+       "3:20: material.lambda: 3 lambda + 2 mu must be > 0"},
+      {MESH TIME "material: {lambda: 1, mu: 0, density: 1}", "3:27: material.mu: must be > 0"},
+      {MESH TIME "material: {mu: 1, nu: 0, density: 1, damping: {mu: -1}}",
+       "3:52: material.damping.mu: must be >= 0"},
+      {"mesh: {box: {size: [1, 0, 1], cells: [1, 1, 1]}}\n" MATERIAL TIME,
+       "1:24: mesh.box.size[1]: must be > 0"},
+      {"mesh: {box: {size: [1, 1, 1], cells: [1, 0, 1]}}\n" MATERIAL TIME,
+       "1:42: mesh.box.cells[1]: must be > 0"},
+      {MINIMAL "loads: [{gravity: [0, 0, 1], amplitude: [[0, 0], [0, 1]]}]",
+       "4:51: loads[0].amplitude[1][0]: times must increase, but 0 follows 0"},
+      {MINIMAL "loads: [{gravity: [0, 0, 1], amplitude: [[0, 0, 1]]}]",
+       "4:42: loads[0].amplitude[0]: expected a pair [time, value]"},
+      {MINIMAL "loads: [{gravity: [0, 0, 1], amplitude: []}]",
+       "4:41: loads[0].amplitude: expected"},
+      {MINIMAL "groups: {a: {box: {min: [0, 0, 1], max: [1, 1, 0]}}}",
+       "4:19: groups.a.box: min is larger than max"},
+      {MINIMAL "probes: {a b: {node: 1}}", "4:10: probes.a b: the name of a probe is made of"},
+      {MINIMAL "probes: {\"a,b\": {node: 1}}", "probes.a,b: the name of a probe"},
+  };
+  for (size_t i = 0; i + 1 < sizeof r / sizeof *r; i++) refuse(r[i].text, r[i].message);
+  scenario *s = NULL;
+  assert_fails(read_as(FILE_NAME, r[24].text, &s), COROT_EFORMAT, r[24].message);
+}
+
+static void keys_together(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {MATERIAL TIME, "1:1: mesh is missing"},
+      {MESH TIME, "1:1: material is missing"},
+      {MESH MATERIAL, "1:1: time is missing"},
+      {MESH MATERIAL "time: {output: 1}", "3:1: time: end is missing"},
+      {"mesh: {refine: 0}\n" MATERIAL TIME, "1:1: mesh: file or box is missing"},
+      {"mesh: {file: a.msh, box: {size: [1, 1, 1], cells: [1, 1, 1]}}\n" MATERIAL TIME,
+       "1:21: mesh.box: file and box exclude each other"},
+      {"mesh: {file: \"\"}\n" MATERIAL TIME, "1:14: mesh.file: the name is empty"},
+      {MESH TIME "material: {lambda: 1, mu: 1}", "3:1: material: density is missing"},
+      {MESH TIME "material: {lambda: 1, nu: 0, density: 1}",
+       "3:1: material: give lambda and mu, or"},
+      {MESH TIME "material: {lambda: 1, mu: 1, nu: 0, density: 1}", "3:1: material: give lambda"},
+      {MESH TIME "material: {E: 1, density: 1}", "3:1: material: give lambda and mu, or"},
+      {MESH TIME "material: []", "3:11: material: expected a map or a list of maps"},
+      {MESH TIME "material:\n- {mu: 1, nu: 0, density: 1}\n- {mu: 1, nu: 0, density: 1}",
+       "5:3: material[1]: group is missing"},
+      {MESH TIME
+       "material:\n- {group: a, mu: 1, nu: 0, density: 1}\n- {group: a, mu: 1, nu: 0, density: 1}",
+       "5:11: material[1].group: a has a material already"},
+      {MINIMAL "frames: {policy: hold}", "4:18: frames.policy: hold needs frames.interval"},
+      {MINIMAL "frames: {interval: 1}",
+       "4:10: frames.interval: has an effect with policy: hold only"},
+      {MINIMAL "boundary: [{fix: [x]}]", "4:12: boundary[0]: group is missing"},
+      {MINIMAL "boundary: [{group: a}]", "4:12: boundary[0]: fix is missing"},
+      {MINIMAL "loads: [{group: a}]", "4:9: loads[0]: traction or gravity is missing"},
+      {MINIMAL "loads: [{traction: [0, 0, 1]}]", "4:9: loads[0]: group is missing"},
+      {MINIMAL "loads: [{group: a, gravity: [0, 0, 1]}]", "4:10: loads[0].group: gravity acts on"},
+      {MINIMAL "loads: [{traction: [0, 0, 1], gravity: [0, 0, 1]}]",
+       "4:31: loads[0].gravity: traction and gravity exclude each other"},
+      {MINIMAL "groups: {a: {}}", "4:10: groups.a: plane or box or nodes is missing"},
+      {MINIMAL "groups: {a: {plane: {axis: x}}}", "4:14: groups.a.plane: at is missing"},
+      {MINIMAL "probes: {a: {node: 1, point: [0, 0, 0]}}",
+       "4:14: probes.a.node: point and node exclude each other"},
+  };
+  refuse_all(sizeof r / sizeof *r, r);
+}
+
+static void not_yet(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {"mesh: {file: a.msh, refine: 1}\n" MATERIAL TIME,
+       "1:29: mesh.refine: 1 is not yet supported; only 0 is"},
+      {MINIMAL "boundary: [{group: a, rotate: {rate: 1}}]",
+       "4:23: boundary[0].rotate: not yet supported"},
+      {MINIMAL "boundary: [{group: a, translate: {}}]", "boundary[0].translate: not yet supported"},
+      {MINIMAL "loads: [{group: a, pressure: 50}]", "4:20: loads[0].pressure: not yet supported"},
+      {MINIMAL "loads: [{group: a, force: [0, 0, 1]}]", "4:20: loads[0].force: not yet supported"},
+      {MINIMAL "frames: {policy: step}",
+       "4:18: frames.policy: step is not yet supported; for now: exact, hold"},
+      {MINIMAL "frames: {policy: extrapolate}", "4:18: frames.policy: extrapolate is not yet"},
+      {MINIMAL "frames: {max_angle: 0.1}", "4:10: frames.max_angle: not yet supported"},
+      {MESH TIME "material: {mu: 1, nu: 0, density: 1, damping: {mass: 0.5}}",
+       "3:54: material.damping.mass: 0.5 is not yet supported; only 0 is"},
+      {MINIMAL "integrator: {method: ida}", "4:22: integrator.method: ida is not yet supported"},
+      {MINIMAL "integrator: {method: newmark}", "4:22: integrator.method: newmark is not yet"},
+      {MINIMAL "integrator: {step: 0.1}", "4:14: integrator.step: not yet supported"},
+      {MINIMAL "linear_solver: pcg", "4:16: linear_solver: pcg is not yet supported"},
+  };
+  for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
+    scenario *s = NULL;
+    assert_fails(read_as(FILE_NAME, r[i].text, &s), COROT_EFORMAT, r[i].message);
+  }
+}
+
+static void malformed(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {"", " the file is empty"},
+      {"# nothing\n", " the file is empty"},
+      {"- 1\n", "1:1: expected a map of keys and values"},
+      {"hello\n", "1:1: expected a map"},
+      {"~\n", "1:1: expected a map"},
+      {"a: 1\n---\nb: 2\n", "1:4: a second document begins after this"},
+      {"a: [1, 2\n", "2:1: flow sequence without a closing bracket"},
+      {"a: 1\n\tb: 2\n", "1:4: invalid multiline plain key"},
+      {"a: \xff\n", " byte 3 (0xFF) is not text in UTF-8"},
+      {"a: \xed\xa0\x80\n", " byte 3 (0xED) is not text"},
+      {"a: \xc0\xaf\n", " byte 3 (0xC0) is not text"},
+      {"a: \xe2\x82", " byte 3 (0xE2) is not text"},
+      {"a: \x01\n", " byte 3 (0x01) is not text"},
+      {"a: *b\n", "1:5: no anchor &b stands before this"},
+      {"a: &b [*b]\n", "no anchor &b stands before this"},
+      {"*b : 1\n", "a key must be a word"},
+  };
+  for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
+    scenario *s = NULL;
+    assert_fails(read_as(FILE_NAME, r[i].text, &s), COROT_EFORMAT, r[i].message);
+  }
+  scenario *s = NULL;
+  write_file(FILE_NAME, "a: 1\0b", 6);
+  assert_fails(scenario_read(FILE_NAME, 0, NULL, &s), COROT_EFORMAT, "byte 4 (0x00)");
+  assert_fails(scenario_read("/nowhere/a.yaml", 0, NULL, &s), COROT_EIO,
+               "/nowhere/a.yaml: No such");
+  assert_fails(scenario_read("/", 0, NULL, &s), COROT_EIO, "/: ");
+}
+
+/* Nothing grows beyond its bounds, whatever the file says. */
+static void hostile(void **state) {
+  (void)state;
+  scenario *s = NULL;
+  size_t size = (16 << 20) + 1;
+  char *text = malloc(size);
+  assert_non_null(text);
+  memset(text, '#', size);
+  write_file(FILE_NAME, text, size);
+  assert_fails(scenario_read(FILE_NAME, 0, NULL, &s), COROT_EFORMAT, "larger than 16 MiB");
+
+  memset(text, '[', 10000);
+  write_file(FILE_NAME, text, 10000);
+  assert_fails(scenario_read(FILE_NAME, 0, NULL, &s), COROT_EFORMAT,
+               "nested deeper than 32 levels");
+
+  size_t used = (size_t)sprintf(text, "a: &a [1,1,1,1,1,1,1,1,1,1]\n");
+  for (char c = 'b'; c < 'k'; c++)
+    used +=
+        (size_t)sprintf(text + used, "%c: &%c [*%c,*%c,*%c,*%c,*%c,*%c,*%c,*%c,*%c,*%c]\n", c, c,
+                        c - 1, c - 1, c - 1, c - 1, c - 1, c - 1, c - 1, c - 1, c - 1, c - 1);
+  write_file(FILE_NAME, text, used);
+  assert_fails(scenario_read(FILE_NAME, 0, NULL, &s), COROT_EFORMAT, "more than 1000000 values");
+
+  used = 0;
+  for (int i = 0; i < 10001; i++) used += (size_t)sprintf(text + used, "k%d: 1\n", i);
+  write_file(FILE_NAME, text, used);
+  assert_fails(scenario_read(FILE_NAME, 0, NULL, &s), COROT_EFORMAT, "more than 10000 keys");
+  free(text);
+}
+
+/* A long line is cut to a window, tabs become blanks, and the caret stays under the place. */
+static void excerpts(void **state) {
+  (void)state;
+  char text[600] = MINIMAL "title: {a: '";
+  size_t n = strlen(text);
+  memset(text + n, 'x', 400);
+  strcpy(text + n + 400, "', \xC3\xA9: 1}\n");
+  refuse(text, "4:8: title: expected text, found a map\n  title: {a: 'xxx");
+  assert_true(strlen(corot_error()) < strlen(FILE_NAME) + 200);
+
+  refuse(MINIMAL "output: {\"\xC3\xA9\": 1, fields:\tpng}",
+         "4:10: output.\xC3\xA9: unknown key; known here: fields, every");
+  refuse(MINIMAL "title: \"\xC3\xA9\" \noutput: {fields:\tpng}",
+         "5:18: output.fields: expected one of vtu, none; found png\n"
+         "  output: {fields: png}\n"
+         "                   ^");
+}
+
+/* --- Overrides --- */
+
+static corot_status override(const char *text, const char *assignment, scenario **s) {
+  char copy[256];
+  snprintf(copy, sizeof copy, "%s", assignment);
+  char *list[] = {copy};
+  write_file(FILE_NAME, text, strlen(text));
+  return scenario_read(FILE_NAME, 1, list, s);
+}
+
+static void overrides(void **state) {
+  (void)state;
+  scenario *s = NULL;
+  assert_ok(override(MINIMAL, "integrator.rtol=1e-6", &s)); /* a map that was not there */
+  assert_close(s->integrator.rtol, 1e-6, 0, 0);
+  scenario_destroy(s);
+  assert_ok(override(everything, "loads.0.traction=[1, 0, 0]", &s));
+  assert_close(s->load[0].value[1], 0, 0, 0);
+  assert_int_equal(s->load[0].amplitude.n, 2);
+  scenario_destroy(s);
+  assert_ok(override(everything, "loads=[]", &s));
+  assert_int_equal(s->nload, 0);
+  scenario_destroy(s);
+  assert_ok(override(everything, "material={E: 2, nu: 0, density: 1}", &s));
+  assert_close(s->material->mu, 1, 0, 0);
+  scenario_destroy(s);
+  assert_ok(override(everything, "title=a=b", &s));
+  assert_string_equal(s->title, "a=b");
+  scenario_destroy(s);
+  assert_ok(override(everything, "title=", &s));
+  assert_string_equal(s->title, "");
+  scenario_destroy(s);
+  assert_ok(override(everything, "frames=null", &s));
+  assert_int_equal(s->frame_policy, FRAMES_EXACT);
+  scenario_destroy(s);
+  assert_ok(override(everything, "frames.policy=exact", &s)); /* an interval may be left there */
+  assert_int_equal(s->frame_policy, FRAMES_EXACT);
+  scenario_destroy(s);
+}
+
+static void overrides_in_order(void **state) {
+  (void)state;
+  char *list[] = {(char[]){"mesh.box=null"}, (char[]){"mesh.file=a.msh"},
+                  (char[]){"mesh.file=b.msh"}};
+  scenario *s = NULL;
+  write_file(FILE_NAME, MINIMAL, strlen(MINIMAL));
+  assert_ok(scenario_read(FILE_NAME, 3, list, &s));
+  assert_string_equal(s->mesh_file, BINARY_DIR "/b.msh");
+  scenario_destroy(s);
+}
+
+static void bad_overrides(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {"integrator.rtol=-1",
+       "--set integrator.rtol=-1: integrator.rtol: must be > 0, < 1, found -1"},
+      {"integrator.rtoll=1",
+       "--set integrator.rtoll=1: integrator.rtoll: unknown key; did you mean"},
+      {"integrator.rtol", "--set integrator.rtol: expected KEY=VALUE"},
+      {"=1", "--set =1: expected KEY=VALUE"},
+      {"a..b=1", "--set a..b=1: a key is empty"},
+      {"loads.2.traction=[1, 0, 0]",
+       "loads is a list of 2; \"2\" is no entry of it, they are numbered"},
+      {"loads.-1.traction=1", "\"-1\" is no entry"},
+      {"loads.x=1", "\"x\" is no entry"},
+      {"strain.x=1", "--set strain.x=1: strain is a single value, not a map"},
+      {"integrator.rtol=[1", "--set integrator.rtol=[1: flow sequence without a closing bracket"},
+      {"material.nu=0.3", "material: give lambda and mu, or E and nu, or mu and nu"},
+      {"title=\xff", "is not text in UTF-8"},
+  };
+  for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
+    scenario *s = NULL;
+    assert_fails(override(everything, r[i].text, &s), COROT_EFORMAT, r[i].message);
+  }
+}
+
+/* --- The resolved scenario --- */
+
+static json_t *resolve(const char *text) {
+  scenario *s = accept(text);
+  json_t *resolved = json_incref(s->resolved);
+  scenario_destroy(s);
+  return resolved;
+}
+
+/* Read again, it is the same, and nothing is left to default. */
+static void resolved_is_a_fixed_point(void **state) {
+  (void)state;
+  static const char *const text[] = {
+      MINIMAL, everything,
+      MESH TIME "material: {E: 7, nu: 0.3, density: 1}\ntitle: \"5 \\\" \\n\""};
+  for (int i = 0; i < 3; i++) {
+    json_t *first = resolve(text[i]);
+    FILE *file = fopen(FILE_NAME ".resolved", "w");
+    assert_non_null(file);
+    json_text_write(first, file);
+    fclose(file);
+    scenario *s = NULL;
+    assert_ok(scenario_read(FILE_NAME ".resolved", 0, NULL, &s));
+    assert_true(json_equal(first, s->resolved));
+    scenario_destroy(s);
+    json_decref(first);
+  }
+}
+
+static void resolved_values(void **state) {
+  (void)state;
+  json_t *r = resolve(MINIMAL);
+  char *text = json_dumps(r, JSON_COMPACT | JSON_REAL_PRECISION(15));
+  assert_non_null(text);
+  assert_string_equal(
+      text,
+      "{\"title\":\"\",\"mesh\":{\"box\":{\"size\":[1.0,1.0,2.0],\"cells\":[1,1,2],\"origin\":[0.0,"
+      "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0},\"groups\":{},\"material\":{\"lambda\":100000.0,"
+      "\"mu\":10000.0,\"density\":1000.0,\"damping\":{\"lambda\":0.0,\"mu\":0.0,\"mass\":0.0}},"
+      "\"strain\":\"polar\",\"frames\":{\"policy\":\"exact\",\"history\":\"auto\"},\"boundary\":[],"
+      "\"loads\":[],\"time\":{\"end\":2.0,\"output\":0.02},\"integrator\":{\"method\":\"cvode\","
+      "\"rtol\":0.0001,\"atol\":{\"displacement\":\"auto\",\"velocity\":\"auto\"},\"max_order\":"
+      "\"auto\",\"max_steps\":\"none\",\"first_step\":\"auto\",\"min_step\":\"none\",\"max_step\":"
+      "\"none\",\"jacobian\":{\"tangent\":\"held\",\"reassembly\":20,\"refactorisation\":20,"
+      "\"gamma_change\":0.3}},\"linear_solver\":\"auto\",\"probes\":{},\"output\":{\"fields\":"
+      "\"vtu\",\"every\":1}}");
+  free(text);
+  json_decref(r);
+}
+
+static void numbers_as_text(void **state) {
+  (void)state;
+  static const struct {
+    double x;
+    const char *text;
+  } n[] = {
+      {1e-6, "1.0e-06"},
+      {0.1, "0.1"},
+      {5, "5.0"},
+      {1e20, "1.0e+20"},
+      {-2.5e-9, "-2.5e-09"},
+      {0, "0.0"},
+      {1.0 / 3, "0.3333333333333333"},
+      {0.1 + 0.2, "0.30000000000000004"},
+  };
+  for (size_t i = 0; i < sizeof n / sizeof *n; i++) {
+    char text[48];
+    json_text_number(n[i].x, sizeof text, text);
+    assert_string_equal(text, n[i].text);
+    assert_true(strtod(text, NULL) == n[i].x);
+  }
+}
+
+/* --- Scenario and mesh --- */
+
+static void build(const char *text, corot_mesh **mesh, corot_model **model) {
+  scenario *s = accept(text);
+  assert_ok(scenario_build(s, mesh, model));
+  scenario_destroy(s);
+}
+
+static void builds(void **state) {
+  (void)state;
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL;
+  build(MINIMAL
+        "groups: {base: {plane: {axis: z, at: 0}}, tip: {box: {min: [0, 0, 2], max: [1, 1, 2]}},"
+        " two: {nodes: [0, 1]}}\n"
+        "boundary: [{group: base, fix: [x, y, z]}]\n"
+        "loads: [{group: tip, traction: [0, 0, 1]}]\n"
+        "strain: green\n",
+        &mesh, &model);
+  assert_int_equal(mesh->nnode, 12);
+  assert_int_equal(mesh->ntet, 12);
+  assert_int_equal(corot_mesh_find_group(mesh, "base")->nnode, 4);
+  assert_int_equal(corot_mesh_find_group(mesh, "tip")->ntri, 2);
+  assert_int_equal(corot_mesh_find_group(mesh, "two")->nnode, 2);
+  assert_int_equal(corot_model_ndof(model), 24);
+  assert_string_equal(corot_model_strain(model), "green");
+  corot_model_destroy(model);
+  corot_mesh_destroy(mesh);
+}
+
+static void build_refusals(void **state) {
+  (void)state;
+  write_file(BINARY_DIR "/garbage.msh", "garbage\n", 8);
+  static const refusal r[] = {
+      {"mesh: {file: none.msh}\n" MATERIAL TIME, "1:14: mesh.file: " BINARY_DIR "/none.msh"},
+      {"mesh: {file: garbage.msh}\n" MATERIAL TIME, "1:14: mesh.file: " BINARY_DIR "/garbage.msh"},
+      {"mesh: {box: {size: [1, 1, 1], cells: [2e9, 2e9, 2e9]}}\n" MATERIAL TIME,
+       "1:13: mesh.box: "},
+      {MINIMAL "groups: {a: {plane: {axis: x, at: 7}}}", "4:10: groups.a: "},
+      {MINIMAL "groups: {a: {nodes: [12]}}", "4:10: groups.a: "},
+      {MINIMAL "groups: {xmin: {nodes: [1]}}", "4:10: groups.xmin: "},
+      {MINIMAL "boundary: [{group: zmim, fix: [x]}]",
+       "4:20: boundary[0].group: no group zmim; did you mean zmin?"},
+      {MINIMAL "loads: [{group: wombat, traction: [0, 0, 1]}]",
+       "4:17: loads[0].group: no group wombat; there are: xmin, xmax, ymin, ymax, zmin, zmax"},
+      {MINIMAL "groups: {a: {nodes: [1]}}\nloads: [{group: a, traction: [0, 0, 1]}]",
+       "5:17: loads[0].group: a has no faces for a traction to act on"},
+      {MESH TIME "material: [{group: zmin, mu: 1, nu: 0, density: 1}]",
+       "3:20: material[0].group: zmin has no tets for a material to fill"},
+      {MESH TIME "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 1]}}}\n"
+                 "material: [{group: a, mu: 1, nu: 0, density: 1}]",
+       "4:1: material: "},
+      {MINIMAL "probes: {a: {node: 12}}", "4:20: probes.a.node: the mesh has 12 nodes"},
+  };
+  for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
+    corot_mesh *mesh = NULL;
+    corot_model *model = NULL;
+    scenario *s = accept(r[i].text);
+    assert_fails(scenario_build(s, &mesh, &model), COROT_EFORMAT, r[i].message);
+    assert_true(!mesh && !model);
+    scenario_destroy(s);
+  }
+}
+
+/* --- The table itself --- */
+
+/* Parents before children, no path twice, every required key has a meaning. */
+static void schema_is_sound(void **state) {
+  (void)state;
+  for (int i = 0; i < schema_nkey; i++) {
+    const schema_key *k = &schema_keys[i];
+    assert_true(schema_find(k->path) == k);
+    assert_true(*k->doc);
+    if (k->status != SCHEMA_OPTIONAL) assert_null(k->fallback);
+    if (k->type == SCHEMA_CHOICE) assert_non_null(k->words);
+  }
+  int n = 0;
+  for (const schema_key *k = NULL; (k = schema_child("material.damping", k));) n++;
+  assert_int_equal(n, 3);
+}
+
+static void schema_as_text(void **state) {
+  (void)state;
+  FILE *file = tmpfile();
+  assert_non_null(file);
+  assert_int_equal(schema_print("", file), schema_nkey);
+  assert_int_equal(schema_print("material.damping", file), 4);
+  assert_int_equal(schema_print("loads.gravity", file), 1);
+  assert_int_equal(schema_print("loads[]", file), 6);
+  assert_int_equal(schema_print("mat", file), 0);
+  fclose(file);
+  json_t *schema = schema_json();
+  assert_non_null(schema);
+  json_t *material = json_object_get(json_object_get(schema, "properties"), "material");
+  assert_int_equal(json_array_size(json_object_get(material, "anyOf")), 2);
+  json_decref(schema);
+}
+
+static void suggestions(void **state) {
+  (void)state;
+  static const char *const word[] = {"run", "check", "schema", "mesh"};
+  assert_string_equal(suggest("chekc", 4, word), "check");
+  assert_string_equal(suggest("shema", 4, word), "schema");
+  assert_string_equal(suggest("RUN", 4, word), "run");
+  assert_null(suggest("x", 4, word));
+  assert_null(suggest("wombat", 4, word));
+  assert_int_equal(suggest_distance("", "abc"), 3);
+  assert_int_equal(suggest_distance("ab", "ba"), 1);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(defaults),
+      cmocka_unit_test(all_keys),
+      cmocka_unit_test(all_keys_of_loads_and_run),
+      cmocka_unit_test(material_forms),
+      cmocka_unit_test(yaml_features),
+      cmocka_unit_test(json_files),
+      cmocka_unit_test(mesh_path),
+      cmocka_unit_test(unknown_keys),
+      cmocka_unit_test(wrong_types),
+      cmocka_unit_test(out_of_range),
+      cmocka_unit_test(keys_together),
+      cmocka_unit_test(not_yet),
+      cmocka_unit_test(malformed),
+      cmocka_unit_test(hostile),
+      cmocka_unit_test(excerpts),
+      cmocka_unit_test(overrides),
+      cmocka_unit_test(overrides_in_order),
+      cmocka_unit_test(bad_overrides),
+      cmocka_unit_test(resolved_is_a_fixed_point),
+      cmocka_unit_test(resolved_values),
+      cmocka_unit_test(numbers_as_text),
+      cmocka_unit_test(builds),
+      cmocka_unit_test(build_refusals),
+      cmocka_unit_test(schema_is_sound),
+      cmocka_unit_test(schema_as_text),
+      cmocka_unit_test(suggestions),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,328 @@
+/* The writers: tables, fields, result files. */
+#include <app/folder.h>
+#include <app/schedule.h>
+#include <app/write_csv.h>
+#include <app/write_vtu.h>
+
+#include "temporary.h"
+
+static void assert_file(const char *path, const char *expected) {
+  char *text = slurp(path, NULL);
+  assert_string_equal(text, expected);
+  free(text);
+}
+
+static void folders_are_made_with_those_above(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  assert_ok(folder_make(in(dir, "a/b//c")));
+  assert_ok(folder_make(in(dir, "a/b/c/")));
+  assert_true(exists(in(dir, "a/b/c")));
+  put_file(in(dir, "file"), "");
+  assert_fails(folder_make(in(dir, "file/below")), COROT_EIO, "file");
+  remove_folder(dir);
+}
+
+static void cleaning_leaves_files_of_others_alone(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  assert_ok(folder_make(in(dir, "fields")));
+  const char *ours[] = {"result.json", "fields.pvd", "fields/fields_000000.vtu",
+                        "fields/fields_1234567.vtu"};
+  const char *theirs[] = {"notes.txt", "fields/fields_.vtu", "fields/fields_old.vtu",
+                          "fields/fields_000001.vtu.gz"};
+  for (int i = 0; i < 4; i++) {
+    put_file(in(dir, ours[i]), "old");
+    put_file(in(dir, theirs[i]), "old");
+  }
+  assert_ok(folder_clean(dir));
+  for (int i = 0; i < 4; i++) {
+    assert_false(exists(in(dir, ours[i])));
+    assert_true(exists(in(dir, theirs[i])));
+  }
+  assert_ok(folder_clean(dir));
+  remove_folder(dir);
+}
+
+static void a_file_is_replaced_as_a_whole_or_not_at_all(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  put_file(in(dir, "result.json"), "old");
+  assert_int_equal(symlink("/dev/full", in(dir, "result.json.tmp")), 0);
+  assert_fails(file_replace_durably(in(dir, "result.json"), "new\n", 4), COROT_EIO,
+               "result.json.tmp: cannot write: No space left");
+  assert_file(in(dir, "result.json"), "old");
+  assert_false(exists(in(dir, "result.json.tmp")));
+
+  assert_ok(file_replace_durably(in(dir, "result.json"), "new\n", 4));
+  assert_file(in(dir, "result.json"), "new\n");
+  assert_false(exists(in(dir, "result.json.tmp")));
+  remove_folder(dir);
+}
+
+static void probes_have_a_column_a_component(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  const char *const name[] = {"tip", "a \"b\", c"};
+  const double x[3][3] = {{0, 0, 0}, {1, -2, 0.1}, {1e300, -2.5e-308, 0}};
+  table *t = NULL;
+  assert_ok(probes_open(dir, 2, name, &t));
+  assert_ok(probes_row(t, 0.25, 2, (const int[]){1, 2}, x));
+  assert_ok(table_close(t));
+  assert_file(in(dir, "probes.csv"),
+              "t,tip.ux,tip.uy,tip.uz,\"a \"\"b\"\", c.ux\",\"a \"\"b\"\", c.uy\","
+              "\"a \"\"b\"\", c.uz\"\n"
+              "0.25,1,-2,0.10000000000000001,1.0000000000000001e+300,-2.4999999999999998e-308,0\n");
+  assert_ok(probes_open(dir, 0, NULL, &t));
+  assert_ok(probes_row(t, 1, 0, NULL, x));
+  assert_ok(table_close(t));
+  assert_file(in(dir, "probes.csv"), "t\n1\n");
+  remove_folder(dir);
+}
+
+static void rows_reach_the_disk_as_they_are_made(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  table *t = NULL;
+  assert_ok(energy_open(dir, &t));
+  const char *head =
+      "t,kinetic,elastic,dissipated,external_work,balance,frame_energy,px,py,pz,lx,ly,lz\n";
+  assert_file(in(dir, "energy.csv"), head);
+  ledger row = {.t = 1,
+                .kinetic = 2,
+                .elastic = 3,
+                .dissipated = 4,
+                .external_work = 5,
+                .balance = 6,
+                .frame_energy = 7,
+                .momentum = {8, 9, 10},
+                .angular_momentum = {11, 12, 13}};
+  assert_ok(energy_row(t, &row));
+  char expected[256];
+  snprintf(expected, sizeof expected, "%s1,2,3,4,5,6,7,8,9,10,11,12,13\n", head);
+  assert_file(in(dir, "energy.csv"), expected);
+  assert_ok(table_close(t));
+  remove_folder(dir);
+}
+
+static void steps_name_what_happened(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  table *t = NULL;
+  assert_ok(steps_open(dir, &t));
+  step_row row = {.t = 1, .h = 0.5, .order = 2, .error = 0.25, .newton = 3};
+  assert_ok(steps_add(t, &row));
+  row.events = EVENT_KINK;
+  assert_ok(steps_add(t, &row));
+  row = (step_row){.t = 2,
+                   .h = 1,
+                   .order = 1,
+                   .error = 0.5,
+                   .newton = 1,
+                   .angle_max = 0.5,
+                   .angle_mean = 0.125,
+                   .frame_energy = -1,
+                   .events = EVENT_KINK | EVENT_FRAMES | EVENT_RESTART};
+  assert_ok(steps_add(t, &row));
+  assert_ok(table_close(t));
+  assert_file(in(dir, "steps.csv"),
+              "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy\n"
+              "1,0.5,2,0.25,3,,,,\n"
+              "1,0.5,2,0.25,3,kink,,,\n"
+              "2,1,1,0.5,1,kink+frames+restart,0.5,0.125,-1\n");
+  remove_folder(dir);
+}
+
+static void a_full_disk_is_named(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  assert_int_equal(symlink("/dev/full", in(dir, "steps.csv")), 0);
+  table *t = NULL;
+  assert_fails(steps_open(dir, &t), COROT_EIO, "steps.csv: cannot write: No space left");
+  assert_null(t);
+  assert_fails(steps_open(in(dir, "nowhere"), &t), COROT_EIO, "nowhere/steps.csv: cannot open it");
+  remove_folder(dir);
+}
+
+/* Two tets that share a face. */
+static const corot_mesh *two_tets(void) {
+  static double x[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  static int tet[2][4] = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  static const corot_mesh mesh = {.nnode = 5, .x = x, .ntet = 2, .tet = tet};
+  return &mesh;
+}
+
+static void fill(vtu_fields f, double start) {
+  for (int i = 0; i < 15; i++) (&f.displacement[0][0])[i] = start + i;
+  for (int i = 0; i < 15; i++) (&f.velocity[0][0])[i] = start - i;
+  for (int i = 0; i < 18; i++) (&f.frame[0][0])[i] = start + 100 + i;
+  for (int i = 0; i < 12; i++) (&f.strain[0][0])[i] = start + 200 + i;
+  for (int e = 0; e < 2; e++) f.von_mises[e] = start + 300 + e, f.det[e] = start + 400 + e;
+}
+
+/* The data of an array in the text of a .vtu file, read as the format has it: by its offset from
+   the underscore. */
+static const void *array_of(const char *file, size_t size, const char *name, uint64_t bytes) {
+  char key[64];
+  snprintf(key, sizeof key, "Name=\"%s\"", name);
+  const char *entry = strstr(file, key);
+  if (!entry) fail_msg("there is no array %s", name);
+  const char *attribute = strstr(entry, "offset=\"");
+  const char *data = strstr(file, "<AppendedData encoding=\"raw\">");
+  assert_true(attribute && data);
+  data = strchr(data, '_') + 1;
+  data += strtoul(attribute + strlen("offset=\""), NULL, 10);
+  uint64_t stored;
+  memcpy(&stored, data, sizeof stored);
+  assert_int_equal(stored, bytes);
+  assert_true(data + 8 + bytes <= file + size);
+  assert_int_equal((data - file) % 8, 0);
+  return data + 8;
+}
+
+static void assert_counts_from(const void *data, int n, double start, double step) {
+  for (int i = 0; i < n; i++) {
+    double x;
+    memcpy(&x, (const char *)data + 8 * i, sizeof x);
+    assert_close(x, start + step * i, 0, 0);
+  }
+}
+
+static void fields_read_back(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  vtu *w = NULL;
+  assert_ok(vtu_create(dir, two_tets(), (const int[]){1, 0}, &w));
+  fill(vtu_arrays(w), 1000);
+  assert_ok(vtu_write(w, 0.125));
+  assert_ok(vtu_finish(w));
+  vtu_destroy(w);
+
+  size_t size;
+  char *file = slurp(in(dir, "fields/fields_000000.vtu"), &size);
+  assert_non_null(strstr(file, "<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">"));
+  const char *end = "\n</AppendedData>\n</VTKFile>\n";
+  assert_memory_equal(file + size - strlen(end), end, strlen(end));
+  assert_counts_from(array_of(file, size, "TimeValue", 8), 1, 0.125, 0);
+  assert_counts_from(array_of(file, size, "displacement", 120), 15, 1000, 1);
+  assert_counts_from(array_of(file, size, "velocity", 120), 15, 1000, -1);
+  assert_counts_from(array_of(file, size, "frame", 144), 18, 1100, 1);
+  assert_counts_from(array_of(file, size, "strain", 96), 12, 1200, 1);
+  assert_counts_from(array_of(file, size, "von_mises", 16), 2, 1300, 1);
+  assert_counts_from(array_of(file, size, "det", 16), 2, 1400, 1);
+  assert_memory_equal(array_of(file, size, "material", 8), ((int32_t[]){1, 0}), 8);
+  assert_memory_equal(array_of(file, size, "Points", 120), two_tets()->x, 120);
+  assert_memory_equal(array_of(file, size, "connectivity", 32), two_tets()->tet, 32);
+  assert_memory_equal(array_of(file, size, "offsets", 8), ((int32_t[]){4, 8}), 8);
+  assert_memory_equal(array_of(file, size, "types", 2), "\12\12", 2);
+  free(file);
+  remove_folder(dir);
+}
+
+static void the_list_of_frames_is_whole_at_any_time(void **state) {
+  (void)state;
+  char *dir = temporary_folder(), expected[1024];
+  const char *head =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  const char *first = "<DataSet timestep=\"0\" file=\"fields/fields_000000.vtu\"/>\n";
+  const char *second =
+      "<DataSet timestep=\"0.10000000000000001\" file=\"fields/fields_000001.vtu\"/>\n";
+  const char *tail = "</Collection>\n</VTKFile>\n";
+  vtu *w = NULL;
+  assert_ok(vtu_create(dir, two_tets(), (const int[]){0, 0}, &w));
+  snprintf(expected, sizeof expected, "%s%s", head, tail);
+  assert_file(in(dir, "fields.pvd"), expected);
+  assert_ok(vtu_write(w, 0));
+  snprintf(expected, sizeof expected, "%s%s%s", head, first, tail);
+  assert_file(in(dir, "fields.pvd"), expected);
+  assert_ok(vtu_write(w, 0.1));
+  snprintf(expected, sizeof expected, "%s%s%s%s", head, first, second, tail);
+  assert_file(in(dir, "fields.pvd"), expected);
+  assert_false(exists(in(dir, "fields/frame.tmp")));
+
+  /* A frame that does not fit is neither there nor listed. */
+  assert_int_equal(symlink("/dev/full", in(dir, "fields/frame.tmp")), 0);
+  assert_fails(vtu_write(w, 0.2), COROT_EIO, "fields/frame.tmp: cannot write: No space left");
+  assert_false(exists(in(dir, "fields/fields_000002.vtu")));
+  assert_file(in(dir, "fields.pvd"), expected);
+  vtu_destroy(w);
+  remove_folder(dir);
+}
+
+static void outputs_are_due_once_each(void **state) {
+  (void)state;
+  schedule s = {.end = 1.0, .output_step = 0.3, .near = 1e-12};
+  double t, due[8];
+  int n = 0;
+  assert_true(schedule_take_output(&s, 0, &due[n++]));
+  assert_false(schedule_take_output(&s, 0.29, &t));
+  while (schedule_take_output(&s, 0.95, &t)) due[n++] = t; /* three in one step */
+  assert_false(schedule_take_output(&s, 0.99, &t));
+  assert_true(schedule_take_output(&s, 1.0, &due[n++]));
+  assert_false(schedule_take_output(&s, 1.0, &t));
+  assert_int_equal(n, 5);
+  for (int i = 0; i < 4; i++) assert_close(due[i], i * 0.3, 0, 0);
+  assert_close(due[4], 1.0, 0, 0);
+
+  /* The end is a multiple but for rounding: 3 * 0.1 > 0.3. */
+  s = (schedule){.end = 0.3, .output_step = 0.1, .near = 0.3e-12};
+  for (n = 0; schedule_take_output(&s, 0.3, &t); n++) due[n] = t;
+  assert_int_equal(n, 4);
+  assert_close(due[3], 0.3, 0, 0);
+
+  s = (schedule){.end = 2.0, .near = 2e-12};
+  for (n = 0; schedule_take_output(&s, 2, &t); n++) due[n] = t;
+  assert_int_equal(n, 2);
+}
+
+static void stops_are_kinks_updates_and_the_end(void **state) {
+  (void)state;
+  double kink[] = {0.25, 0.3};
+  schedule s = {.end = 0.4,
+                .frame_interval = 0.1,
+                .nkink = 2,
+                .kink = kink,
+                .near = 0.4e-12,
+                .next_frames = 1};
+  const struct {
+    double t;
+    bool kink, frames;
+  } expected[] = {{0.1, false, true},
+                  {0.2, false, true},
+                  {0.25, true, false},
+                  {0.3, true, true},
+                  {0.4, false, false}};
+  for (int i = 0; i < 5; i++) {
+    double t = schedule_stop(&s);
+    assert_close(t, expected[i].t, 1e-15, 0);
+    assert_int_equal(schedule_take_kink(&s, t), expected[i].kink);
+    assert_int_equal(schedule_take_frames(&s, t), expected[i].frames);
+    assert_false(schedule_take_kink(&s, t) || schedule_take_frames(&s, t));
+  }
+  assert_close(schedule_stop(&s), 0.4, 0, 0);
+
+  /* The k-th update is at k * interval to the last bit. */
+  s = (schedule){.end = 1000, .frame_interval = 0.1, .near = 1e-9, .next_frames = 1};
+  for (int k = 1; k < 9999; k++) {
+    double t = schedule_stop(&s);
+    assert_close(t, k * 0.1, 0, 0);
+    assert_true(schedule_take_frames(&s, t));
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(folders_are_made_with_those_above),
+      cmocka_unit_test(cleaning_leaves_files_of_others_alone),
+      cmocka_unit_test(a_file_is_replaced_as_a_whole_or_not_at_all),
+      cmocka_unit_test(probes_have_a_column_a_component),
+      cmocka_unit_test(rows_reach_the_disk_as_they_are_made),
+      cmocka_unit_test(steps_name_what_happened),
+      cmocka_unit_test(a_full_disk_is_named),
+      cmocka_unit_test(fields_read_back),
+      cmocka_unit_test(the_list_of_frames_is_whole_at_any_time),
+      cmocka_unit_test(outputs_are_due_once_each),
+      cmocka_unit_test(stops_are_kinks_updates_and_the_end),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
