@@ -1,20 +1,11 @@
 /* What a run shows of a state: nodal vectors, and tensors of the tets. */
 #include "core/kernel.h"
 
-static void spread3(const corot_model *m, const double *free_values, double (*nodal)[3]) {
-  if (!nodal) return;
-  for (int n = 0; n < m->mesh->nnode; n++)
-    for (int c = 0; c < 3; c++) {
-      int i = m->dof[n][c];
-      nodal[n][c] = i >= 0 ? free_values[i] : 0;
-    }
-}
-
 void corot_nodal(const corot_model *m, double t, const double *u, const double *v,
                  double (*displacement)[3], double (*velocity)[3]) {
   (void)t; /* supports do not move */
-  spread3(m, u, displacement);
-  spread3(m, v, velocity);
+  if (displacement) model_spread(m, u, displacement[0], 3);
+  if (velocity) model_spread(m, v, velocity[0], 3);
 }
 
 /* sqrt(3/2 dev:dev) of sym(A). */
@@ -43,18 +34,13 @@ corot_status corot_elements(const corot_model *m, corot_state *s, double t, cons
   (void)t;
   const strain_measure *measure = &strain_measures[m->strain];
   bool linear = measure->frame == FRAME_IDENTITY && measure->shear == BY_FRAME;
-  double(*nodal)[4] = s->u;
-  for (int n = 0; n < m->mesh->nnode; n++)
-    for (int c = 0; c < 3; c++) {
-      int i = m->dof[n][c];
-      nodal[n][c] = i >= 0 ? u[i] : 0;
-    }
+  model_spread(m, u, s->u[0], 4);
   s->inverted = -1;
   for (int b = 0; b < m->tets.nblock; b++) {
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
     vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])nodal);
+    mat3 F = deformation(block, (const double(*)[4])s->u);
     mat3 R = frame_in_use(measure, m, s, b, F, &inverted);
     mat3 P = stress(measure, vd_all(mat->lambda), vd_all(mat->mu), F, R);
     vd det = mat3_det(F, mat3_cofactor(F));

@@ -11,8 +11,8 @@ COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot
     mat3 P = stress(s, vd_all(mat->lambda), vd_all(mat->mu), F, R);
     if (damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
-      P = mat3_add(P, stress_viscous(s, vd_all(mat->damping_lambda), vd_all(mat->damping_mu), F, R,
-                                     V));
+      P = mat3_add(
+          P, stress_viscous(s, vd_all(mat->damping_lambda), vd_all(mat->damping_mu), F, R, V));
     }
     store_forces(block, P, state->force[b]);
     if (vi_any(inverted)) return first_inverted(m, b, inverted);
@@ -23,11 +23,16 @@ COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot
 /* The hot loop is compiled for each measure, so that its branches on the measure fall away. */
 COROT_CLONES int kernel_force(const corot_model *m, corot_state *state, bool damped) {
   switch (m->strain) {
-    case CAUCHY: return force_loop(&strain_measures[CAUCHY], m, state, damped);
-    case WARP: return force_loop(&strain_measures[WARP], m, state, damped);
-    case POLAR: return force_loop(&strain_measures[POLAR], m, state, damped);
-    case HYBRID: return force_loop(&strain_measures[HYBRID], m, state, damped);
-    default: return force_loop(&strain_measures[GREEN], m, state, damped);
+    case CAUCHY:
+      return force_loop(&strain_measures[CAUCHY], m, state, damped);
+    case WARP:
+      return force_loop(&strain_measures[WARP], m, state, damped);
+    case POLAR:
+      return force_loop(&strain_measures[POLAR], m, state, damped);
+    case HYBRID:
+      return force_loop(&strain_measures[HYBRID], m, state, damped);
+    default:
+      return force_loop(&strain_measures[GREEN], m, state, damped);
   }
 }
 
@@ -45,8 +50,7 @@ COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, coro
         vd_sum(block->volume * strain_energy(s, vd_all(mat->lambda), vd_all(mat->mu), F, R));
     if (!damped) continue;
     mat3 V = gradient(block, (const double(*)[4])state->v);
-    mat3 P =
-        stress_viscous(s, vd_all(mat->damping_lambda), vd_all(mat->damping_mu), F, R, V);
+    mat3 P = stress_viscous(s, vd_all(mat->damping_lambda), vd_all(mat->damping_mu), F, R, V);
     sum_power += vd_sum(block->volume * mat3_dot(P, V));
   }
   *elastic = sum_elastic;

@@ -84,14 +84,14 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
       for (int c = 0; c <= a; c++, k++) {
         vd gg = vec3_dot(n.g[a], n.g[c]);
         element[k] = constant_bases(lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
-        if (D) damping[k] = constant_bases(block->volume * mat->damping_lambda,
-                                    block->volume * mat->damping_mu, gg, t.BsBs, n.p[a], n.p[c],
-                                    n.s[a], n.s[c]);
+        if (D)
+          damping[k] =
+              constant_bases(block->volume * mat->damping_lambda, block->volume * mat->damping_mu,
+                             gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
         if (s->pressure == BY_GRADIENT)
           element[k] = mat3_add_identity(element[k], vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
         if (exact && s->frame == FRAME_POLAR)
-          element[k] =
-              add_skew_transposed(element[k], n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
+          element[k] = add_skew_transposed(element[k], n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
       }
     if (K) complete_and_scatter(K, place, element);
     if (D) complete_and_scatter(D, place, damping);

@@ -12,7 +12,9 @@ typedef struct mat3 {
   vd m[3][3];
 } mat3;
 
-#define EACH_IJ for (int i = 0; i < 3; i++) for (int j = 0; j < 3; j++)
+#define EACH_IJ               \
+  for (int i = 0; i < 3; i++) \
+    for (int j = 0; j < 3; j++)
 
 COROT_INLINE mat3 mat3_identity(void) {
   mat3 A;
@@ -73,8 +75,7 @@ COROT_INLINE mat3 mat3_gram(mat3 A) {
   mat3 C;
   for (int i = 0; i < 3; i++)
     for (int j = i; j < 3; j++)
-      C.m[i][j] = C.m[j][i] =
-          A.m[0][i] * A.m[0][j] + A.m[1][i] * A.m[1][j] + A.m[2][i] * A.m[2][j];
+      C.m[i][j] = C.m[j][i] = A.m[0][i] * A.m[0][j] + A.m[1][i] * A.m[1][j] + A.m[2][i] * A.m[2][j];
   return C;
 }
 
@@ -123,8 +124,7 @@ COROT_INLINE vec3 mat3_vee(mat3 A) {
 
 COROT_INLINE vec3 mat3_apply(mat3 A, vec3 x) {
   vec3 y;
-  for (int i = 0; i < 3; i++)
-    y.v[i] = A.m[i][0] * x.v[0] + A.m[i][1] * x.v[1] + A.m[i][2] * x.v[2];
+  for (int i = 0; i < 3; i++) y.v[i] = A.m[i][0] * x.v[0] + A.m[i][1] * x.v[1] + A.m[i][2] * x.v[2];
   return y;
 }
 

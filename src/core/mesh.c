@@ -20,9 +20,7 @@ corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const 
   corot_mesh_place place;
   corot_face *face = NULL;
   corot_mesh *m;
-  if (nnode <= 0 || ntet <= 0)
-    return corot_fail(COROT_EINVAL, "a mesh of %d nodes and %d tets: both must be positive", nnode,
-                      ntet);
+  COROT_TRY(corot_mesh_check_counts(nnode, ntet));
   COROT_TRY(COROT_ALLOC(m, 1));
   corot_status status = copy_arrays(m, nnode, x, ntet, tet);
   if (!status) status = corot_mesh_check(m, &names, &place, &face);

@@ -54,6 +54,9 @@ typedef struct corot_mesh_place {
   int index;
 } corot_mesh_place;
 
+/* Whether there are tets, and 3 * nnode and 4 * ntet fit an int. */
+corot_status corot_mesh_check_counts(int nnode, int ntet);
+
 /* Whether nodes and tets are sound, as <corot/mesh.h> promises; groups are not looked at.
    On success the sorted faces are the caller's to free; COROT_EINVAL: see `place`. */
 corot_status corot_mesh_check(const corot_mesh *mesh, const corot_mesh_names *names,

@@ -33,9 +33,7 @@ static const char *at_tet(const check *c, int e) {
   return c->names->tet;
 }
 
-static corot_status check_counts(const check *c) {
-  int nnode = c->mesh->nnode, ntet = c->mesh->ntet;
-  *c->place = (corot_mesh_place){PLACE_MESH, 0};
+corot_status corot_mesh_check_counts(int nnode, int ntet) {
   if (nnode < 0 || ntet < 0)
     return corot_fail(COROT_EINVAL, "a mesh cannot have %d nodes and %d tets", nnode, ntet);
   if (ntet == 0) return corot_fail(COROT_EINVAL, "the mesh has no tets");
@@ -142,7 +140,8 @@ corot_status corot_mesh_check(const corot_mesh *mesh, const corot_mesh_names *na
                               corot_mesh_place *place, corot_face **face) {
   check c = {mesh, names, place};
   corot_face *f;
-  COROT_TRY(check_counts(&c));
+  *place = (corot_mesh_place){PLACE_MESH, 0};
+  COROT_TRY(corot_mesh_check_counts(mesh->nnode, mesh->ntet));
   COROT_TRY(check_coordinates(&c));
   for (int e = 0; e < mesh->ntet; e++) {
     COROT_TRY(check_corners(&c, e));

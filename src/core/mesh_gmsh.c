@@ -41,6 +41,11 @@ static const corot_gmsh_type types[] = {
     {93, 3, 125, "125-node hexahedron"},
 };
 
+/* Before the name: "an 8-node hexahedron", "an 18-node prism". */
+static const char *article(const corot_gmsh_type *t) {
+  return t->name[0] == '8' || strncmp(t->name, "18", 2) == 0 ? "an" : "a";
+}
+
 static bool is_simplex(const corot_gmsh_type *t) { return t->nnode == t->dim + 1; }
 
 corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element *element,
@@ -53,8 +58,8 @@ corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element
                              (long long)element->tag, number);
   if (t->dim == 3 && !is_simplex(t))
     return corot_reader_fail(&g->r, element->at,
-                             "element %lld is a %s: only linear tets are supported",
-                             (long long)element->tag, t->name);
+                             "element %lld is %s %s: only linear tets are supported",
+                             (long long)element->tag, article(t), t->name);
   *type = t;
   return COROT_OK;
 }
@@ -73,10 +78,11 @@ corot_status corot_gmsh_add_element(corot_gmsh *g, corot_draft_element *element,
   bool in_group = false;
   for (int i = 0; i < n; i++) in_group = in_group || physical[i] != 0;
   if (in_group && !is_simplex(type))
-    return corot_reader_fail(&g->r, element->at,
-                             "element %lld of a physical group is a %s: only points, 2-node lines, "
-                             "3-node triangles and 4-node tets are supported",
-                             (long long)element->tag, type->name);
+    return corot_reader_fail(
+        &g->r, element->at,
+        "element %lld of a physical group is %s %s: only points, 2-node lines, "
+        "3-node triangles and 4-node tets are supported",
+        (long long)element->tag, article(type), type->name);
   for (int i = 0; i < type->nnode; i++) {
     int64_t tag;
     int ignored;

@@ -14,8 +14,8 @@ static corot_status find_strain(const char *name, int *strain) {
                     name ? name : "");
 }
 
-static corot_status find_group(const corot_mesh *mesh, const char *name, const char *user,
-                               const corot_group **group) {
+corot_status model_find_group(const corot_mesh *mesh, const char *name, const char *user,
+                              const corot_group **group) {
   *group = name ? corot_mesh_find_group(mesh, name) : NULL;
   if (*group) return COROT_OK;
   return corot_fail(COROT_EINVAL, "%s: the mesh has no group '%s'", user, name ? name : "");
@@ -48,8 +48,8 @@ static corot_status assign_materials(const corot_model_def *def, corot_model *m,
   for (int k = 0; k < def->nmaterial; k++) {
     const corot_material *from = &def->material[k];
     COROT_TRY(check_material(from, k));
-    m->material[k] = (material){from->lambda, from->mu, from->damping_lambda, from->damping_mu,
-                                from->density};
+    m->material[k] =
+        (material){from->lambda, from->mu, from->damping_lambda, from->damping_mu, from->density};
     m->damped |= from->damping_lambda > 0 || from->damping_mu > 0;
     if (!from->group) {
       if (rest >= 0)
@@ -58,7 +58,7 @@ static corot_status assign_materials(const corot_model_def *def, corot_model *m,
       continue;
     }
     const corot_group *group;
-    COROT_TRY(find_group(m->mesh, from->group, "material", &group));
+    COROT_TRY(model_find_group(m->mesh, from->group, "material", &group));
     if (!group->ntet)
       return corot_fail(COROT_EINVAL, "material: group '%s' has no tets", from->group);
     for (int i = 0; i < group->ntet; i++) {
@@ -82,7 +82,7 @@ static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
   if (!m->dof) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", nnode);
   for (int k = 0; k < def->nfix; k++) {
     const corot_group *group;
-    COROT_TRY(find_group(m->mesh, def->fix[k].group, "fix", &group));
+    COROT_TRY(model_find_group(m->mesh, def->fix[k].group, "fix", &group));
     for (int i = 0; i < group->nnode; i++)
       for (int c = 0; c < 3; c++)
         if (def->fix[k].component[c]) m->dof[group->node[i]][c] = -1;
@@ -119,78 +119,6 @@ static corot_status lump_mass(corot_model *m) {
   return COROT_OK;
 }
 
-static void add_force(const corot_model *m, double *force, int node, const double value[3],
-                      double factor) {
-  for (int c = 0; c < 3; c++)
-    if (m->dof[node][c] >= 0) force[m->dof[node][c]] += factor * value[c];
-}
-
-/* A third of each face's traction to each of its nodes. */
-static corot_status add_traction(const corot_model *m, const corot_load *load, double *force) {
-  const corot_group *group;
-  COROT_TRY(find_group(m->mesh, load->group, "traction", &group));
-  if (!group->ntri)
-    return corot_fail(COROT_EINVAL, "traction: group '%s' has no faces", load->group);
-  for (int f = 0; f < group->ntri; f++) {
-    const int *n = group->tri[f];
-    double a[3], b[3];
-    for (int c = 0; c < 3; c++) {
-      a[c] = m->mesh->x[n[1]][c] - m->mesh->x[n[0]][c];
-      b[c] = m->mesh->x[n[2]][c] - m->mesh->x[n[0]][c];
-    }
-    double nx = a[1] * b[2] - a[2] * b[1], ny = a[2] * b[0] - a[0] * b[2],
-           nz = a[0] * b[1] - a[1] * b[0];
-    double area = 0.5 * sqrt(nx * nx + ny * ny + nz * nz);
-    for (int k = 0; k < 3; k++) add_force(m, force, n[k], load->value, area / 3);
-  }
-  return COROT_OK;
-}
-
-static corot_status copy_amplitude(const corot_amplitude *a, int k, dead_load *load) {
-  for (int i = 0; i < a->n; i++) {
-    if (!isfinite(a->time[i]) || !isfinite(a->value[i]))
-      return corot_fail(COROT_EINVAL, "load %d: point %d of the amplitude is not finite", k, i);
-    if (i > 0 && !(a->time[i] > a->time[i - 1]))
-      return corot_fail(COROT_EINVAL, "load %d: the amplitude's times do not increase at point %d",
-                        k, i);
-  }
-  if (a->n <= 0) return COROT_OK;
-  load->time = malloc(a->n * sizeof *load->time);
-  load->value = malloc(a->n * sizeof *load->value);
-  if (!load->time || !load->value)
-    return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
-  memcpy(load->time, a->time, a->n * sizeof *load->time);
-  memcpy(load->value, a->value, a->n * sizeof *load->value);
-  load->n = a->n;
-  return COROT_OK;
-}
-
-static corot_status make_loads(const corot_model_def *def, corot_model *m) {
-  m->load = calloc(def->nload + 1, sizeof *m->load);
-  if (!m->load) return corot_fail(COROT_ENOMEM, "no memory for %d loads", def->nload);
-  m->nload = def->nload;
-  for (int k = 0; k < def->nload; k++) {
-    const corot_load *from = &def->load[k];
-    dead_load *to = &m->load[k];
-    for (int c = 0; c < 3; c++)
-      if (!isfinite(from->value[c]))
-        return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);
-    COROT_TRY(copy_amplitude(&from->amplitude, k, to));
-    to->force = calloc(m->ndof, sizeof *to->force);
-    if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
-    if (from->kind == COROT_TRACTION) {
-      COROT_TRY(add_traction(m, from, to->force));
-    } else {
-      for (int n = 0; n < m->mesh->nnode; n++)
-        for (int c = 0; c < 3; c++) {
-          int i = m->dof[n][c];
-          if (i >= 0) to->force[i] = m->mass[i] * from->value[c];
-        }
-    }
-  }
-  return COROT_OK;
-}
-
 static void find_scales(corot_model *m) {
   corot_mesh_quality q = corot_mesh_measure(m->mesh);
   double diagonal2 = 0;
@@ -214,13 +142,14 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   if (!of_tet) return corot_fail(COROT_ENOMEM, "no memory for %d tets", m->mesh->ntet);
   corot_status status = assign_materials(def, m, of_tet);
   if (!status)
-    status = tets_create(m->mesh, m->nmaterial, of_tet, strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
+    status = tets_create(m->mesh, m->nmaterial, of_tet,
+                         strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
   free(of_tet);
   COROT_TRY(status);
 
   COROT_TRY(number_dofs(def, m));
   COROT_TRY(lump_mass(m));
-  COROT_TRY(make_loads(def, m));
+  COROT_TRY(loads_create(def, m));
   COROT_TRY(pattern_create(m->mesh->nnode, &m->tets, &m->pattern));
   find_scales(m);
   return COROT_OK;
@@ -240,12 +169,7 @@ corot_status corot_model_create(const corot_model_def *def, corot_model **model)
 
 void corot_model_destroy(corot_model *m) {
   if (!m) return;
-  for (int k = 0; k < m->nload; k++) {
-    free(m->load[k].force);
-    free(m->load[k].time);
-    free(m->load[k].value);
-  }
-  free(m->load);
+  loads_destroy(m);
   free(m->material);
   free(m->dof);
   free(m->mass);
@@ -256,32 +180,12 @@ void corot_model_destroy(corot_model *m) {
   free(m);
 }
 
-double amplitude_at(const dead_load *load, double t) {
-  int n = load->n;
-  const double *time = load->time, *value = load->value;
-  if (n == 0) return 1;
-  if (!(t > time[0])) return value[0];
-  if (t >= time[n - 1]) return value[n - 1];
-  int k = 1;
-  while (time[k] < t) k++;
-  double s = (t - time[k - 1]) / (time[k] - time[k - 1]);
-  return (1 - s) * value[k - 1] + s * value[k];
-}
-
-int corot_model_kinks(const corot_model *m, double t0, double t1, int max, double *time) {
-  int n = 0;
-  for (double last = t0;; n++) { /* the next kink after the last one */
-    double next = INFINITY;
-    for (int k = 0; k < m->nload; k++)
-      for (int i = 0; i < m->load[k].n; i++)
-        if (m->load[k].time[i] > last) {
-          next = fmin(next, m->load[k].time[i]);
-          break;
-        }
-    if (!(next < t1)) return n;
-    if (n < max) time[n] = next;
-    last = next;
-  }
+void model_spread(const corot_model *m, const double *values, double *nodal, int stride) {
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      nodal[n * stride + c] = i >= 0 ? values[i] : 0;
+    }
 }
 
 const corot_mesh *corot_model_mesh(const corot_model *m) { return m->mesh; }

@@ -38,6 +38,18 @@ struct corot_model {
   pattern pattern;
 };
 
-double amplitude_at(const dead_load *load, double t);
+/* COROT_EINVAL if the mesh has no such group; `user` says who asked. */
+corot_status model_find_group(const corot_mesh *mesh, const char *name, const char *user,
+                              const corot_group **group);
+
+/* Free degrees of freedom to all nodes, `stride` doubles each; held components are zero. */
+void model_spread(const corot_model *m, const double *values, double *nodal, int stride);
+
+/* m->load from the definition, once the degrees of freedom and the mass are known. */
+corot_status loads_create(const corot_model_def *def, corot_model *m);
+void loads_destroy(corot_model *m);
+
+/* f [ndof] = external force at time t. */
+void loads_force(const corot_model *m, double t, double *f);
 
 #endif

@@ -3,15 +3,6 @@
 
 #include "core/kernel.h"
 
-/* Free degrees of freedom to all nodes; held components are zero. */
-static void spread(const corot_model *m, const double *free_values, double (*nodal)[4]) {
-  for (int n = 0; n < m->mesh->nnode; n++)
-    for (int c = 0; c < 3; c++) {
-      int i = m->dof[n][c];
-      nodal[n][c] = i >= 0 ? free_values[i] : 0;
-    }
-}
-
 /* Adds to r each node's own element forces, in the order of the tets. Returns the sum of r, which
    is finite only if r is. */
 static double collect(const corot_model *m, const corot_state *s, double *r) {
@@ -36,22 +27,12 @@ static corot_status inverted(corot_state *s, int tet) {
   return corot_fail(COROT_RETRY, "tet %d is inverted", tet);
 }
 
-static void external_force(const corot_model *m, double t, double *f) {
-  memset(f, 0, m->ndof * sizeof *f);
-  for (int k = 0; k < m->nload; k++) {
-    double a = amplitude_at(&m->load[k], t);
-    const double *force = m->load[k].force;
-    if (a != 0)
-      for (int i = 0; i < m->ndof; i++) f[i] += a * force[i];
-  }
-}
-
 corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, double *r) {
-  spread(m, u, s->u);
-  if (m->damped) spread(m, v, s->v);
+  model_spread(m, u, s->u[0], 4);
+  if (m->damped) model_spread(m, v, s->v[0], 4);
   COROT_TRY(inverted(s, kernel_force(m, s, m->damped)));
-  external_force(m, t, r);
+  loads_force(m, t, r);
   if (!isfinite(collect(m, s, r)))
     return corot_fail(COROT_RETRY, "the forces exceed double precision at t = %g", t);
   return COROT_OK;
@@ -70,7 +51,7 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
   (void)t, (void)v; /* dead loads, and viscous forces linear in v: neither enters K and D */
-  spread(m, u, s->u);
+  model_spread(m, u, s->u[0], 4);
   size_t bytes = m->pattern.nblock * sizeof *K;
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
@@ -81,10 +62,10 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
   (void)t; /* dead loads */
-  spread(m, u, s->u);
-  spread(m, v, s->v);
-  spread(m, du, s->du);
-  spread(m, dv, s->dv);
+  model_spread(m, u, s->u[0], 4);
+  model_spread(m, v, s->v[0], 4);
+  model_spread(m, du, s->du[0], 4);
+  model_spread(m, dv, s->dv[0], 4);
   COROT_TRY(inverted(s, kernel_derivative(m, s, tangent)));
   memset(jv, 0, m->ndof * sizeof *jv);
   collect(m, s, jv);
@@ -128,7 +109,7 @@ corot_status corot_frames_update(const corot_model *m, corot_state *s, double t,
   (void)t; /* supports do not move */
   corot_frames_change c = {0};
   double before = 0, after = 0;
-  spread(m, u, s->u);
+  model_spread(m, u, s->u[0], 4);
   COROT_TRY(inverted(s, kernel_frames(m, s, s->new_R)));
   if (change) {
     COROT_TRY(held_energy(m, s, &before));
@@ -153,10 +134,10 @@ static void add_cross(double a[3], double m, const double x[3], const double v[3
 corot_status corot_energy(const corot_model *m, corot_state *s, double t, const double *u,
                           const double *v, corot_energies *energies) {
   corot_energies e = {0};
-  spread(m, u, s->u);
-  spread(m, v, s->v);
+  model_spread(m, u, s->u[0], 4);
+  model_spread(m, v, s->v[0], 4);
   COROT_TRY(inverted(s, kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
-  external_force(m, t, s->r);
+  loads_force(m, t, s->r);
   for (int i = 0; i < m->ndof; i++) {
     e.kinetic += 0.5 * m->mass[i] * v[i] * v[i];
     e.power_external += s->r[i] * v[i];

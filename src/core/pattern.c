@@ -76,7 +76,10 @@ static int find_block(const pattern *p, int i, int j) {
   int low = p->colptr[j], high = p->colptr[j + 1] - 1;
   while (low < high) {
     int mid = low + (high - low) / 2;
-    if (p->row[mid] < i) low = mid + 1; else high = mid;
+    if (p->row[mid] < i)
+      low = mid + 1;
+    else
+      high = mid;
   }
   return low;
 }

@@ -116,7 +116,8 @@ COROT_INLINE mat3 stress_viscous_derivative(const strain_measure *s, vd lambda, 
 
 /* What the tangent of a tet needs beside the gradients g_a of its nodes: its element matrix is V
    times
-     lambda p_a p_b' + mu (g_a.g_b Bs Bs' + s_b s_a')   at constant bases, p_a = Bp g_a, s_a = Bs g_a
+     lambda p_a p_b' + mu (g_a.g_b Bs Bs' + s_b s_a')   at constant bases, p_a = Bp g_a, s_a = Bs
+   g_a
    + (g_a . Z g_b) I                                    the stress on a basis F that turns with it
    + [s_a]x' H [s_b]x                                   the variation of an exact polar frame
    with Z = lambda tr(e_p) I for Bp = F, plus 2 mu e_s for Bs = F, and H = R h R' (so that all is in

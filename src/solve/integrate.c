@@ -85,8 +85,7 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
   COROT_TRY(find_method(def->method, &ops));
   corot_integrator *self = calloc(1, sizeof *self);
   if (!self) return corot_fail(COROT_ENOMEM, "no memory for an integrator");
-  *self = (corot_integrator){
-      .ops = ops, .model = model, .state = state, .def = *def, .t = t};
+  *self = (corot_integrator){.ops = ops, .model = model, .state = state, .def = *def, .t = t};
   choose(&self->def, model);
   self->def.method = ops->name;
   self->def.linear_solver = NULL;

@@ -18,23 +18,23 @@ typedef struct cvode {
   corot_integrator *self; /* for the callbacks */
   SUNContext ctx;
   void *memory;
-  N_Vector y;                     /* [2n] solution at self->t */
+  N_Vector y;                      /* [2n] solution at self->t */
   N_Vector error, weight, scratch; /* [2n] */
-  N_Vector work;             /* [2] dissipated and external work at self->t */
+  N_Vector work;                   /* [2] dissipated and external work at self->t */
   SUNMatrix A;
   SUNLinearSolver LS;
-  double t_stop;          /* armed; NaN: none */
-  bool fresh;             /* no step since the start or a restart: no interpolant yet */
+  double t_stop;           /* armed; NaN: none */
+  bool fresh;              /* no step since the start or a restart: no interpolant yet */
   corot_statistics before; /* counts of earlier starts */
-  long nni;               /* at the end of the last step */
-  char message[512];      /* SUNDIALS' own words on its last failure */
+  long nni;                /* at the end of the last step */
+  char message[512];       /* SUNDIALS' own words on its last failure */
 } cvode;
 
 static int rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
   corot_integrator *self = ((cvode *)user_data)->self;
   double start = clock_wall();
-  int status = corot_rhs(self->model, self->state, t, N_VGetArrayPointer(y),
-                         N_VGetArrayPointer(ydot));
+  int status =
+      corot_rhs(self->model, self->state, t, N_VGetArrayPointer(y), N_VGetArrayPointer(ydot));
   self->force_s += clock_wall() - start;
   return status;
 }
@@ -191,9 +191,9 @@ static corot_status cvode_step(corot_integrator *self, double t_stop, corot_step
   long nni = 0;
   COROT_TRY(advance(c, t_stop, &t));
   c->fresh = false;
-  if (CVodeGetQuad(c->memory, &t_work, c->work) ||
-      CVodeGetNumNonlinSolvIters(c->memory, &nni) || CVodeGetLastOrder(c->memory, &step->order) ||
-      CVodeGetEstLocalErrors(c->memory, c->error) || CVodeGetErrWeights(c->memory, c->weight))
+  if (CVodeGetQuad(c->memory, &t_work, c->work) || CVodeGetNumNonlinSolvIters(c->memory, &nni) ||
+      CVodeGetLastOrder(c->memory, &step->order) || CVodeGetEstLocalErrors(c->memory, c->error) ||
+      CVodeGetErrWeights(c->memory, c->weight))
     return refuse(c, "statistics");
   step->t = t;
   step->error = N_VWrmsNorm(c->error, c->weight);
@@ -295,5 +295,5 @@ static void cvode_statistics(const corot_integrator *self, corot_statistics *s) 
   CVodeGetLastOrder(c->memory, &s->qlast);
 }
 
-const integrator_ops integrator_cvode = {"cvode",    cvode_create, cvode_destroy, cvode_step,
-                                         cvode_at,   cvode_work,   cvode_changed, cvode_statistics};
+const integrator_ops integrator_cvode = {"cvode",  cvode_create, cvode_destroy, cvode_step,
+                                         cvode_at, cvode_work,   cvode_changed, cvode_statistics};

@@ -24,7 +24,8 @@ corot_status linsol_find(const char *name, int n, const linsol_ops **ops) {
       return COROT_OK;
     }
   if (name && strcmp(name, "cholmod") == 0)
-    return corot_fail(COROT_EINVAL,
-                      "linear solver cholmod is not in this build (configure with COROT_CHOLMOD=ON)");
+    return corot_fail(
+        COROT_EINVAL,
+        "linear solver cholmod is not in this build (configure with COROT_CHOLMOD=ON)");
   return corot_fail(COROT_EINVAL, "no linear solver '%s': auto, klu or cholmod", name ? name : "");
 }

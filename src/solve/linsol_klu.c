@@ -17,11 +17,16 @@ typedef struct klu {
 
 static const char *reason(int status) {
   switch (status) {
-    case KLU_OUT_OF_MEMORY: return "out of memory";
-    case KLU_INVALID: return "invalid matrix";
-    case KLU_TOO_LARGE: return "the factor exceeds 32-bit counts; try cholmod";
-    case KLU_SINGULAR: return "singular";
-    default: return "unknown failure";
+    case KLU_OUT_OF_MEMORY:
+      return "out of memory";
+    case KLU_INVALID:
+      return "invalid matrix";
+    case KLU_TOO_LARGE:
+      return "the factor exceeds 32-bit counts; try cholmod";
+    case KLU_SINGULAR:
+      return "singular";
+    default:
+      return "unknown failure";
   }
 }
 
@@ -88,9 +93,5 @@ static corot_status klu_solver_solve(void *solver, double *x) {
   return failure(k, "solve");
 }
 
-const linsol_ops linsol_klu = {"klu",
-                               COROT_FULL,
-                               klu_solver_create,
-                               klu_solver_factor,
-                               klu_solver_solve,
-                               klu_solver_destroy};
+const linsol_ops linsol_klu = {
+    "klu", COROT_FULL, klu_solver_create, klu_solver_factor, klu_solver_solve, klu_solver_destroy};

@@ -62,8 +62,8 @@ corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, c
 
 void corot_pencil_combine(corot_pencil *p, double a, double b, double c) {
   double start = clock_wall();
-  corot_csc_combine(p->model, p->csc, a, b, (const double(*)[9])p->D, c,
-                    (const double(*)[9])p->K, p->S);
+  corot_csc_combine(p->model, p->csc, a, b, (const double(*)[9])p->D, c, (const double(*)[9])p->K,
+                    p->S);
   p->counts.ncombine++;
   p->counts.combine_s += clock_wall() - start;
 }

@@ -5,7 +5,8 @@
 
      du - g dv = r_u,    g M^-1 K du + (I + g M^-1 D) dv = r_v,
 
-   becomes (M + g D + g^2 K) dv = M r_v - g K r_u, then du = r_u + g dv, with the g of the set-up. */
+   becomes (M + g D + g^2 K) dv = M r_v - g K r_u, then du = r_u + g dv, with the g of the set-up.
+ */
 #include <nvector/nvector_serial.h>
 
 #include "solve/clock.h"
