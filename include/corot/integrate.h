@@ -9,9 +9,18 @@
 extern "C" {
 #endif
 
-/* How to integrate. Zero means "choose" wherever the comment says so. */
+/* How a step of a fixed-step method is solved. */
+typedef enum corot_solution {
+  COROT_SOLUTION_NEWTON, /* with backtracking, to a tolerance */
+  COROT_SOLUTION_LINEAR, /* one solve: exact while the frames are held and both bases are R */
+} corot_solution;
+
+/* How to integrate. Zero means "choose" wherever the comment says so. Methods:
+     cvode              BDF of order 1 to 5, steps and order chosen by error control
+     backward-euler, bdf2, bdf3, midpoint, newmark, hht, generalized-alpha
+                        of constant step, without error control: baselines */
 typedef struct corot_integrator_def {
-  const char *method;        /* "cvode" */
+  const char *method;
   const char *linear_solver; /* "auto", "klu", "cholmod" */
   double rtol;               /* relative tolerance, > 0 */
   double atol_displacement;  /* [m]; 0: rtol * 0.01 * length of the model */
@@ -25,9 +34,15 @@ typedef struct corot_integrator_def {
   int reassembly;            /* K and D at least every so many steps, > 0 */
   int refactorisation;       /* S at least every so many steps, > 0 */
   double gamma_change;       /* refactor when gamma has changed by this fraction, > 0 */
+  double step;               /* [s] of a fixed-step method, > 0 */
+  corot_solution solution;   /* of a fixed-step method */
+  double newton_tolerance;   /* of Newton's last correction, in lengths of the model, > 0 */
+  int newton_iterations;     /* at most so many in a step, > 0 */
+  double spectral_radius;    /* 0 to 1, at infinite frequency: hht (from 1/2), generalized-alpha */
 } corot_integrator_def;
 
-/* cvode, auto, rtol 1e-4, held tangent, reassembly 20, refactorisation 20, gamma_change 0.3. */
+/* cvode, auto, rtol 1e-4, held tangent, reassembly 20, refactorisation 20, gamma_change 0.3;
+   Newton to 1e-9 in 50 iterations, spectral radius 0.8. */
 corot_integrator_def corot_integrator_defaults(void);
 
 typedef struct corot_integrator corot_integrator;
@@ -49,7 +64,8 @@ typedef struct corot_step {
   int newton;   /* nonlinear iterations */
 } corot_step;
 
-/* Advances by one step that does not go past t_stop and lands on it if it comes near.
+/* Advances by one step. With error control it does not go past t_stop and lands on it if it comes
+   near; a fixed-step method keeps to its own grid, whatever t_stop.
    COROT_EINTEGRATE: the integrator gave up; the message names its reason and the element, if one
    was inverted. The state last reached remains readable. */
 corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, corot_step *step);

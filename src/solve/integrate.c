@@ -13,17 +13,21 @@ corot_integrator_def corot_integrator_defaults(void) {
                                 .tangent = COROT_TANGENT_HELD,
                                 .reassembly = 20,
                                 .refactorisation = 20,
-                                .gamma_change = 0.3};
+                                .gamma_change = 0.3,
+                                .newton_tolerance = 1e-9,
+                                .newton_iterations = 50,
+                                .spectral_radius = 0.8};
 }
 
 static corot_status find_method(const char *name, const integrator_ops **ops) {
-  static const integrator_ops *const built[] = {&integrator_cvode};
-  for (size_t k = 0; k < sizeof built / sizeof *built; k++)
-    if (name && strcmp(name, built[k]->name) == 0) {
-      *ops = built[k];
-      return COROT_OK;
-    }
-  return corot_fail(COROT_EINVAL, "no integrator '%s': cvode", name ? name : "");
+  *ops = &integrator_cvode;
+  if (name && strcmp(name, integrator_cvode.name) == 0) return COROT_OK;
+  for (*ops = integrators_fixed; (*ops)->name; ++*ops)
+    if (name && strcmp(name, (*ops)->name) == 0) return COROT_OK;
+  return corot_fail(COROT_EINVAL,
+                    "no integrator '%s': cvode, backward-euler, bdf2, bdf3, midpoint, newmark, hht "
+                    "or generalized-alpha",
+                    name ? name : "");
 }
 
 static corot_status check(const corot_integrator_def *d) {
@@ -42,6 +46,9 @@ static corot_status check(const corot_integrator_def *d) {
       {"reassembly", d->reassembly, false},
       {"refactorisation", d->refactorisation, false},
       {"max_steps", (double)d->max_steps, true},
+      {"step", d->step, true},
+      {"newton_tolerance", d->newton_tolerance, false},
+      {"newton_iterations", d->newton_iterations, false},
   };
   for (size_t k = 0; k < sizeof number / sizeof *number; k++)
     if (!(number[k].value > 0 || (number[k].zero && number[k].value == 0)) ||

@@ -18,6 +18,7 @@ typedef struct integrator_ops {
 } integrator_ops;
 
 extern const integrator_ops integrator_cvode;
+extern const integrator_ops integrators_fixed[]; /* one without a name ends it */
 
 struct corot_integrator {
   const integrator_ops *ops;

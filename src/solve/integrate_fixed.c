@@ -1,0 +1,271 @@
+/* Methods of constant step: the paper's (backward Euler, BDF3) and the field's. The system of a
+   step (see fixed.h) is solved either linearly, by one solve from the predictor, which is exact
+   where the frames are held and both bases are R (the paper's "linear" rows); or by Newton with
+   backtracking, the factor kept while it converges. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/clock.h"
+#include "solve/fixed.h"
+
+/* --- one step -------------------------------------------------------------------------------- */
+
+/* G(w) at w = f->trial; *norm = G' M^-1 G. */
+static corot_status evaluate(corot_integrator *self, const stage *g, double *norm) {
+  fixed *f = self->method;
+  double *u = f->u[NHISTORY - 1], *v = f->v[NHISTORY - 1], start = clock_wall(), sum = 0;
+  for (int i = 0; i < f->n; i++) {
+    u[i] = f->U[i] + g->p * f->trial[i];
+    v[i] = f->V[i] + g->q * f->trial[i];
+  }
+  corot_status status = corot_residual(self->model, self->state, g->t, u, v, f->G);
+  for (int i = 0; i < f->n; i++) {
+    f->G[i] = g->s * f->mass[i] * (f->trial[i] - f->W[i]) - g->k * f->G[i];
+    sum += f->G[i] * f->G[i] / f->mass[i];
+  }
+  f->counts.nfe++;
+  self->force_s += clock_wall() - start;
+  *norm = sum;
+  return status;
+}
+
+/* The factor of G' at the state last evaluated, made anew if it belongs to other coefficients or
+   `fresh` is asked for. */
+static corot_status ensure_factor(corot_integrator *self, const stage *g, bool fresh) {
+  fixed *f = self->method;
+  bool same = f->factored.s == g->s && f->factored.p == g->p && f->factored.q == g->q &&
+              f->factored.k == g->k;
+  if (same && !fresh && !self->pencil->dirty) return COROT_OK;
+  f->factored.s = 0;
+  if (fresh || self->pencil->dirty)
+    COROT_TRY(corot_pencil_assemble(self->pencil, g->t, f->u[NHISTORY - 1], f->v[NHISTORY - 1]));
+  corot_pencil_combine(self->pencil, g->s, g->k * g->q, g->k * g->p);
+  f->counts.nsetups++;
+  COROT_TRY(corot_pencil_factor(self->pencil));
+  f->factored = *g;
+  return COROT_OK;
+}
+
+/* Size of a correction of w: the largest displacement it stands for, over the model's length. */
+static double correction(const corot_integrator *self, const stage *g) {
+  const fixed *f = self->method;
+  double largest = 0;
+  for (int i = 0; i < f->n; i++) largest = fmax(largest, fabs(f->d[i]));
+  return largest * g->p / corot_model_length(self->model);
+}
+
+static corot_status solve_linear(corot_integrator *self, const stage *g) {
+  fixed *f = self->method;
+  double norm;
+  memcpy(f->trial, f->w, f->n * sizeof *f->w);
+  COROT_TRY(evaluate(self, g, &norm));
+  COROT_TRY(ensure_factor(self, g, false));
+  COROT_TRY(corot_pencil_solve(self->pencil, f->G, f->d));
+  for (int i = 0; i < f->n; i++) f->w[i] -= f->d[i];
+  return COROT_OK;
+}
+
+/* Halves the correction until |G| falls; leaves w + fraction d in f->w and its G in f->G. */
+static corot_status backtrack(corot_integrator *self, const stage *g, double *norm, bool *fell) {
+  fixed *f = self->method;
+  double before = *norm, fraction = 1;
+  *fell = true;
+  for (int halving = 0; halving < 12; halving++, fraction /= 2) {
+    for (int i = 0; i < f->n; i++) f->trial[i] = f->w[i] - fraction * f->d[i];
+    corot_status status = evaluate(self, g, norm);
+    if (status < 0) return status;
+    if (status == COROT_OK && *norm <= (1 - 1e-4 * fraction) * before) {
+      memcpy(f->w, f->trial, f->n * sizeof *f->w);
+      return COROT_OK;
+    }
+  }
+  *fell = false;
+  memcpy(f->trial, f->w, f->n * sizeof *f->w);
+  return evaluate(self, g, norm);
+}
+
+static corot_status solve_newton(corot_integrator *self, const stage *g, int *iterations) {
+  fixed *f = self->method;
+  double norm, last = INFINITY;
+  bool fresh = false, fell = true;
+  memcpy(f->trial, f->w, f->n * sizeof *f->w);
+  COROT_TRY(evaluate(self, g, &norm));
+  for (*iterations = 1; *iterations <= self->def.newton_iterations; ++*iterations) {
+    bool was_current = fresh;
+    COROT_TRY(ensure_factor(self, g, fresh));
+    COROT_TRY(corot_pencil_solve(self->pencil, f->G, f->d));
+    double size = correction(self, g);
+    f->counts.nni++;
+    if (size <= self->def.newton_tolerance) {
+      for (int i = 0; i < f->n; i++) f->w[i] -= f->d[i];
+      return COROT_OK;
+    }
+    fresh = size > 0.3 * last; /* slow: the next correction gets its own matrix */
+    last = size;
+    COROT_TRY(backtrack(self, g, &norm, &fell));
+    if (!fell) {
+      if (was_current)
+        return corot_fail(COROT_EINTEGRATE,
+                          "%s: at t = %.9g: Newton's correction of %.2g lengths "
+                          "does not reduce the residual",
+                          f->scheme->name, g->t, size);
+      fresh = true, last = INFINITY;
+    }
+  }
+  return corot_fail(COROT_EINTEGRATE,
+                    "%s: at t = %.9g: Newton has not converged in %d iterations (correction %.2g "
+                    "lengths, tolerance %.2g)",
+                    f->scheme->name, g->t, self->def.newton_iterations, last,
+                    self->def.newton_tolerance);
+}
+
+static void rotate_history(double *x[NHISTORY]) {
+  double *oldest = x[NHISTORY - 2]; /* the last one is scratch */
+  for (int j = NHISTORY - 2; j > 0; j--) x[j] = x[j - 1];
+  x[0] = oldest;
+}
+
+/* Work by the trapezoidal rule. */
+static corot_status add_work(corot_integrator *self, double t) {
+  fixed *f = self->method;
+  double start = clock_wall();
+  corot_energies e = {0};
+  COROT_TRY(corot_energy(self->model, self->state, t, f->u[0], f->v[0], &e));
+  double now[2] = {e.power_dissipated, e.power_external};
+  for (int k = 0; k < 2; k++) {
+    f->old_work[k] = f->work[k];
+    f->work[k] += f->count ? 0.5 * f->h * (f->power[k] + now[k]) : 0;
+    f->power[k] = now[k];
+  }
+  f->counts.nfeQ++;
+  self->work_s += clock_wall() - start;
+  return COROT_OK;
+}
+
+static corot_status fixed_step(corot_integrator *self, double t_stop, corot_step *step) {
+  (void)t_stop; /* the grid of steps is its own */
+  fixed *f = self->method;
+  stage g;
+  f->scheme->prepare(f, &g);
+  step->newton = 0;
+  corot_status status = self->def.solution == COROT_SOLUTION_LINEAR
+                            ? solve_linear(self, &g)
+                            : solve_newton(self, &g, &step->newton);
+  if (status > 0)
+    return corot_fail(COROT_EINTEGRATE, "%s: at t = %.9g: the step of %g s is too long: %s",
+                      f->scheme->name, g.t, f->h, corot_error());
+  if (status) return status;
+  rotate_history(f->u);
+  rotate_history(f->v);
+  f->scheme->finish(f);
+  f->count++;
+  if (f->depth < NHISTORY - 1) f->depth++;
+  step->t = f->t0 + f->count * f->h;
+  step->order = f->scheme->order ? (f->depth > f->scheme->order ? f->scheme->order : 1) : 2;
+  step->error = 0; /* not estimated */
+  f->counts.hlast = f->h;
+  f->counts.qlast = step->order;
+  return add_work(self, step->t);
+}
+
+/* --- the rest of the interface --------------------------------------------------------------- */
+
+/* Cubic Hermite interpolant of u within the last step, and its derivative for v. */
+static corot_status fixed_at(corot_integrator *self, double t, double *u, double *v) {
+  const fixed *f = self->method;
+  double s = (t - self->t) / f->h; /* -1 to 0 */
+  if (s == 0) {
+    if (u) memcpy(u, f->u[0], f->n * sizeof *u);
+    if (v) memcpy(v, f->v[0], f->n * sizeof *v);
+    return COROT_OK;
+  }
+  if (!(s >= -1 - 1e-9 && s <= 1e-9) || f->depth < 2)
+    return corot_fail(COROT_EINVAL, "%s: t = %.17g is not in the last step", f->scheme->name, t);
+  double x = 1 + s; /* 0 to 1 */
+  double a0 = (1 + 2 * x) * s * s, b0 = x * s * s, a1 = x * x * (3 - 2 * x), b1 = x * x * s;
+  double da = 6 * x * s, db0 = s * (3 * x - 1), db1 = x * (3 * x - 2);
+  for (int i = 0; i < f->n; i++) {
+    double u0 = f->u[1][i], u1 = f->u[0][i], hv0 = f->h * f->v[1][i], hv1 = f->h * f->v[0][i];
+    if (u) u[i] = a0 * u0 + b0 * hv0 + a1 * u1 + b1 * hv1;
+    if (v) v[i] = (da * (u0 - u1) + db0 * hv0 + db1 * hv1) / f->h;
+  }
+  return COROT_OK;
+}
+
+static corot_status fixed_work(corot_integrator *self, double t, double *dissipated,
+                               double *external) {
+  const fixed *f = self->method;
+  double s = fmin(0, fmax(-1, (t - self->t) / f->h));
+  *dissipated = f->work[0] + s * (f->work[0] - f->old_work[0]);
+  *external = f->work[1] + s * (f->work[1] - f->old_work[1]);
+  return COROT_OK;
+}
+
+/* One-step methods have no history; BDF keeps it, as the paper does, unless told otherwise. */
+static corot_status fixed_changed(corot_integrator *self, corot_history history) {
+  fixed *f = self->method;
+  if (history != COROT_HISTORY_RESTART) return COROT_OK;
+  f->depth = 1;
+  f->counts.nrestart++;
+  return COROT_OK;
+}
+
+static void fixed_statistics(const corot_integrator *self, corot_statistics *s) {
+  const corot_statistics *c = &((const fixed *)self->method)->counts;
+  s->nfe = c->nfe, s->nsetups = c->nsetups, s->nni = c->nni, s->nfeQ = c->nfeQ;
+  s->nrestart = c->nrestart, s->hlast = c->hlast, s->qlast = c->qlast;
+}
+
+static void fixed_destroy(void *method) {
+  fixed *f = method;
+  free(f->memory);
+  free(f);
+}
+
+static corot_status fixed_create(corot_integrator *self, const double *u, const double *v) {
+  const corot_integrator_def *d = &self->def;
+  fixed *f = self->method = calloc(1, sizeof *f);
+  if (!f) return corot_fail(COROT_ENOMEM, "no memory for %s", d->method);
+  f->scheme = scheme_find(d->method);
+  if (!(d->step > 0)) return corot_fail(COROT_EINVAL, "%s needs a step", d->method);
+  double lowest = strcmp(d->method, "hht") == 0 ? 0.5 : 0;
+  if (!(d->spectral_radius >= lowest && d->spectral_radius <= 1))
+    return corot_fail(COROT_EINVAL, "%s: spectral_radius = %g is not in %g to 1", d->method,
+                      d->spectral_radius, lowest);
+  size_t n = f->n = corot_model_ndof(self->model);
+  f->mass = corot_model_mass(self->model);
+  f->t0 = self->t, f->h = d->step;
+  scheme_set_family(f, d->spectral_radius);
+
+  f->memory = calloc(NVECTOR * n, sizeof *f->memory);
+  if (!f->memory) return corot_fail(COROT_ENOMEM, "no memory for %s", d->method);
+  double *next = f->memory;
+  for (int j = 0; j < NHISTORY; j++, next += 2 * n) f->u[j] = next, f->v[j] = next + n;
+  double **const vectors[] = {&f->a, &f->U, &f->V, &f->W, &f->w, &f->trial, &f->G, &f->d};
+  for (int k = 0; k < NVECTOR - 2 * NHISTORY; k++, next += n) *vectors[k] = next;
+  memcpy(f->u[0], u, n * sizeof *u);
+  memcpy(f->v[0], v, n * sizeof *v);
+  f->depth = 1;
+
+  if (f->scheme->needs_acceleration) { /* a = M^-1 r at the start */
+    COROT_TRY(corot_residual(self->model, self->state, self->t, u, v, f->a));
+    f->counts.nfe++;
+    for (size_t i = 0; i < n; i++) f->a[i] /= f->mass[i];
+  }
+  return add_work(self, self->t);
+}
+
+#define FIXED(name)                                                                     \
+  {                                                                                     \
+    name, fixed_create, fixed_destroy, fixed_step, fixed_at, fixed_work, fixed_changed, \
+        fixed_statistics                                                                \
+  }
+const integrator_ops integrators_fixed[] = {FIXED("backward-euler"),
+                                            FIXED("bdf2"),
+                                            FIXED("bdf3"),
+                                            FIXED("midpoint"),
+                                            FIXED("newmark"),
+                                            FIXED("hht"),
+                                            FIXED("generalized-alpha"),
+                                            {0}};
