@@ -55,6 +55,9 @@ corot_status loads_create(const corot_model_def *def, corot_model *m) {
   for (int k = 0; k < def->nload; k++) {
     const corot_load *from = &def->load[k];
     dead_load *to = &m->load[k];
+    if (from->kind != COROT_TRACTION && from->kind != COROT_GRAVITY)
+      return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
+                        (int)from->kind);
     for (int c = 0; c < 3; c++)
       if (!isfinite(from->value[c]))
         return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);

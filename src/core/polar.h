@@ -27,28 +27,34 @@ COROT_INLINE vd fourth_root_of_ratio(vd a, vd b) {
   return (vd)bits;
 }
 
-/* R for lanes with det F > 0; identity elsewhere, where *inverted is set (also for NaN). */
+/* R for lanes with det F > 0; identity elsewhere, where *inverted is set (also for NaN). The sign of
+   the determinant is kept by the iteration: where the last iterate's is not positive, that of F was
+   lost in rounding. */
 COROT_INLINE mat3 polar(mat3 F, vi *inverted) {
   mat3 X = F;
-  vi done = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
+  vd det = mat3_det(F, mat3_cofactor(F));
+  vi done = ~(det > vd_all(0));
   *inverted = done;
   X = mat3_select(done, mat3_identity(), X);
   for (int k = 0; k < POLAR_MAX_ITERATIONS; k++) {
     mat3 C = mat3_cofactor(X);
-    vd det = mat3_det(X, C);
+    det = mat3_det(X, C);
     vd norm = mat3_dot(X, X);
     vd g = fourth_root_of_ratio(mat3_dot(C, C), det * det * norm);
-    g = vd_select((norm - 3) * (norm - 3) > 0.04, g, vd_all(1));
+    vd off = (norm - 3) * (norm - 3) + (det - 1) * (det - 1);
+    g = vd_select(off > 0.04, g, vd_all(1));
     vd half_g = 0.5 * g, half_c = 0.5 / (g * det);
     mat3 Y = mat3_sum(half_g, X, half_c, C);
     X = mat3_select(done, X, Y);
     if (k > 0) {
       done |= norm - 3 < 1e-8;
-      if (!vi_any(~done)) return X;
+      if (!vi_any(~done)) break;
     }
   }
-  *inverted |= ~done;
-  return X;
+  vi lost = ~done | ~(det > vd_all(0));
+  if (!vi_any(lost)) return X;
+  *inverted |= lost;
+  return mat3_select(lost, mat3_identity(), X);
 }
 
 /* G^-1 for G = tr(S) I - S: a rotation rate w of the frame, dR = R [w]x, solves
