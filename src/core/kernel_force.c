@@ -1,38 +1,39 @@
 #include "core/kernel.h"
 
 COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                            bool damped) {
-  for (int b = 0; b < m->tets.nblock; b++) {
+                            bool damped, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
     vi inverted = {0};
     mat3 F = deformation(block, (const double(*)[4])state->u);
     mat3 R = frame_in_use(s, m, state, b, F, &inverted);
-    mat3 P = stress(s, vd_all(mat->lambda), vd_all(mat->mu), F, R);
+    vd minus = -block->volume;
+    mat3 A = stress(s, minus * mat->lambda, minus * mat->mu, F, R);
     if (damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
-      P = mat3_add(
-          P, stress_viscous(s, vd_all(mat->damping_lambda), vd_all(mat->damping_mu), F, R, V));
+      A = mat3_add(
+          A, stress_viscous(s, minus * mat->damping_lambda, minus * mat->damping_mu, F, R, V));
     }
-    store_forces(block, P, state->force[b]);
+    store_forces(m, state, b, A);
     if (vi_any(inverted)) return first_inverted(m, b, inverted);
   }
   return -1;
 }
 
 /* The hot loop is compiled for each measure, so that its branches on the measure fall away. */
-COROT_CLONES int kernel_force(const corot_model *m, corot_state *state, bool damped) {
+COROT_CLONES int kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk) {
   switch (m->strain) {
     case CAUCHY:
-      return force_loop(&strain_measures[CAUCHY], m, state, damped);
+      return force_loop(&strain_measures[CAUCHY], m, state, damped, chunk);
     case WARP:
-      return force_loop(&strain_measures[WARP], m, state, damped);
+      return force_loop(&strain_measures[WARP], m, state, damped, chunk);
     case POLAR:
-      return force_loop(&strain_measures[POLAR], m, state, damped);
+      return force_loop(&strain_measures[POLAR], m, state, damped, chunk);
     case HYBRID:
-      return force_loop(&strain_measures[HYBRID], m, state, damped);
+      return force_loop(&strain_measures[HYBRID], m, state, damped, chunk);
     default:
-      return force_loop(&strain_measures[GREEN], m, state, damped);
+      return force_loop(&strain_measures[GREEN], m, state, damped, chunk);
   }
 }
 

@@ -3,19 +3,19 @@
 
 #include "core/kernel.h"
 
-/* Adds to r each node's own element forces, in the order of the tets. Returns the sum of r, which
-   is finite only if r is. */
-static double collect(const corot_model *m, const corot_state *s, double *r) {
+/* Adds to s->r the element forces of nodes first to last - 1, each node's own in the order of the
+   tets. Returns the sum of these r, which is finite only if they are. */
+static double collect(const corot_model *m, const corot_state *s, int first, int last) {
   const double *force = (const double *)s->force;
-  const int *first = m->pattern.first, *slot = m->pattern.slot;
+  const int *begin = m->pattern.first, *slot = m->pattern.slot;
   double check = 0;
-  for (int n = 0; n < m->mesh->nnode; n++) {
+  for (int n = first; n < last; n++) {
     double f[3] = {0, 0, 0};
-    for (int k = first[n]; k < first[n + 1]; k++)
+    for (int k = begin[n]; k < begin[n + 1]; k++)
       for (int c = 0; c < 3; c++) f[c] += force[slot[k] + c * W];
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
-      if (i >= 0) check += r[i] += f[c];
+      if (i >= 0) check += s->r[i] += f[c];
     }
   }
   return check;
@@ -27,15 +27,29 @@ static corot_status inverted(corot_state *s, int tet) {
   return corot_fail(COROT_RETRY, "tet %d is inverted", tet);
 }
 
+typedef int force_kernel(const corot_model *m, corot_state *state, bool option, int chunk);
+
+/* Adds to s->r the forces that the kernel finds, chunk by chunk, and hands the result on. */
+static corot_status sum_forces(const corot_model *m, corot_state *s, double t, force_kernel *kernel,
+                               bool option, double *r) {
+  const int *ready = m->pattern.ready;
+  double check = 0;
+  for (int c = 0; c < m->pattern.nchunk; c++) {
+    COROT_TRY(inverted(s, kernel(m, s, option, c)));
+    check += collect(m, s, ready[c], ready[c + 1]);
+  }
+  if (!isfinite(check))
+    return corot_fail(COROT_RETRY, "the forces exceed double precision at t = %g", t);
+  memcpy(r, s->r, m->ndof * sizeof *r);
+  return COROT_OK;
+}
+
 corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, double *r) {
   model_spread(m, u, s->u[0], 4);
   if (m->damped) model_spread(m, v, s->v[0], 4);
-  COROT_TRY(inverted(s, kernel_force(m, s, m->damped)));
-  loads_force(m, t, r);
-  if (!isfinite(collect(m, s, r)))
-    return corot_fail(COROT_RETRY, "the forces exceed double precision at t = %g", t);
-  return COROT_OK;
+  loads_force(m, t, s->r);
+  return sum_forces(m, s, t, kernel_force, m->damped, r);
 }
 
 corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
@@ -55,21 +69,21 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
   size_t bytes = m->pattern.nblock * sizeof *K;
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
-  return inverted(s, kernel_tangent(m, s, tangent, K, m->damped ? D : NULL));
+  bool exact = tangent == COROT_TANGENT_EXACT;
+  for (int c = 0; c < m->pattern.nchunk; c++)
+    COROT_TRY(inverted(s, kernel_tangent(m, s, exact, c, K, m->damped ? D : NULL)));
+  return COROT_OK;
 }
 
 corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const double *u,
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
-  (void)t; /* dead loads */
   model_spread(m, u, s->u[0], 4);
   model_spread(m, v, s->v[0], 4);
   model_spread(m, du, s->du[0], 4);
   model_spread(m, dv, s->dv[0], 4);
-  COROT_TRY(inverted(s, kernel_derivative(m, s, tangent)));
-  memset(jv, 0, m->ndof * sizeof *jv);
-  collect(m, s, jv);
-  return COROT_OK;
+  memset(s->r, 0, m->ndof * sizeof *s->r); /* of dead loads there is no change */
+  return sum_forces(m, s, t, kernel_derivative, tangent == COROT_TANGENT_EXACT, jv);
 }
 
 /* Largest and mean angle between two sets of frames: tr(A' B) = 1 + 2 cos, |A - B| = sqrt(8) sin

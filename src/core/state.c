@@ -10,7 +10,7 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
   s->dv = vector_calloc(nnode, sizeof *s->dv);
   s->R = vector_calloc(nblock, sizeof *s->R);
   s->new_R = vector_calloc(nblock, sizeof *s->new_R);
-  s->force = vector_calloc(nblock, sizeof *s->force);
+  s->force = vector_calloc(m->pattern.window, sizeof *s->force);
   s->r = calloc(m->ndof, sizeof *s->r);
   if (!s->u || !s->v || !s->du || !s->dv || !s->R || !s->new_R || !s->force || !s->r)
     return corot_fail(COROT_ENOMEM, "no memory for a state of %d nodes", nnode);
@@ -29,6 +29,7 @@ corot_status corot_state_create(const corot_model *m, corot_state **state) {
   }
   s->nnode = m->mesh->nnode;
   s->nblock = m->tets.nblock;
+  s->window = m->pattern.window;
   s->ndof = m->ndof;
   *state = s;
   return COROT_OK;
@@ -49,7 +50,7 @@ void corot_state_destroy(corot_state *s) {
 
 size_t corot_state_bytes(const corot_state *s) {
   return sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
-         s->nblock * (2 * sizeof *s->R + sizeof *s->force);
+         2 * s->nblock * sizeof *s->R + s->window * sizeof *s->force;
 }
 
 void corot_state_use(corot_state *s, corot_frames frames) { s->frames = frames; }
