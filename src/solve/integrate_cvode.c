@@ -186,8 +186,11 @@ static bool recently_refused(const cvode *c) {
 /* The model's reason, if it is to blame, and SUNDIALS' own. */
 static corot_status give_up(const cvode *c, const char *why) {
   bool refused = recently_refused(c);
-  return corot_fail(COROT_EINTEGRATE, "cvode: cannot get past t = %.9g: %s%s%s%s", c->self->t,
-                    refused ? c->refusal : "", refused ? " (" : "", why, refused ? ")" : "");
+  char limit[48] = "";
+  if (c->self->def.min_step > 0)
+    snprintf(limit, sizeof limit, "; min_step = %g s", c->self->def.min_step);
+  return corot_fail(COROT_EINTEGRATE, "cvode: cannot get past t = %.9g: %s%s%s%s%s", c->self->t,
+                    refused ? c->refusal : "", refused ? " (" : "", why, limit, refused ? ")" : "");
 }
 
 static bool collapsed(cvode *c, double h, bool stopped) {

@@ -1,5 +1,5 @@
-/* The paper's bar (Hauth & Strasser 2004, Example 2) on a coarse box mesh: held at its base, sheared
-   by a traction on its top that grows for a while and then stays. */
+/* The paper's bar (Hauth & Strasser 2004, Example 2) on a coarse box mesh: held at its base,
+   sheared by a traction on its top that grows for a while and then stays. */
 #ifndef BAR_H
 #define BAR_H
 
@@ -38,7 +38,7 @@ static inline bar bar_create(const bar_def *def) {
   corot_mesh *mesh;
   assert_ok(corot_mesh_box(&box, &mesh));
   int corner = mesh->nnode - 1;
-  double (*Qx)[3] = malloc(mesh->nnode * sizeof *Qx);
+  double(*Qx)[3] = malloc(mesh->nnode * sizeof *Qx);
   for (int n = 0; n < mesh->nnode; n++) apply(def->Q, mesh->x[n], Qx[n]);
   memcpy(mesh->x, Qx, mesh->nnode * sizeof *Qx);
   free(Qx);

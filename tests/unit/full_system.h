@@ -1,5 +1,5 @@
-/* The Newton matrix I - gamma J of y = (u, v) in full, 2n x 2n, as a sparse matrix of SUNDIALS: what
-   the pencil stands for and never forms. */
+/* The Newton matrix I - gamma J of y = (u, v) in full, 2n x 2n, as a sparse matrix of SUNDIALS:
+   what the pencil stands for and never forms. */
 #ifndef FULL_SYSTEM_H
 #define FULL_SYSTEM_H
 

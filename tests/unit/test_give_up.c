@@ -1,4 +1,6 @@
 /* Where the integrator cannot go on: it says so, says why, and leaves what it had. */
+#include <stdio.h>
+
 #include "bar.h"
 
 /* A cube of six tets on a fixed base under a gravity it cannot bear. */

@@ -16,11 +16,11 @@ static void expect_refusal(bar *b, corot_integrator_def def, const char *words) 
   assert_ptr_equal(integrator, b);
 }
 
-#define REFUSED(field, value, words)                            \
-  do {                                                          \
-    corot_integrator_def def_ = corot_integrator_defaults();    \
-    def_.field = (value);                                       \
-    expect_refusal(&b, def_, words);                            \
+#define REFUSED(field, value, words)                         \
+  do {                                                       \
+    corot_integrator_def def_ = corot_integrator_defaults(); \
+    def_.field = (value);                                    \
+    expect_refusal(&b, def_, words);                         \
   } while (0)
 
 static void each_field_is_checked(void **state) {

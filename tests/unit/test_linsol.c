@@ -37,8 +37,8 @@ static problem problem_create(const linsol_ops *ops, int across, int along) {
   for (int i = 0; i < n; i++) p.bar.u[i] = 1e-3 * noise(&seed);
   p.K = malloc(2 * nblock * sizeof *p.K);
   p.D = p.K + nblock;
-  assert_ok(corot_jacobian(p.bar.model, p.bar.state, 0, p.bar.u, p.bar.v, COROT_TANGENT_HELD, p.K,
-                           p.D));
+  assert_ok(
+      corot_jacobian(p.bar.model, p.bar.state, 0, p.bar.u, p.bar.v, COROT_TANGENT_HELD, p.K, p.D));
   assert_ok(corot_csc_create(p.bar.model, ops->triangle, &p.csc));
   p.S = malloc(p.csc->nnz * sizeof *p.S);
   p.x = malloc(3 * n * sizeof *p.x);
@@ -63,8 +63,7 @@ static void set(problem *p, double a, double b, double c) {
   corot_csc_combine(m, p->csc, a, b, D, c, K, p->S);
   corot_block_multiply(m, K, p->x, p->b);
   corot_block_multiply(m, D, p->x, p->y);
-  for (int i = 0; i < p->bar.n; i++)
-    p->b[i] = a * mass[i] * p->x[i] + b * p->y[i] + c * p->b[i];
+  for (int i = 0; i < p->bar.n; i++) p->b[i] = a * mass[i] * p->x[i] + b * p->y[i] + c * p->b[i];
 }
 
 /* The largest error of the solution found for p->b. */
@@ -262,9 +261,7 @@ static void solvers_are_found_by_name_or_size(void **state) {
 }
 
 /* SuiteSparse's allocations, counted and failed on demand. */
-static struct {
-  long count, live, fail_at;
-} memory;
+static struct { long count, live, fail_at; } memory;
 
 static bool fails(void) { return ++memory.count == memory.fail_at; }
 

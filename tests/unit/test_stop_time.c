@@ -1,5 +1,5 @@
-/* Stop times: each is reached exactly and once, whatever happens there; and what can be asked of the
-   last step. */
+/* Stop times: each is reached exactly and once, whatever happens there; and what can be asked of
+   the last step. */
 #include <corot/solve.h>
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
@@ -51,8 +51,8 @@ static void bare_end(bare *b) {
   bar_destroy(&b->bar);
 }
 
-/* To a stop at t = 0.1 with the given tout, and then one call towards 0.2: its flag, and the time it
-   reached. */
+/* To a stop at t = 0.1 with the given tout, and then one call towards 0.2: its flag, and the time
+   it reached. */
 static int go_on_after_a_stop(double tout, int mode, double *t) {
   bare b;
   bare_start(&b);
@@ -64,8 +64,9 @@ static int go_on_after_a_stop(double tout, int mode, double *t) {
   return flag;
 }
 
-/* The defect that integrate_cvode.c works around, in the SUNDIALS of Debian 12: if tout was the stop
-   time, the stop is not disarmed when reached, and the next call does nothing but report it again. */
+/* The defect that integrate_cvode.c works around, in the SUNDIALS of Debian 12: if tout was the
+   stop time, the stop is not disarmed when reached, and the next call does nothing but report it
+   again. */
 static void cvode_stands_still_where_tout_was_the_stop_time(void **state) {
   (void)state;
   if (strcmp(corot_sundials_version(), "6.4.1") != 0) skip();
@@ -146,7 +147,8 @@ static void a_stop_that_is_not_ahead_is_refused(void **state) {
   corot_step step = {.t = -7};
   const double stops[] = {0, -1, NAN, INFINITY};
   for (int k = 0; k < 4; k++)
-    assert_fails(corot_integrator_step(integrator, stops[k], &step), COROT_EINVAL, "cannot stop at");
+    assert_fails(corot_integrator_step(integrator, stops[k], &step), COROT_EINVAL,
+                 "cannot stop at");
   assert_true(step.t == -7);
   assert_ok(corot_integrator_step(integrator, 1, &step));
   assert_fails(corot_integrator_step(integrator, step.t, &step), COROT_EINVAL, "cannot stop at");

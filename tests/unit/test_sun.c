@@ -118,24 +118,23 @@ static outcome run_host(const bar *b, bool full, double rtol, corot_integrator_c
   SUNContext ctx = context();
   N_Vector y = N_VNew_Serial(2 * b->n, ctx);
   N_VConst(0, y);
-  host h = {{b->model, b->state}, full_create(b), rtol, chosen.atol_displacement,
-            chosen.atol_velocity};
+  host h = {
+      {b->model, b->state}, full_create(b), rtol, chosen.atol_displacement, chosen.atol_velocity};
   corot_pencil *pencil;
   assert_ok(corot_pencil_create(b->model, b->state, "klu", &pencil));
   SUNMatrix A = full ? SUNSparseMatrix(2 * b->n, 2 * b->n, full_nnz(&h.full), CSC_MAT, ctx)
                      : corot_sun_matrix(pencil, ctx);
   SUNLinearSolver LS = full ? SUNLinSol_KLU(y, A, ctx) : corot_sun_linsol(pencil, ctx);
   void *cvode = CVodeCreate(CV_BDF, ctx);
-  int bad = CVodeInit(cvode, corot_sun_rhs, 0, y) || CVodeSetUserData(cvode, &h) ||
-            CVodeWFtolerances(cvode, weights) || CVodeSetMaxOrd(cvode, chosen.max_order) ||
-            CVodeSetStabLimDet(cvode, chosen.max_order > 2) || CVodeSetMaxNumSteps(cvode, -1) ||
-            CVodeSetLinearSolver(cvode, LS, A) || CVodeSetLSetupFrequency(cvode, 20) ||
-            (full ? CVodeSetJacFn(cvode, full_jacobian)
-                  : CVodeSetLinSysFn(cvode, corot_sun_linsys)) ||
-            CVodeSetJacEvalFrequency(cvode, 20) || CVodeSetStopTime(cvode, t_end);
+  int bad =
+      CVodeInit(cvode, corot_sun_rhs, 0, y) || CVodeSetUserData(cvode, &h) ||
+      CVodeWFtolerances(cvode, weights) || CVodeSetMaxOrd(cvode, chosen.max_order) ||
+      CVodeSetStabLimDet(cvode, chosen.max_order > 2) || CVodeSetMaxNumSteps(cvode, -1) ||
+      CVodeSetLinearSolver(cvode, LS, A) || CVodeSetLSetupFrequency(cvode, 20) ||
+      (full ? CVodeSetJacFn(cvode, full_jacobian) : CVodeSetLinSysFn(cvode, corot_sun_linsys)) ||
+      CVodeSetJacEvalFrequency(cvode, 20) || CVodeSetStopTime(cvode, t_end);
   assert_int_equal(bad, 0);
-  for (double t = 0; t < t_end;)
-    assert_true(CVode(cvode, 2 * t_end, y, &t, CV_ONE_STEP) >= 0);
+  for (double t = 0; t < t_end;) assert_true(CVode(cvode, 2 * t_end, y, &t, CV_ONE_STEP) >= 0);
   outcome o;
   long nje;
   CVodeGetNumSteps(cvode, &o.nst), CVodeGetNumRhsEvals(cvode, &o.nfe);
@@ -205,8 +204,7 @@ static void the_matrices_are_reassembled_when_told(void **state) {
   } call[] = {
       {true, false, false, true},  /* the first time, whatever the integrator thinks */
       {true, false, false, false}, /* only gamma is new */
-      {false, false, false, true},
-      {true, true, false, true},
+      {false, false, false, true}, {true, true, false, true},
       {false, false, true, true}, /* fails */
       {true, false, false, true}, /* and so K and D are not to be relied on */
       {true, false, false, false},
@@ -217,7 +215,8 @@ static void the_matrices_are_reassembled_when_told(void **state) {
     if (call[k].invalidate) corot_pencil_invalidate(pencil);
     if (call[k].invert) b.u[b.tip + 2] = -0.5;
     sunbooleantype current = SUNFALSE;
-    int status = corot_sun_linsys(0, y, NULL, A, call[k].ok, &current, 0.01, NULL, NULL, NULL, NULL);
+    int status =
+        corot_sun_linsys(0, y, NULL, A, call[k].ok, &current, 0.01, NULL, NULL, NULL, NULL);
     assert_int_equal(status, call[k].invert ? COROT_RETRY : 0);
     assert_int_equal(current, call[k].expected);
     assembled += call[k].expected;

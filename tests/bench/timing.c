@@ -1,0 +1,45 @@
+#include "timing.h"
+
+#include <stdlib.h>
+
+#include "app/clock.h"
+
+static int ascending(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+timing timing_summary(int n, double *sample) {
+  qsort(sample, n, sizeof *sample, ascending);
+  return (timing){.median = n % 2 ? sample[n / 2] : 0.5 * (sample[n / 2 - 1] + sample[n / 2]),
+                  .min = sample[0],
+                  .spread = sample[3 * n / 4] - sample[n / 4]};
+}
+
+static corot_status batch(piece_of_work *work, void *data, int ncall, double *seconds) {
+  double start = cpu_clock();
+  for (int i = 0; i < ncall; i++) COROT_TRY(work(data));
+  *seconds = cpu_clock() - start;
+  return COROT_OK;
+}
+
+corot_status timing_of(piece_of_work *work, void *data, timing *out) {
+  enum { FEWEST = 5, MOST = 40 };
+  const double shortest = 2e-4, budget = 0.5;
+  double sample[MOST], seconds;
+  COROT_TRY(work(data));
+  int ncall = 1;
+  COROT_TRY(batch(work, data, ncall, &seconds));
+  while (seconds < shortest) {
+    ncall *= 2;
+    COROT_TRY(batch(work, data, ncall, &seconds));
+  }
+  int n = 0;
+  for (double spent = 0; n < FEWEST || (n < MOST && spent < budget); n++) {
+    COROT_TRY(batch(work, data, ncall, &seconds));
+    spent += seconds;
+    sample[n] = seconds / ncall;
+  }
+  *out = timing_summary(n, sample);
+  return COROT_OK;
+}
