@@ -21,6 +21,35 @@ COROT_INLINE mat3 constant_bases(vd lambda, vd mu, vd gg, mat3 BsBs, vec3 pa, ve
   return K;
 }
 
+/* The stretch rates of unit velocities e_i of the upper nodes, and the damping block of two nodes
+   under the objective law, dS/dt : D : dS/dt. */
+typedef struct node_rates {
+  mat3 rate[3][3]; /* [node][component] */
+} node_rates;
+
+COROT_INLINE node_rates node_rates_of(const tet_block *block, mat3 F, mat3 R) {
+  node_rates n;
+  for (int a = 0; a < 3; a++)
+    for (int i = 0; i < 3; i++) {
+      mat3 V = mat3_scale(vd_all(0), R);
+      for (int j = 0; j < 3; j++) V.m[i][j] = block->g.m[a][j];
+      n.rate[a][i] = stretch_rate_of(F, R, V).rate;
+    }
+  return n;
+}
+
+COROT_INLINE mat3 objective_damping(const strain_measure *s, vd lambda, vd mu, const node_rates *n,
+                                    int a, int b, vec3 pa, vec3 pb) {
+  mat3 D;
+  EACH_IJ {
+    D.m[i][j] = 2 * mu * mat3_dot(n->rate[a][i], n->rate[b][j]);
+    D.m[i][j] += lambda * (s->pressure == BY_GRADIENT
+                               ? pa.v[i] * pb.v[j]
+                               : mat3_trace(n->rate[a][i]) * mat3_trace(n->rate[b][j]));
+  }
+  return D;
+}
+
 /* A + [a]x' Q */
 COROT_INLINE mat3 add_skew_transposed(mat3 A, vec3 a, mat3 Q) {
   EACH_IJ {
@@ -79,15 +108,22 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
     vd lambda = block->volume * mat->lambda, mu = block->volume * mat->mu;
     tangent_terms t = tangent_terms_of(s, exact, lambda, mu, F, R);
     node_vectors n = node_vectors_of(block, &t);
+    vd damping_lambda = block->volume * mat->damping_lambda,
+       damping_mu = block->volume * mat->damping_mu;
+    bool objective = m->objective && s->frame == FRAME_POLAR;
+    node_rates rates;
+    if (D && objective) rates = node_rates_of(block, F, R);
     mat3 element[6], damping[6];
     for (int a = 0, k = 0; a < 3; a++)
       for (int c = 0; c <= a; c++, k++) {
         vd gg = vec3_dot(n.g[a], n.g[c]);
         element[k] = constant_bases(lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
-        if (D)
-          damping[k] =
-              constant_bases(block->volume * mat->damping_lambda, block->volume * mat->damping_mu,
-                             gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
+        if (D && objective)
+          damping[k] = objective_damping(s, damping_lambda, damping_mu, &rates, a, c, n.p[a],
+                                         n.p[c]);
+        else if (D)
+          damping[k] = constant_bases(damping_lambda, damping_mu, gg, t.BsBs, n.p[a], n.p[c],
+                                      n.s[a], n.s[c]);
         if (s->pressure == BY_GRADIENT)
           element[k] = mat3_add_identity(element[k], vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
         if (exact && s->frame == FRAME_POLAR)
@@ -124,8 +160,10 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, 
     if (m->damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
       mat3 dV = gradient(block, (const double(*)[4])state->dv);
-      dP = mat3_add(dP, stress_viscous_derivative(s, vd_all(mat->damping_lambda),
-                                                  vd_all(mat->damping_mu), F, R, V, dF, dR, dV));
+      vd lambda = vd_all(mat->damping_lambda), mu = vd_all(mat->damping_mu);
+      dP = mat3_add(dP, m->objective && s->frame == FRAME_POLAR
+                            ? stress_objective_derivative(s, lambda, mu, F, R, V, dF, dR, dV)
+                            : stress_viscous_derivative(s, lambda, mu, F, R, V, dF, dR, dV));
     }
     store_forces(block, dP, state->force[b]);
   }

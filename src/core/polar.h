@@ -27,28 +27,31 @@ COROT_INLINE vd fourth_root_of_ratio(vd a, vd b) {
   return (vd)bits;
 }
 
-/* R for lanes with det F > 0; identity elsewhere, where *inverted is set (also for NaN). */
+/* R for lanes with det F > 0; identity elsewhere, where *inverted is set (also for NaN). The sign of
+   the determinant is kept by the iteration: where the last iterate's is not positive, that of F was
+   lost in rounding. */
 COROT_INLINE mat3 polar(mat3 F, vi *inverted) {
   mat3 X = F;
-  vi done = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
-  *inverted = done;
+  vd det = vd_all(0);
+  vi refused = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0)), done = refused;
   X = mat3_select(done, mat3_identity(), X);
   for (int k = 0; k < POLAR_MAX_ITERATIONS; k++) {
     mat3 C = mat3_cofactor(X);
-    vd det = mat3_det(X, C);
+    det = mat3_det(X, C);
     vd norm = mat3_dot(X, X);
     vd g = fourth_root_of_ratio(mat3_dot(C, C), det * det * norm);
-    g = vd_select((norm - 3) * (norm - 3) > 0.04, g, vd_all(1));
+    vd off = (norm - 3) * (norm - 3) + (det - 1) * (det - 1);
+    g = vd_select(off > 0.04, g, vd_all(1));
     vd half_g = 0.5 * g, half_c = 0.5 / (g * det);
     mat3 Y = mat3_sum(half_g, X, half_c, C);
     X = mat3_select(done, X, Y);
     if (k > 0) {
       done |= norm - 3 < 1e-8;
-      if (!vi_any(~done)) return X;
+      if (!vi_any(~done)) break;
     }
   }
-  *inverted |= ~done;
-  return X;
+  *inverted = refused | ~done | ~(det > vd_all(0));
+  return mat3_select(*inverted, mat3_identity(), X);
 }
 
 /* G^-1 for G = tr(S) I - S: a rotation rate w of the frame, dR = R [w]x, solves
@@ -60,6 +63,23 @@ COROT_INLINE mat3 polar_inverse_g(mat3 S) {
   EACH_IJ G.m[i][j] = i == j ? trace - S.m[i][i] : -0.5 * (S.m[i][j] + S.m[j][i]);
   mat3 C = mat3_cofactor(G);
   return mat3_scale(1.0 / mat3_det(G, C), C);
+}
+
+/* exp([w t]x) R, by the quaternion of half the angle. The series are exact to rounding up to an
+   angle of pi; beyond, dividing by the norm keeps the result a rotation. */
+COROT_INLINE mat3 rotate_by(vec3 w, double t, mat3 R) {
+  vec3 q;
+  for (int i = 0; i < 3; i++) q.v[i] = 0.5 * t * w.v[i];
+  vd y = vec3_dot(q, q), c = vd_all(1), s = vd_all(1);
+  for (int k = 20; k > 0; k -= 2) { /* cos and sin(x)/x of x^2 = y by Horner's rule */
+    c = 1 - c * y / (double)(k * (k - 1));
+    s = 1 - s * y / (double)(k * (k + 1));
+  }
+  vd two = 2 / (c * c + s * s * y);
+  for (int i = 0; i < 3; i++) q.v[i] *= s;
+  mat3 X = mat3_skew(q), E = mat3_scale(two * c, X);
+  E = mat3_add(E, mat3_scale(two, mat3_mul(X, X)));
+  return mat3_add(R, mat3_mul(E, R));
 }
 
 /* Right-handed Gram-Schmidt on the columns of A: A = Q T, T upper triangular. The paper's edges
@@ -98,5 +118,9 @@ COROT_INLINE mat3 gram_schmidt_derivative(mat3 Q, mat3 A, mat3 dA) {
 /* Polar factor of one matrix, row-major [9]. COROT_RETRY if det F <= 0, or F is not finite.
    Any scale of F that double precision holds will do. */
 corot_status corot_polar(const double F[9], double R[9]);
+
+/* Polar factor of a 2x2 matrix, row-major: the columns of J + sign(det J) cof(J), normalised. The
+   paper's (4.15) prints +J_12 where the cofactor is -J_12. COROT_RETRY if J is singular. */
+corot_status corot_polar_2d(const double J[4], double R[4]);
 
 #endif
