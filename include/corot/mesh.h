@@ -1,9 +1,11 @@
 /* Tetrahedral meshes with named groups: made by hand, read from a file, or generated.
 
    A mesh is plain data and may be read directly; it is built and destroyed by the functions here.
-   Every mesh they hand out is sound: indices in range, finite coordinates, tets of positive
-   volume in right-handed order ((x1-x0) x (x2-x0) . (x3-x0) > 0), no tet twice, every node in
-   some tet. Nodes and tets are numbered from 0 in the order of the file. Lengths are in metres. */
+   Every mesh they hand out is sound: indices in range; coordinates of at most 1e100; tets in
+   right-handed order ((x1-x0) x (x2-x0) . (x3-x0) > 0) with a volume above 1e-12 times the cube of
+   their longest edge; no tet twice; at most two tets at a face, on either side of it; every node in
+   some tet; 3 nnode and 4 ntet fit an int. Nodes and tets are numbered from 0 in the order of the
+   file. Lengths are in metres. */
 #ifndef COROT_MESH_H
 #define COROT_MESH_H
 
@@ -48,10 +50,22 @@ void corot_mesh_destroy(corot_mesh *mesh);
 /* Reads a mesh file. The format is found from the content and, for TetGen, from the suffix:
      gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order;
      TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1.
-   Of gmsh files, linear tets become tets; physical groups (named, or else called by their number)
-   of points, lines, triangles and tets become groups. Of TetGen files, region attributes and node
-   boundary markers become groups "region-N" and "marker-N".
-   Fails with COROT_EIO (cannot open), COROT_EFORMAT with "FILE:LINE: ..." (text) or
+
+   gmsh: 4-node tets become tets; an element that formats 1 and 2.2 repeat for each of its physical
+   groups becomes one. Physical groups of points, 2-node lines, 3-node triangles and tets become
+   groups, those of one name a single one, in the order of $PhysicalNames. Nameless ones follow and
+   are called by their number, as "7"; where nameless groups of several dimensions have the same
+   number, as "point-7", "line-7", "surface-7", "volume-7". A name without elements makes no group.
+   A group's triangles must be faces of tets; those inside the mesh keep the file's winding
+   (reversed by a negative physical number in format 4.1). Other lines and surfaces are ignored
+   outside physical groups and refused inside; other solids, quadratic tets among them, and
+   partitioned meshes are refused. Sections that are not needed are skipped.
+
+   TetGen: region attributes (the last, if there are several) and node boundary markers other than 0
+   become groups "region-N" and "marker-N". TetGen 1.5 winds tets as we do; a file whose tets are
+   all left-handed is turned round, since the format does not say.
+
+   Fails with COROT_EIO (cannot be read), COROT_EFORMAT with "FILE:LINE: ..." (text) or
    "FILE: byte N: ..." (binary); an unsound element is named by its number in the file. */
 corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
 
@@ -68,14 +82,17 @@ typedef struct corot_box {
    xmin xmax ymin ymax zmin zmax. */
 corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
 
-/* Writes gmsh 2.2 ASCII with all groups as physical groups; a failed write leaves no file. */
+/* Writes gmsh 2.2 ASCII, with all groups as physical groups of points, triangles and tets: reading
+   it gives the same mesh to the last bit. Written beside `path` first, so that a failed write
+   (COROT_EIO) leaves what was there. */
 corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
 
 /* NULL where there is none of that name. */
 const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *name);
 
 /* Add a group by its nodes. The boundary faces and the tets whose nodes are all in the group
-   belong to it. COROT_EINVAL: the name is taken, a node is out of range, or no node is selected. */
+   belong to it. COROT_EINVAL: the name is taken, empty, longer than 127 bytes or has quotes or
+   control characters; a node is out of range; no node is selected. */
 corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnode, const int *node);
 
 /* The nodes with |x[axis] - at| <= tol; tol = 0 stands for 1e-6 of the mesh's diagonal. */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "facts.h"
 #include "json_text.h"
 
 static const char help[] =
@@ -135,27 +136,27 @@ static void print_info(const char *path, const corot_mesh *mesh) {
   }
 }
 
-static json_t *groups_json(const corot_mesh *mesh) {
-  json_t *list = json_array();
-  for (int i = 0; i < mesh->ngroup; i++) {
-    const corot_group *g = &mesh->group[i];
-    json_array_append_new(list, json_pack("{s:s, s:i, s:i, s:i}", "name", g->name, "nodes",
-                                          g->nnode, "triangles", g->ntri, "tets", g->ntet));
-  }
-  return list;
+static json_t *info_json(const char *path, const corot_mesh *mesh) {
+  corot_mesh_quality q = corot_mesh_measure(mesh);
+  json_t *j = json_object();
+  j = json_text_with(j, "file", json_text_string(path));
+  j = json_text_with(j, "nodes", json_integer(mesh->nnode));
+  j = json_text_with(j, "tets", json_integer(mesh->ntet));
+  j = json_text_with(j, "min", json_pack("[f, f, f]", q.min[0], q.min[1], q.min[2]));
+  j = json_text_with(j, "max", json_pack("[f, f, f]", q.max[0], q.max[1], q.max[2]));
+  j = json_text_with(j, "volume", json_real(q.volume));
+  j = json_text_with(j, "tet_volume", json_pack("[f, f]", q.volume_min, q.volume_max));
+  j = json_text_with(j, "edge", json_pack("[f, f]", q.edge_min, q.edge_max));
+  j = json_text_with(j, "dihedral_degrees", json_pack("[f, f]", q.dihedral_min, q.dihedral_max));
+  j = json_text_with(j, "shape",
+                     json_pack("{s:f, s:f, s:i}", "mean", q.shape_mean, "min", q.shape_min, "worst",
+                               q.shape_worst));
+  return json_text_with(j, "groups", facts_groups(mesh));
 }
 
 static int print_info_json(const char *path, const corot_mesh *mesh) {
-  corot_mesh_quality q = corot_mesh_measure(mesh);
-  json_t *info = json_pack(
-      "{s:s, s:i, s:i, s:[f, f, f], s:[f, f, f], s:f, s:[f, f], s:[f, f], s:[f, f], s:{s:f, s:f, "
-      "s:i}, s:o}",
-      "file", path, "nodes", mesh->nnode, "tets", mesh->ntet, "min", q.min[0], q.min[1], q.min[2],
-      "max", q.max[0], q.max[1], q.max[2], "volume", q.volume, "tet_volume", q.volume_min,
-      q.volume_max, "edge", q.edge_min, q.edge_max, "dihedral_degrees", q.dihedral_min,
-      q.dihedral_max, "shape", "mean", q.shape_mean, "min", q.shape_min, "worst", q.shape_worst,
-      "groups", groups_json(mesh));
-  if (!info) return failure(corot_fail(COROT_ENOMEM, "%s: cannot be written as JSON", path));
+  json_t *info = info_json(path, mesh);
+  if (!info) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
   json_text_write(info, stdout);
   json_decref(info);
   return EXIT_OK;

@@ -6,8 +6,7 @@
 static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* The value, read with the whole assignment as its place. */
-static corot_status parse_value(config *tree, const char *assignment, const config_source **source,
-                                config_node **value) {
+static corot_status parse_value(config *tree, const char *assignment, config_node **value) {
   const char *text = strchr(assignment, '=') + 1;
   size_t length = strlen(assignment);
   config_source *s = config_alloc(tree, 1, sizeof *s);
@@ -23,7 +22,6 @@ static corot_status parse_value(config *tree, const char *assignment, const conf
     (*value)->text = "";
     (*value)->source = s;
   }
-  *source = s;
   return COROT_OK;
 }
 
@@ -83,9 +81,9 @@ corot_status config_override(config *tree, const char *assignment) {
   if (assignment[length] != '=' || length == 0)
     return corot_fail(COROT_EFORMAT, "--set %s: expected KEY=VALUE, such as integrator.rtol=1e-6",
                       assignment);
-  const config_source *source = NULL;
   config_node *value = NULL, *node = tree->root;
-  COROT_TRY(parse_value(tree, assignment, &source, &value));
+  COROT_TRY(parse_value(tree, assignment, &value));
+  const config_source *source = value->source;
   char *path = config_copy(tree, assignment, length);
   if (!path) return no_memory();
   for (char *segment = path; segment;) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "config.h"
+#include "json_text.h"
 
 /* --- Finding --- */
 
@@ -166,12 +167,13 @@ void facts_print(const scenario *s, const facts *f, FILE *out) {
 
 /* --- JSON --- */
 
-static json_t *groups_json(const corot_mesh *mesh) {
+json_t *facts_groups(const corot_mesh *mesh) {
   json_t *list = json_array();
   for (int i = 0; i < mesh->ngroup; i++) {
     const corot_group *g = &mesh->group[i];
-    json_array_append_new(list, json_pack("{s:s, s:i, s:i, s:i}", "name", g->name, "nodes",
-                                          g->nnode, "triangles", g->ntri, "tets", g->ntet));
+    json_array_append_new(
+        list, json_pack("{s:o, s:i, s:i, s:i}", "name", json_text_string(g->name), "nodes",
+                        g->nnode, "triangles", g->ntri, "tets", g->ntet));
   }
   return list;
 }
@@ -190,23 +192,35 @@ static json_t *probes_json(const scenario *s, const corot_mesh *mesh) {
 
 static json_t *mesh_json(const scenario *s, const facts *f) {
   const corot_mesh_quality *q = &f->quality;
-  return json_pack("{s:s?, s:i, s:i, s:f, s:[f, f, f], s:[f, f, f], s:f, s:f}", "file",
-                   s->mesh_file, "nodes", f->mesh->nnode, "tets", f->mesh->ntet, "volume",
-                   q->volume, "min", q->min[0], q->min[1], q->min[2], "max", q->max[0], q->max[1],
-                   q->max[2], "shape_mean", q->shape_mean, "shape_min", q->shape_min);
+  json_t *j = json_pack("{s:i, s:i, s:f}", "nodes", f->mesh->nnode, "tets", f->mesh->ntet, "volume",
+                        q->volume);
+  j = json_text_with(j, "file", s->mesh_file ? json_text_string(s->mesh_file) : json_null());
+  j = json_text_with(j, "min", json_pack("[f, f, f]", q->min[0], q->min[1], q->min[2]));
+  j = json_text_with(j, "max", json_pack("[f, f, f]", q->max[0], q->max[1], q->max[2]));
+  return json_text_with(j, "shape",
+                        json_pack("{s:f, s:f}", "mean", q->shape_mean, "min", q->shape_min));
+}
+
+static json_t *integrator_json(const scenario *s, const corot_integrator_choice *c) {
+  return json_pack("{s:s, s:s, s:i, s:f, s:f, s:f}", "method", c->method, "linear_solver",
+                   c->linear_solver, "max_order", c->max_order, "rtol", s->integrator.rtol,
+                   "atol_displacement", c->atol_displacement, "atol_velocity", c->atol_velocity);
 }
 
 json_t *facts_json(const scenario *s, const facts *f) {
-  const corot_integrator_choice *c = &f->chosen;
-  json_t *integrator =
-      json_pack("{s:s, s:s, s:i, s:f, s:f, s:f}", "method", c->method, "linear_solver",
-                c->linear_solver, "max_order", c->max_order, "rtol", s->integrator.rtol,
-                "atol_displacement", c->atol_displacement, "atol_velocity", c->atol_velocity);
-  json_t *run = json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step);
-  return json_pack("{s:s, s:s, s:o, s:o, s:f, s:i, s:i, s:s, s:s, s:I, s:o, s:o, s:o}", "scenario",
-                   s->path, "title", s->title, "mesh", mesh_json(s, f), "groups",
-                   groups_json(f->mesh), "mass", f->mass, "dofs", corot_model_ndof(f->model),
-                   "loads", s->nload, "strain", s->strain, "frames",
-                   s->frame_policy == FRAMES_HOLD ? "hold" : "exact", "bytes", (json_int_t)f->bytes,
-                   "integrator", integrator, "time", run, "probes", probes_json(s, f->mesh));
+  const char *frames = s->frame_policy == FRAMES_HOLD ? "hold" : "exact";
+  json_t *j = json_object();
+  j = json_text_with(j, "scenario", json_text_string(s->path));
+  j = json_text_with(j, "title", json_string(s->title));
+  j = json_text_with(j, "mesh", mesh_json(s, f));
+  j = json_text_with(j, "groups", facts_groups(f->mesh));
+  j = json_text_with(j, "mass", json_real(f->mass));
+  j = json_text_with(j, "dofs", json_integer(corot_model_ndof(f->model)));
+  j = json_text_with(j, "loads", json_integer(s->nload));
+  j = json_text_with(j, "strain", json_string(s->strain));
+  j = json_text_with(j, "frames", json_string(frames));
+  j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
+  j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
+  j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
+  return json_text_with(j, "probes", probes_json(s, f->mesh));
 }

@@ -23,4 +23,7 @@ void facts_print(const scenario *s, const facts *f, FILE *out);
 /* The caller's to json_decref; NULL: no memory. */
 json_t *facts_json(const scenario *s, const facts *f);
 
+/* The names and sizes of a mesh's groups; the same. */
+json_t *facts_groups(const corot_mesh *mesh);
+
 #endif

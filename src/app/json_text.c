@@ -1,5 +1,6 @@
 #include "json_text.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,23 @@ void json_text_number(double x, size_t size, char *text) {
   size_t mantissa = strcspn(digits, "e");
   const char *point = memchr(digits, '.', mantissa) ? "" : ".0";
   snprintf(text, size, "%.*s%s%s", (int)mantissa, digits, point, digits + mantissa);
+}
+
+json_t *json_text_with(json_t *object, const char *key, json_t *value) {
+  if (!json_object_set_new(object, key, value)) return object;
+  json_decref(object);
+  return NULL;
+}
+
+json_t *json_text_string(const char *s) {
+  json_t *string = json_string(s);
+  size_t size = strlen(s) + 1;
+  char *copy = string ? NULL : malloc(size);
+  if (!copy) return string;
+  for (size_t i = 0; i < size; i++) copy[i] = s[i] & 0x80 ? '?' : s[i];
+  string = json_string(copy);
+  free(copy);
+  return string;
 }
 
 static void write_value(const json_t *value, int indent, FILE *out);
@@ -27,16 +45,16 @@ static void write_plain(const json_t *value, FILE *out) {
 }
 
 /* Nothing below it but numbers, words and lists of them. */
-static int is_flat(const json_t *list) {
+static bool is_flat(const json_t *list) {
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *item = json_array_get(list, i);
-    if (json_is_object(item) || (json_is_array(item) && !is_flat(item))) return 0;
+    if (json_is_object(item) || (json_is_array(item) && !is_flat(item))) return false;
   }
-  return 1;
+  return true;
 }
 
 static void write_list(const json_t *list, int indent, FILE *out) {
-  int flat = is_flat(list);
+  bool flat = is_flat(list);
   fputc('[', out);
   for (size_t i = 0; i < json_array_size(list); i++) {
     if (i) fputs(flat ? ", " : ",", out);

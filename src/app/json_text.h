@@ -10,6 +10,14 @@
 /* The shortest text that reads back as the same number, with a point. */
 void json_text_number(double x, size_t size, char *text);
 
+/* Sets a member of an object to a value that it takes over, and hands the object on. Where either
+   is NULL for lack of memory, the other is given up and the answer is NULL: a chain of calls needs
+   one check at its end. */
+json_t *json_text_with(json_t *object, const char *key, json_t *value);
+
+/* A string; bytes that are not UTF-8, as file names may have, become '?'. */
+json_t *json_text_string(const char *s);
+
 /* Writes a value in lines indented by two; lists of plain values stay on one. Errors are left in
    the stream. */
 void json_text_write(const json_t *value, FILE *out);

@@ -97,10 +97,20 @@ static corot_status write_outputs(run *r, double t) {
   return status;
 }
 
+static corot_status write_step(run *r, const step_row *row) {
+  double started = wall_clock();
+  corot_status status = outputs_step(r->outputs, row);
+  r->output_s += wall_clock() - started;
+  return status;
+}
+
 static corot_status update_frames(run *r, step_row *row) {
   corot_frames_change change;
   COROT_TRY(corot_integrator_at(r->integrator, row->t, r->u, NULL));
-  COROT_TRY(corot_frames_update(r->model, r->state, row->t, r->u, &change));
+  double started = wall_clock();
+  corot_status status = corot_frames_update(r->model, r->state, row->t, r->u, &change);
+  r->frames_s += wall_clock() - started;
+  COROT_TRY(status);
   row->events |= EVENT_FRAMES;
   row->angle_max = change.angle_max;
   row->angle_mean = change.angle_mean;
@@ -118,9 +128,7 @@ static corot_status update_frames(run *r, step_row *row) {
 static corot_status handle_events(run *r, step_row *row) {
   if (schedule_take_kink(r->schedule, row->t)) row->events |= EVENT_KINK;
   if (!schedule_take_frames(r->schedule, row->t)) return COROT_OK;
-  double started = wall_clock();
   corot_status status = update_frames(r, row);
-  r->frames_s += wall_clock() - started;
   if (status == COROT_OK) return COROT_OK;
   row->events |= EVENT_FAILED;
   return corot_fail(status, "update of the frames at t = %g s: %s", row->t, corot_error());
@@ -136,7 +144,7 @@ static corot_status integrate(run *r) {
 
     step_row row = {step.t, step.h, step.order, step.error, step.newton, 0, 0, 0, 0};
     corot_status handled = handle_events(r, &row);
-    COROT_TRY(outputs_step(r->outputs, &row));
+    COROT_TRY(write_step(r, &row));
     COROT_TRY(handled);
     progress_show(&r->progress, &step);
   }

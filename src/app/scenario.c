@@ -240,27 +240,27 @@ static corot_status read_time(scenario *s) {
 
 static corot_status read_integrator(scenario *s) {
   config_node *root = s->source->root, *node = config_find(root, "integrator");
-  s->integrator = (corot_integrator_def){
-      .method = text_at(node, "method"),
-      .linear_solver = text_at(root, "linear_solver"),
-      .rtol = number_at(node, "rtol"),
-      .atol_displacement = number_at(node, "atol.displacement"),
-      .atol_velocity = number_at(node, "atol.velocity"),
-      .max_order = (int)number_at(node, "max_order"),
-      .max_steps = (long)number_at(node, "max_steps"),
-      .first_step = number_at(node, "first_step"),
-      .min_step = number_at(node, "min_step"),
-      .max_step = number_at(node, "max_step"),
-      .tangent =
-          text_is(node, "jacobian.tangent", "exact") ? COROT_TANGENT_EXACT : COROT_TANGENT_HELD,
-      .reassembly = (int)number_at(node, "jacobian.reassembly"),
-      .refactorisation = (int)number_at(node, "jacobian.refactorisation"),
-      .gamma_change = number_at(node, "jacobian.gamma_change"),
-  };
-  const corot_integrator_def *def = &s->integrator;
-  if (def->max_step > 0 && def->min_step > def->max_step)
+  bool exact = text_is(node, "jacobian.tangent", "exact");
+  corot_integrator_def def = corot_integrator_defaults();
+  def.method = text_at(node, "method");
+  def.linear_solver = text_at(root, "linear_solver");
+  def.rtol = number_at(node, "rtol");
+  def.atol_displacement = number_at(node, "atol.displacement");
+  def.atol_velocity = number_at(node, "atol.velocity");
+  def.max_order = (int)number_at(node, "max_order");
+  def.max_steps = (long)number_at(node, "max_steps");
+  def.first_step = number_at(node, "first_step");
+  def.min_step = number_at(node, "min_step");
+  def.max_step = number_at(node, "max_step");
+  def.tangent = exact ? COROT_TANGENT_EXACT : COROT_TANGENT_HELD;
+  def.reassembly = (int)number_at(node, "jacobian.reassembly");
+  def.refactorisation = (int)number_at(node, "jacobian.refactorisation");
+  def.gamma_change = number_at(node, "jacobian.gamma_change");
+  s->integrator = def;
+
+  if (def.max_step > 0 && def.min_step > def.max_step)
     return config_fail(config_find(node, "min_step"), "larger than max_step");
-  if (def->max_step > 0 && def->first_step > def->max_step)
+  if (def.max_step > 0 && def.first_step > def.max_step)
     return config_fail(config_find(node, "first_step"), "larger than max_step");
   return COROT_OK;
 }
@@ -298,7 +298,6 @@ static void read_output(scenario *s) {
 /* --- All of it --- */
 
 static corot_status read_all(scenario *s, const char *path, int noverride, char *const *override) {
-  COROT_TRY(config_read(path, &s->source));
   for (int i = 0; i < noverride; i++) COROT_TRY(config_override(s->source, override[i]));
   COROT_TRY(schema_apply(s->source));
   s->path = config_copy(s->source, path, strlen(path));
@@ -317,15 +316,34 @@ static corot_status read_all(scenario *s, const char *path, int noverride, char 
   return s->resolved ? COROT_OK : no_memory();
 }
 
-corot_status scenario_read(const char *path, int noverride, char *const *override, scenario **out) {
+/* Takes over the tree. */
+static corot_status from_tree(config *tree, const char *path, int noverride, char *const *override,
+                              scenario **out) {
   scenario *s = calloc(1, sizeof *s);
-  if (!s) return no_memory();
+  if (!s) {
+    config_destroy(tree);
+    return no_memory();
+  }
+  s->source = tree;
   corot_status status = read_all(s, path, noverride, override);
   if (status == COROT_OK)
     *out = s;
   else
     scenario_destroy(s);
   return status;
+}
+
+corot_status scenario_read(const char *path, int noverride, char *const *override, scenario **out) {
+  config *tree = NULL;
+  COROT_TRY(config_read(path, &tree));
+  return from_tree(tree, path, noverride, override, out);
+}
+
+corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
+                                char *const *override, scenario **out) {
+  config *tree = NULL;
+  COROT_TRY(config_read_text(path, text, size, &tree));
+  return from_tree(tree, path, noverride, override, out);
 }
 
 void scenario_destroy(scenario *s) {

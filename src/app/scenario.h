@@ -64,12 +64,19 @@ typedef struct scenario {
 } scenario;
 
 /* Reads `path`, applies `override` [noverride] ("KEY.PATH=VALUE", in order) and fills in defaults.
-   COROT_EFORMAT: the message is "FILE:LINE:COL: what is wrong", with the source line. */
+   COROT_EIO: the file cannot be read. COROT_EFORMAT: the message is "FILE:LINE:COLUMN: KEY: what
+   is wrong", with the line; or "--set KEY=VALUE: ..." where an override is to blame. */
 corot_status scenario_read(const char *path, int noverride, char *const *override, scenario **out);
 
+/* The same from memory; `path` stands for the file in messages and for its folder. */
+corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
+                                char *const *override, scenario **out);
+
+/* Takes NULL. */
 void scenario_destroy(scenario *s);
 
-/* The mesh with its groups, and the model. Messages point into the scenario file. */
+/* The mesh with its groups, and the model; both the caller's to destroy. COROT_EFORMAT: a message
+   as above; a mesh that cannot be read is one, too. */
 corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_model **model);
 
 #endif

@@ -53,22 +53,31 @@ static corot_status build_mesh(const scenario *s, corot_mesh **out) {
 
 /* --- Groups in use --- */
 
-static corot_status unknown_group(const config_node *node, const corot_mesh *mesh) {
+static const char *nearest_name(const char *typed, const corot_mesh *mesh) {
   const char *near = NULL;
-  char list[256] = "";
+  for (int i = 0, nearest = 4; i < mesh->ngroup; i++) {
+    const char *name = mesh->group[i].name;
+    int distance = suggest_distance(typed, name);
+    if (distance < nearest && 2 * distance <= (int)strlen(name)) nearest = distance, near = name;
+  }
+  return near;
+}
+
+static void list_names(const corot_mesh *mesh, size_t size, char *list) {
   size_t used = 0;
-  int nearest = 4;
   for (int i = 0; i < mesh->ngroup; i++) {
     const char *name = mesh->group[i].name;
-    int distance = suggest_distance(node->text, name);
-    if (distance < nearest && 2 * distance <= (int)strlen(name)) nearest = distance, near = name;
-    if (used + strlen(name) + 6 < sizeof list)
-      used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", name);
-    else if (used + 6 < sizeof list)
-      used += (size_t)snprintf(list + used, sizeof list - used, ", ...") + sizeof list;
+    bool fits = used + strlen(name) + sizeof ", , ..." < size;
+    used += (size_t)snprintf(list + used, size - used, "%s%s", i ? ", " : "", fits ? name : "...");
+    if (!fits) return;
   }
+}
+
+static corot_status unknown_group(const config_node *node, const corot_mesh *mesh) {
+  const char *near = nearest_name(node->text, mesh);
+  char list[256] = "none";
+  list_names(mesh, sizeof list, list);
   if (near) return config_fail(node, "no group %.64s; did you mean %s?", node->text, near);
-  if (!mesh->ngroup) return config_fail(node, "no group %.64s; there are no groups", node->text);
   return config_fail(node, "no group %.64s; there are: %s", node->text, list);
 }
 

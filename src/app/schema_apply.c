@@ -100,12 +100,10 @@ static bool in_range(double x, schema_range range) {
 
 static corot_status check_number(config_node *node, schema_range range) {
   if (!config_parse_number(node, &node->number)) {
-    char word[64];
-    const char *finite = node->kind == CONFIG_SCALAR && strpbrk(node->text, "0123456789.")
-                             ? "a finite number in decimal, such as 1.5 or 1.0e-3"
-                             : "a number";
-    snprintf(word, sizeof word, "%s", finite);
-    return expected(node, node->quoted ? "a number (without quotes)" : word);
+    if (node->quoted) return expected(node, "a number (without quotes)");
+    bool digits = node->kind == CONFIG_SCALAR && strpbrk(node->text, "0123456789.");
+    return expected(node,
+                    digits ? "a finite number in decimal, such as 1.5 or 1.0e-3" : "a number");
   }
   if (range == SCHEMA_ZERO_FOR_NOW && node->number != 0)
     return config_fail(node, "%s is not yet supported; only 0 is", node->text);

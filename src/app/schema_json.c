@@ -1,17 +1,10 @@
-/* The table as a JSON Schema (draft 2020-12), for editors and other programs. A member that could
-   not be made for lack of memory makes the whole fail: every json_*_new takes NULL for that. */
+/* The table as a JSON Schema (draft 2020-12), for editors and other programs. */
 #include <string.h>
 
+#include "json_text.h"
 #include "schema.h"
 
 static json_t *map_schema(const char *path);
-
-/* Sets a member; on failure the object is given up and NULL is handed on. */
-static json_t *with(json_t *object, const char *key, json_t *value) {
-  if (!json_object_set_new(object, key, value)) return object;
-  json_decref(object);
-  return NULL;
-}
 
 static json_t *of_type(const char *type) { return json_pack("{s:s}", "type", type); }
 
@@ -19,19 +12,20 @@ static json_t *ranged(const char *type, schema_range range) {
   json_t *s = of_type(type);
   switch (range) {
     case SCHEMA_POSITIVE:
-      return with(s, "exclusiveMinimum", json_integer(0));
+      return json_text_with(s, "exclusiveMinimum", json_integer(0));
     case SCHEMA_NOT_NEGATIVE:
-      return with(s, "minimum", json_integer(0));
+      return json_text_with(s, "minimum", json_integer(0));
     case SCHEMA_FRACTION:
-      return with(with(s, "exclusiveMinimum", json_integer(0)), "exclusiveMaximum",
-                  json_integer(1));
+      return json_text_with(json_text_with(s, "exclusiveMinimum", json_integer(0)),
+                            "exclusiveMaximum", json_integer(1));
     case SCHEMA_ORDER:
-      return with(with(s, "minimum", json_integer(1)), "maximum", json_integer(5));
+      return json_text_with(json_text_with(s, "minimum", json_integer(1)), "maximum",
+                            json_integer(5));
     case SCHEMA_POISSON:
-      return with(with(s, "exclusiveMinimum", json_integer(-1)), "exclusiveMaximum",
-                  json_real(0.5));
+      return json_text_with(json_text_with(s, "exclusiveMinimum", json_integer(-1)),
+                            "exclusiveMaximum", json_real(0.5));
     case SCHEMA_ZERO_FOR_NOW:
-      return with(s, "const", json_integer(0));
+      return json_text_with(s, "const", json_integer(0));
     default:
       return s;
   }
@@ -57,9 +51,9 @@ static json_t *scalar_schema(const char *type, const schema_key *key) {
 }
 
 static json_t *list_schema(json_t *items, int least, int most) {
-  json_t *s = with(of_type("array"), "items", items);
-  if (least) s = with(s, "minItems", json_integer(least));
-  return most ? with(s, "maxItems", json_integer(most)) : s;
+  json_t *s = json_text_with(of_type("array"), "items", items);
+  if (least) s = json_text_with(s, "minItems", json_integer(least));
+  return most ? json_text_with(s, "maxItems", json_integer(most)) : s;
 }
 
 static json_t *value_schema(const schema_key *key) {
@@ -69,7 +63,7 @@ static json_t *value_schema(const schema_key *key) {
     case SCHEMA_MAP:
       return map_schema(inside);
     case SCHEMA_NAMED:
-      return with(of_type("object"), "additionalProperties", map_schema(inside));
+      return json_text_with(of_type("object"), "additionalProperties", map_schema(inside));
     case SCHEMA_LIST:
       return list_schema(map_schema(inside), 0, 0);
     case SCHEMA_MAPS:
@@ -90,8 +84,8 @@ static json_t *value_schema(const schema_key *key) {
     case SCHEMA_INTEGERS:
       return list_schema(ranged("integer", key->range), 1, 0);
     case SCHEMA_AXES:
-      return with(list_schema(json_pack("{s:o}", "enum", words_list(key->words)), 1, 3),
-                  "uniqueItems", json_true());
+      return json_text_with(list_schema(json_pack("{s:o}", "enum", words_list(key->words)), 1, 3),
+                            "uniqueItems", json_true());
     case SCHEMA_CURVE:
       return list_schema(list_schema(of_type("number"), 2, 2), 1, 0);
   }
@@ -109,11 +103,11 @@ static json_t *key_schema(const schema_key *key) {
   bool refused = key->status == SCHEMA_NOT_YET;
   json_t *s = refused ? json_pack("{s:{}}", "not") : value_schema(key);
   if (refused)
-    s = with(s, "description", json_sprintf("%s (not yet supported)", key->doc));
+    s = json_text_with(s, "description", json_sprintf("%s (not yet supported)", key->doc));
   else
-    s = with(s, "description", json_string(key->doc));
-  if (*key->unit) s = with(s, "unit", json_string(key->unit));
-  if (key->fallback) s = with(s, "default", default_value(key->fallback));
+    s = json_text_with(s, "description", json_string(key->doc));
+  if (*key->unit) s = json_text_with(s, "unit", json_string(key->unit));
+  if (key->fallback) s = json_text_with(s, "default", default_value(key->fallback));
   return s;
 }
 
@@ -122,21 +116,21 @@ static json_t *map_schema(const char *path) {
   for (const schema_key *k = NULL; (k = schema_child(path, k));) {
     const char *dot = strrchr(k->path, '.');
     const char *name = dot ? dot + 1 : k->path;
-    properties = with(properties, name, key_schema(k));
+    properties = json_text_with(properties, name, key_schema(k));
     if (k->status == SCHEMA_REQUIRED) json_array_append_new(required, json_string(name));
     if (k->status == SCHEMA_ONE_OF)
       json_array_append_new(one_of, json_pack("{s:[s]}", "required", name));
   }
-  json_t *s = with(of_type("object"), "properties", properties);
-  if (json_array_size(required)) s = with(s, "required", json_incref(required));
-  if (json_array_size(one_of)) s = with(s, "oneOf", json_incref(one_of));
+  json_t *s = json_text_with(of_type("object"), "properties", properties);
+  if (json_array_size(required)) s = json_text_with(s, "required", json_incref(required));
+  if (json_array_size(one_of)) s = json_text_with(s, "oneOf", json_incref(one_of));
   json_decref(required);
   json_decref(one_of);
-  return with(s, "additionalProperties", json_false());
+  return json_text_with(s, "additionalProperties", json_false());
 }
 
 json_t *schema_json(void) {
   json_t *s = map_schema("");
-  s = with(s, "$schema", json_string("https://json-schema.org/draft/2020-12/schema"));
-  return with(s, "title", json_string("corot scenario"));
+  s = json_text_with(s, "$schema", json_string("https://json-schema.org/draft/2020-12/schema"));
+  return json_text_with(s, "title", json_string("corot scenario"));
 }

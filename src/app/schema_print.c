@@ -54,16 +54,26 @@ static void type_and_range(const schema_key *key, size_t size, char *text) {
   snprintf(text, size, "%s%s%s", type_words(key->type), *range ? " " : "", range);
 }
 
+/* "a, b, c" */
+static void print_words(const char *words, FILE *out) {
+  for (const char *w = words; *w;) {
+    int length = (int)strcspn(w, "|");
+    fprintf(out, "%s%.*s", w > words ? ", " : "", length, w);
+    w += length + (w[length] == '|');
+  }
+}
+
 static void print_key(const schema_key *key, FILE *out) {
   char type[48];
   type_and_range(key, sizeof type, type);
   fprintf(out, "%-35s %-19s %-8s %-10s %s", key->path, type, *key->unit ? key->unit : "-",
           default_words(key), key->doc);
-  const char *between = key->type == SCHEMA_CHOICE || key->type == SCHEMA_AXES ? ": " : "; or ";
-  for (const char *w = key->words; w && *w; between = ", ") {
-    int length = (int)strcspn(w, "|");
-    fprintf(out, "%s%.*s", between, length, w);
-    w += length + (w[length] == '|');
+  if (key->words) {
+    bool alternative = key->type == SCHEMA_NUMBER || key->type == SCHEMA_INTEGER;
+    fputs(alternative ? " [or " : " [", out);
+    print_words(key->words, out);
+    if (key->not_yet) fputs("; not yet: ", out), print_words(key->not_yet, out);
+    fputc(']', out);
   }
   fputc('\n', out);
 }

@@ -35,7 +35,7 @@ enum {
 static const struct layout {
   const char *name, *type;
   section section;
-  int components;
+  int values;  /* a node, a tet */
   size_t item; /* bytes of a component */
   const char *attributes;
 } layout[NARRAY] = {
@@ -106,7 +106,7 @@ static size_t array_bytes(int i, const corot_mesh *mesh) {
   size_t tuples = a->section == FIELD                           ? 1
                   : a->section == POINT || a->section == POINTS ? (size_t)mesh->nnode
                                                                 : (size_t)mesh->ntet;
-  return tuples * (size_t)a->components * a->item;
+  return tuples * (size_t)a->values * a->item;
 }
 
 /* Appends to text [HEADER], which is known to be long enough. */
@@ -131,10 +131,11 @@ static void make_header(const corot_mesh *mesh, char text[HEADER]) {
   for (int i = 0; i < NARRAY; i++) {
     const struct layout *a = &layout[i];
     if (i == 0 || layout[i - 1].section != a->section) append(text, "%s", tag[a->section].open);
+    int components = a->section == CELLS ? 1 : a->values; /* connectivity is one long list */
     append(text,
            "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"%s format=\"appended\""
            " offset=\"%zu\"/>\n",
-           a->type, a->name, a->components, a->attributes, offset);
+           a->type, a->name, components, a->attributes, offset);
     offset += 8 + padded(array_bytes(i, mesh));
     if (i + 1 < NARRAY && layout[i + 1].section == a->section) continue;
     append(text, "%s", tag[a->section].close);

@@ -119,8 +119,8 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
         vd gg = vec3_dot(n.g[a], n.g[c]);
         element[k] = constant_bases(lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
         if (D && objective)
-          damping[k] = objective_damping(s, damping_lambda, damping_mu, &rates, a, c, n.p[a],
-                                         n.p[c]);
+          damping[k] =
+              objective_damping(s, damping_lambda, damping_mu, &rates, a, c, n.p[a], n.p[c]);
         else if (D)
           damping[k] = constant_bases(damping_lambda, damping_mu, gg, t.BsBs, n.p[a], n.p[c],
                                       n.s[a], n.s[c]);

@@ -13,8 +13,7 @@ static void add_force(const corot_model *m, double *force, int node, const doubl
 static corot_status find_faces(const corot_model *m, const char *name, const char *user,
                                const corot_group **group) {
   COROT_TRY(model_find_group(m->mesh, name, user, group));
-  if (!(*group)->ntri)
-    return corot_fail(COROT_EINVAL, "%s: group '%s' has no faces", user, name);
+  if (!(*group)->ntri) return corot_fail(COROT_EINVAL, "%s: group '%s' has no faces", user, name);
   return COROT_OK;
 }
 
@@ -105,10 +104,15 @@ static corot_status create(const corot_model *m, const corot_load *from, int k, 
   to->force = calloc(m->ndof, sizeof *to->force);
   if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
   switch (from->kind) {
-    case COROT_TRACTION: return add_traction(m, from, to);
-    case COROT_GRAVITY: return add_gravity(m, from, to);
-    case COROT_FORCE: return add_point_force(m, from, to);
-    default: return corot_fail(COROT_EINVAL, "load %d: there is no kind %d", k, (int)from->kind);
+    case COROT_TRACTION:
+      return add_traction(m, from, to);
+    case COROT_GRAVITY:
+      return add_gravity(m, from, to);
+    case COROT_FORCE:
+      return add_point_force(m, from, to);
+    default:
+      return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
+                        (int)from->kind);
   }
 }
 

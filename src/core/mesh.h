@@ -46,6 +46,7 @@ typedef struct corot_mesh_names {
   const char *tet;         /* "tet" or "element" */
   const int64_t *node_tag; /* [nnode] NULL: the index */
   const int64_t *tet_tag;  /* [ntet] NULL: the index */
+  const char *unused_hint; /* what to say about a node in no tet; NULL: nothing more */
 } corot_mesh_names;
 
 /* What a check found wrong. */

@@ -100,25 +100,40 @@ static corot_status check_use(const check *c) {
   int i = unused ? (int)(unused - used) : -1;
   free(used);
   if (i < 0) return COROT_OK;
-  return corot_fail(COROT_EINVAL, "%s %lld is in no tet", at_node(c, i), node_name(c, i));
+  const char *hint = c->names->unused_hint;
+  return corot_fail(COROT_EINVAL, "%s %lld is in no tet%s%s", at_node(c, i), node_name(c, i),
+                    hint ? "; " : "", hint ? hint : "");
 }
 
-/* Two tets that share a face must lie on either side of it. */
-static corot_status check_pair(const check *c, const corot_face *a, const corot_face *b) {
-  const int(*tet)[4] = (const int(*)[4])c->mesh->tet;
+/* Two tets that share a face must not be the same tet. */
+static corot_status check_different(const check *c, const corot_face *a, const corot_face *b) {
+  int(*tet)[4] = c->mesh->tet, ea = a->side / 4, eb = b->side / 4;
+  if (tet[ea][a->side % 4] != tet[eb][b->side % 4]) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "%ss %lld and %lld have the same nodes", at_tet(c, eb),
+                    tet_name(c, ea), tet_name(c, eb));
+}
+
+/* Nor lie on the same side of it. */
+static corot_status check_sides(const check *c, const corot_face *a, const corot_face *b) {
   int ea = a->side / 4, eb = b->side / 4, ta[3], tb[3];
-  corot_face_outward(a, tet, ta);
-  corot_face_outward(b, tet, tb);
+  corot_face_outward(a, (const int(*)[4])c->mesh->tet, ta);
+  corot_face_outward(b, (const int(*)[4])c->mesh->tet, tb);
   if (corot_tri_ascends(ta) != corot_tri_ascends(tb)) return COROT_OK;
-  const char *word = at_tet(c, eb);
-  long long na = tet_name(c, ea), nb = tet_name(c, eb);
-  if (tet[ea][a->side % 4] == tet[eb][b->side % 4])
-    return corot_fail(COROT_EINVAL, "%ss %lld and %lld have the same nodes", word, na, nb);
   return corot_fail(COROT_EINVAL,
                     "%ss %lld and %lld overlap: they are on the same side of the face %lld %lld "
                     "%lld",
-                    word, na, nb, node_name(c, a->v[0]), node_name(c, a->v[1]),
-                    node_name(c, a->v[2]));
+                    at_tet(c, eb), tet_name(c, ea), tet_name(c, eb), node_name(c, a->v[0]),
+                    node_name(c, a->v[1]), node_name(c, a->v[2]));
+}
+
+/* f[0], f[1], f[2] are the same face. */
+static corot_status check_three(const check *c, const corot_face *f) {
+  COROT_TRY(check_different(c, &f[0], &f[2]));
+  COROT_TRY(check_different(c, &f[1], &f[2]));
+  return corot_fail(COROT_EINVAL, "%ss %lld, %lld and %lld share the face %lld %lld %lld",
+                    at_tet(c, f[2].side / 4), tet_name(c, f[0].side / 4),
+                    tet_name(c, f[1].side / 4), tet_name(c, f[2].side / 4), node_name(c, f->v[0]),
+                    node_name(c, f->v[1]), node_name(c, f->v[2]));
 }
 
 static corot_status check_faces(const check *c, const corot_face *face) {
@@ -126,12 +141,9 @@ static corot_status check_faces(const check *c, const corot_face *face) {
   for (int i = 0; i + 1 < n; i++) {
     const corot_face *f = &face[i];
     if (corot_face_compare(&f[0], &f[1]) != 0) continue;
-    COROT_TRY(check_pair(c, &f[0], &f[1]));
-    if (i + 2 < n && corot_face_compare(&f[0], &f[2]) == 0)
-      return corot_fail(COROT_EINVAL, "%ss %lld, %lld and %lld share the face %lld %lld %lld",
-                        at_tet(c, f[2].side / 4), tet_name(c, f[0].side / 4),
-                        tet_name(c, f[1].side / 4), tet_name(c, f[2].side / 4),
-                        node_name(c, f->v[0]), node_name(c, f->v[1]), node_name(c, f->v[2]));
+    COROT_TRY(check_different(c, &f[0], &f[1]));
+    if (i + 2 < n && corot_face_compare(&f[0], &f[2]) == 0) return check_three(c, f);
+    COROT_TRY(check_sides(c, &f[0], &f[1]));
   }
   return COROT_OK;
 }

@@ -217,7 +217,7 @@ static corot_status check(const corot_draft *d, const int *tet, const corot_mesh
   tags t = {0};
   corot_status status = list_tags(d, tet, mesh->ntet, &t);
   if (!status) {
-    const corot_mesh_names names = {"element", t.node, t.tet};
+    const corot_mesh_names names = {"element", t.node, t.tet, d->nmember ? NULL : d->unused_hint};
     status = corot_mesh_check(mesh, &names, &place, face);
   }
   if (status == COROT_EINVAL) status = locate(d, &place, t.element);

@@ -33,7 +33,8 @@ typedef struct corot_draft_name {
 /* Zero is an empty draft. */
 typedef struct corot_draft {
   const corot_reader *node_file, *element_file; /* for messages */
-  bool repeats; /* an element in several groups is listed once for each */
+  bool repeats;            /* an element in several groups is listed once for each */
+  const char *unused_hint; /* if there are no groups: why a node may be in no tet */
 
   int nnode;
   double (*x)[3];

@@ -247,6 +247,7 @@ static corot_status parse(corot_gmsh *g, corot_mesh **mesh) {
 corot_status corot_gmsh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
   corot_gmsh g = {.r = {.path = path, .data = data, .size = size}};
   g.d.node_file = g.d.element_file = &g.r;
+  g.d.unused_hint = "with a physical group for the volume, gmsh writes no others (centres of arcs)";
   corot_status status = parse(&g, mesh);
   corot_draft_clear(&g.d);
   free(g.entity);

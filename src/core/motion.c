@@ -122,9 +122,8 @@ void model_velocity(const corot_model *m, double phase, double t, const double *
       double w[3], d[3];
       spin_arms(a, m->mesh->x[a->node[i]], w, d);
       for (int c = 0; c < 3; c++)
-        nodal[a->node[i] * stride + c] = a->kind == COROT_ROTATE
-                                             ? a->rate * (cosine * w[c] + sine * d[c])
-                                             : a->velocity[c];
+        nodal[a->node[i] * stride + c] =
+            a->kind == COROT_ROTATE ? a->rate * (cosine * w[c] + sine * d[c]) : a->velocity[c];
     }
   }
 }

@@ -27,13 +27,14 @@ COROT_INLINE vd fourth_root_of_ratio(vd a, vd b) {
   return (vd)bits;
 }
 
-/* R for lanes with det F > 0; identity elsewhere, where *inverted is set (also for NaN). The sign of
-   the determinant is kept by the iteration: where the last iterate's is not positive, that of F was
-   lost in rounding. */
+/* R for lanes with det F > 0; identity elsewhere, where *inverted is set (also for NaN). The sign
+   of the determinant is kept by the iteration: where the last iterate's is not positive, that of F
+   was lost in rounding. */
 COROT_INLINE mat3 polar(mat3 F, vi *inverted) {
   mat3 X = F;
-  vd det = vd_all(0);
-  vi refused = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0)), done = refused;
+  vd det = mat3_det(F, mat3_cofactor(F));
+  vi done = ~(det > vd_all(0));
+  *inverted = done;
   X = mat3_select(done, mat3_identity(), X);
   for (int k = 0; k < POLAR_MAX_ITERATIONS; k++) {
     mat3 C = mat3_cofactor(X);
@@ -50,8 +51,10 @@ COROT_INLINE mat3 polar(mat3 F, vi *inverted) {
       if (!vi_any(~done)) break;
     }
   }
-  *inverted = refused | ~done | ~(det > vd_all(0));
-  return mat3_select(*inverted, mat3_identity(), X);
+  vi lost = ~done | ~(det > vd_all(0));
+  if (!vi_any(lost)) return X;
+  *inverted |= lost;
+  return mat3_select(lost, mat3_identity(), X);
 }
 
 /* G^-1 for G = tr(S) I - S: a rotation rate w of the frame, dR = R [w]x, solves

@@ -14,7 +14,8 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
   s->spin = vector_calloc(nblock, sizeof *s->spin);
   s->force = vector_calloc(nblock, sizeof *s->force);
   s->r = calloc(m->ndof, sizeof *s->r);
-  if (!s->u || !s->v || !s->du || !s->dv || !s->R || !s->new_R || !s->now_R || !s->spin || !s->force || !s->r)
+  if (!s->u || !s->v || !s->du || !s->dv || !s->R || !s->new_R || !s->now_R || !s->spin ||
+      !s->force || !s->r)
     return corot_fail(COROT_ENOMEM, "no memory for a state of %d nodes", nnode);
   for (int b = 0; b < nblock; b++) s->R[b] = mat3_identity();
   return COROT_OK;

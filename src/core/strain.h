@@ -129,8 +129,8 @@ COROT_INLINE mat3 stress_objective_derivative(const strain_measure *s, vd lambda
   vec3 z = mat3_apply(r.Ginv, mat3_vee(mat3_mul(r.S, T)));
   mat3 dST = mat3_add(mat3_mul(dS, T), mat3_mul(r.S, dT));
   vec3 dz = mat3_apply(r.Ginv, vec3_less(mat3_vee(dST), apply_g_change(dS, z)));
-  mat3 dP = mat3_add(mat3_mul(dR, mat3_add(T, mat3_skew(z))),
-                     mat3_mul(R, mat3_add(dT, mat3_skew(dz))));
+  mat3 dP =
+      mat3_add(mat3_mul(dR, mat3_add(T, mat3_skew(z))), mat3_mul(R, mat3_add(dT, mat3_skew(dz))));
   if (s->pressure == BY_FRAME) return dP;
   vd p = lambda * mat3_dot(F, V), dp = lambda * (mat3_dot(dF, V) + mat3_dot(F, dV));
   return mat3_add(dP, mat3_sum(p, dF, dp, F));

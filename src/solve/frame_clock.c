@@ -63,11 +63,8 @@ corot_status corot_frame_clock_create(const corot_frame_policy *policy, const co
   COROT_TRY(check(policy));
   corot_frame_clock *c = calloc(1, sizeof *c);
   if (!c) return corot_fail(COROT_ENOMEM, "no memory for a frame clock");
-  *c = (corot_frame_clock){.policy = *policy,
-                           .model = model,
-                           .state = state,
-                           .integrator = integrator,
-                           .cap = INFINITY};
+  *c = (corot_frame_clock){
+      .policy = *policy, .model = model, .state = state, .integrator = integrator, .cap = INFINITY};
   corot_status status = start(c, t, u, v);
   if (status) {
     corot_frame_clock_destroy(c);
@@ -95,15 +92,19 @@ static corot_status reason_at(corot_frame_clock *c, double t, corot_frame_reason
   const corot_frame_policy *p = &c->policy;
   corot_frames_change drift;
   *reason = COROT_FRAMES_KEPT;
-  if (p->every_step) *reason = COROT_FRAMES_BY_STEP;
+  if (p->every_step)
+    *reason = COROT_FRAMES_BY_STEP;
   else if (p->interval > 0 && ticks_until(t, p->interval) > c->ticks)
     *reason = COROT_FRAMES_BY_INTERVAL;
-  else if (t >= c->cap) *reason = COROT_FRAMES_BY_CAP;
+  else if (t >= c->cap)
+    *reason = COROT_FRAMES_BY_CAP;
   if (*reason || !(p->max_angle > 0 || p->hook)) return COROT_OK;
 
   COROT_TRY(corot_frames_drift(c->model, c->state, t, c->u, &drift));
-  if (p->max_angle > 0 && drift.angle_max > p->max_angle) *reason = COROT_FRAMES_BY_ANGLE;
-  else if (p->hook && p->hook(p->hook_data, t, c->u, c->v, &drift)) *reason = COROT_FRAMES_BY_HOOK;
+  if (p->max_angle > 0 && drift.angle_max > p->max_angle)
+    *reason = COROT_FRAMES_BY_ANGLE;
+  else if (p->hook && p->hook(p->hook_data, t, c->u, c->v, &drift))
+    *reason = COROT_FRAMES_BY_HOOK;
   return COROT_OK;
 }
 

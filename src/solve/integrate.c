@@ -53,14 +53,25 @@ static corot_status check(const corot_integrator_def *d) {
   for (size_t k = 0; k < sizeof number / sizeof *number; k++)
     if (!(number[k].value > 0 || (number[k].zero && number[k].value == 0)) ||
         !isfinite(number[k].value))
-      return corot_fail(COROT_EINVAL, "integrator: %s = %g is not positive", number[k].name,
-                        number[k].value);
+      return corot_fail(COROT_EINVAL, "integrator: %s = %g is not positive%s and finite",
+                        number[k].name, number[k].value, number[k].zero ? ", or 0," : "");
   if (d->max_order < 0 || d->max_order > 5)
     return corot_fail(COROT_EINVAL, "integrator: max_order = %d is not in 1 to 5 (0: choose)",
                       d->max_order);
   if (d->max_step > 0 && d->min_step > d->max_step)
     return corot_fail(COROT_EINVAL, "integrator: min_step = %g exceeds max_step = %g", d->min_step,
                       d->max_step);
+  if (d->tangent != COROT_TANGENT_HELD && d->tangent != COROT_TANGENT_EXACT)
+    return corot_fail(COROT_EINVAL, "integrator: tangent = %d is none", (int)d->tangent);
+  return COROT_OK;
+}
+
+static corot_status check_start(double t, int n, const double *u, const double *v) {
+  if (!isfinite(t)) return corot_fail(COROT_EINVAL, "integrator: cannot start at t = %g", t);
+  for (int i = 0; i < n; i++)
+    if (!isfinite(u[i]) || !isfinite(v[i]))
+      return corot_fail(COROT_EINVAL, "integrator: at the start u[%d] = %g, v[%d] = %g", i, u[i], i,
+                        v[i]);
   return COROT_OK;
 }
 
@@ -90,9 +101,11 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
   const integrator_ops *ops;
   COROT_TRY(check(def));
   COROT_TRY(find_method(def->method, &ops));
+  COROT_TRY(check_start(t, corot_model_ndof(model), u, v));
   corot_integrator *self = calloc(1, sizeof *self);
   if (!self) return corot_fail(COROT_ENOMEM, "no memory for an integrator");
-  *self = (corot_integrator){.ops = ops, .model = model, .state = state, .def = *def, .t = t};
+  *self = (corot_integrator){
+      .ops = ops, .model = model, .state = state, .def = *def, .t = t, .before = t};
   choose(&self->def, model);
   self->def.method = ops->name;
   self->def.linear_solver = NULL;
@@ -117,27 +130,57 @@ void corot_integrator_destroy(corot_integrator *self) {
   free(self);
 }
 
+/* Two clocks that mean one instant differ by rounding, over which there is no step to take. */
+static bool within_rounding(const corot_integrator *self, double t_stop) {
+  return t_stop - self->t <= 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
+}
+
+static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {
+  *step = (corot_step){.t = t_stop, .h = t_stop - self->t, .order = self->qlast};
+  if (self->before == self->t) self->before = t_stop;
+  self->t = t_stop;
+}
+
 corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_step *step) {
-  if (!(t_stop > self->t))
+  if (!(t_stop > self->t) || !isfinite(t_stop))
     return corot_fail(COROT_EINVAL, "integrator: cannot stop at t = %.17g, being at %.17g", t_stop,
                       self->t);
+  if (within_rounding(self, t_stop)) {
+    settle_at(self, t_stop, step);
+    return COROT_OK;
+  }
   if (self->def.max_steps > 0 && self->nst >= self->def.max_steps)
     return corot_fail(COROT_EINTEGRATE, "%s: max_steps = %ld reached at t = %g", self->ops->name,
                       self->def.max_steps, self->t);
-  double before = self->t;
-  COROT_TRY(self->ops->step(self, t_stop, step));
-  self->t = step->t;
+  corot_step taken;
+  COROT_TRY(self->ops->step(self, t_stop, &taken));
+  taken.h = taken.t - self->t;
+  self->before = self->t;
+  self->t = taken.t;
+  self->hlast = taken.h;
+  self->qlast = taken.order;
   self->nst++;
-  step->h = step->t - before;
+  *step = taken;
   return COROT_OK;
 }
 
+static corot_status check_within(const corot_integrator *self, double t) {
+  if (t >= self->before && t <= self->t) return COROT_OK;
+  if (self->before == self->t)
+    return corot_fail(COROT_EINVAL, "%s: t = %.17g is not where the integrator (re)started, %.17g",
+                      self->ops->name, t, self->t);
+  return corot_fail(COROT_EINVAL, "%s: t = %.17g is not in the last step, %.17g to %.17g",
+                    self->ops->name, t, self->before, self->t);
+}
+
 corot_status corot_integrator_at(corot_integrator *self, double t, double *u, double *v) {
+  COROT_TRY(check_within(self, t));
   return self->ops->at(self, t, u, v);
 }
 
 corot_status corot_integrator_work(corot_integrator *self, double t, double *dissipated,
                                    double *external) {
+  COROT_TRY(check_within(self, t));
   return self->ops->work(self, t, dissipated, external);
 }
 
@@ -161,6 +204,8 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
                         .solve_s = p.solve_s};
   self->ops->statistics(self, &s);
   s.nst = self->nst;
+  s.hlast = self->hlast;
+  s.qlast = self->qlast;
   return s;
 }
 

@@ -3,10 +3,15 @@
 
    SUNDIALS 6.4.1 has a defect: after a stop time has been reached by a call whose tout equals it,
    the next call returns at once without advancing. The remedy is in advance(): tout always lies
-   beyond the stop time. */
+   beyond the stop time.
+
+   Where the model cannot be evaluated beyond some time (an element inverts), CVODE takes ever
+   shorter steps towards it without end: collapsed() ends that. */
 #include <cvodes/cvodes.h>
+#include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,19 +29,29 @@ typedef struct cvode {
   SUNMatrix A;
   SUNLinearSolver LS;
   double t_stop;           /* armed; NaN: none */
-  bool fresh;              /* no step since the start or a restart: no interpolant yet */
   corot_statistics before; /* counts of earlier starts */
   long nni;                /* at the end of the last step */
+  double longest;          /* step so far [s] */
+  bool collapsed;          /* the last step shows that there is no way on */
+  char refusal[128];       /* why the model could not be evaluated in the last such trial */
+  long refused;            /* steps taken by then */
   char message[512];       /* SUNDIALS' own words on its last failure */
 } cvode;
 
+static int refuse_trial(cvode *c, int status, const char *why) {
+  snprintf(c->refusal, sizeof c->refusal, "%s", why);
+  c->refused = c->self->nst;
+  return status;
+}
+
 static int rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
-  corot_integrator *self = ((cvode *)user_data)->self;
+  cvode *c = user_data;
+  corot_integrator *self = c->self;
   double start = clock_wall();
   int status =
       corot_rhs(self->model, self->state, t, N_VGetArrayPointer(y), N_VGetArrayPointer(ydot));
   self->force_s += clock_wall() - start;
-  return status;
+  return status ? refuse_trial(c, status, corot_error()) : 0;
 }
 
 static int work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_data) {
@@ -53,8 +68,8 @@ static int work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_data) 
   return status;
 }
 
-/* Largest length of a node's vector in x [n]: unlike componentwise sizes it does not change when
-   the whole problem is rotated, so neither do the steps. */
+/* Largest length of a node's vector in x [n], infinity if one is not a number: unlike componentwise
+   sizes it does not change when the whole problem is rotated, so neither do the steps. */
 static double largest_vector(const corot_model *model, const double *x) {
   int nnode = corot_model_mesh(model)->nnode;
   const int(*dof)[3] = corot_model_dof(model);
@@ -63,6 +78,7 @@ static double largest_vector(const corot_model *model, const double *x) {
     double square = 0;
     for (int c = 0; c < 3; c++)
       if (dof[n][c] >= 0) square += x[dof[n][c]] * x[dof[n][c]];
+    if (!(square < INFINITY)) return INFINITY;
     largest = fmax(largest, square);
   }
   return sqrt(largest);
@@ -70,14 +86,15 @@ static double largest_vector(const corot_model *model, const double *x) {
 
 /* One weight for all displacements and one for all velocities. */
 static int error_weights(N_Vector y, N_Vector weight, void *user_data) {
-  corot_integrator *self = ((cvode *)user_data)->self;
+  cvode *c = user_data;
+  corot_integrator *self = c->self;
   const corot_integrator_def *d = &self->def;
   int n = corot_model_ndof(self->model);
   const double *u = N_VGetArrayPointer(y);
   double *w = N_VGetArrayPointer(weight);
   double wu = 1 / (d->rtol * largest_vector(self->model, u) + d->atol_displacement);
   double wv = 1 / (d->rtol * largest_vector(self->model, u + n) + d->atol_velocity);
-  if (!isfinite(wu) || !isfinite(wv)) return -1;
+  if (!(wu > 0 && wv > 0)) return refuse_trial(c, -1, "the motion exceeds double precision");
   for (int i = 0; i < n; i++) w[i] = wu, w[n + i] = wv;
   return 0;
 }
@@ -142,7 +159,6 @@ static corot_status cvode_create(corot_integrator *self, const double *u, const 
   if (!c) return corot_fail(COROT_ENOMEM, "no memory for cvode");
   c->self = self;
   c->t_stop = NAN;
-  c->fresh = true;
   if (sun_context_create(&c->ctx)) return corot_fail(COROT_ENOMEM, "no memory for SUNDIALS");
   c->y = N_VNew_Serial(2 * (sunindextype)n, c->ctx);
   c->work = N_VNew_Serial(2, c->ctx);
@@ -162,13 +178,21 @@ static corot_status cvode_create(corot_integrator *self, const double *u, const 
   return COROT_OK;
 }
 
-/* SUNDIALS' reason, and the element's if a force could not be evaluated. */
-static corot_status give_up(const cvode *c) {
-  int tet = corot_state_inverted(c->self->state);
-  if (tet >= 0)
-    return corot_fail(COROT_EINTEGRATE, "cvode: at t = %.9g: %s (tet %d is inverted)", c->self->t,
-                      c->message, tet);
-  return corot_fail(COROT_EINTEGRATE, "cvode: at t = %.9g: %s", c->self->t, c->message);
+/* Whether a trial of the last few steps met a state that cannot be evaluated. */
+static bool recently_refused(const cvode *c) {
+  return c->refusal[0] && c->self->nst - c->refused <= 3;
+}
+
+/* The model's reason, if it is to blame, and SUNDIALS' own. */
+static corot_status give_up(const cvode *c, const char *why) {
+  bool refused = recently_refused(c);
+  return corot_fail(COROT_EINTEGRATE, "cvode: cannot get past t = %.9g: %s%s%s%s", c->self->t,
+                    refused ? c->refusal : "", refused ? " (" : "", why, refused ? ")" : "");
+}
+
+static bool collapsed(cvode *c, double h, bool stopped) {
+  c->longest = fmax(c->longest, h);
+  return !(h > 0) || (!stopped && recently_refused(c) && h < 1e-9 * c->longest);
 }
 
 static corot_status advance(cvode *c, double t_stop, double *t) {
@@ -177,11 +201,13 @@ static corot_status advance(cvode *c, double t_stop, double *t) {
   double beyond = t_stop + (t_stop - c->self->t);
   c->message[0] = 0;
   int flag = CVode(c->memory, beyond, c->y, t, CV_ONE_STEP);
-  if (flag < 0) return give_up(c);
+  if (flag == CV_LSETUP_FAIL || flag == CV_LSOLVE_FAIL) refuse_trial(c, flag, corot_error());
+  if (flag < 0) return give_up(c, c->message);
   if (flag == CV_TSTOP_RETURN) {
     *t = t_stop;
     c->t_stop = NAN; /* reaching it disarms it */
   }
+  c->collapsed = collapsed(c, *t - c->self->t, *t == t_stop);
   return COROT_OK;
 }
 
@@ -189,8 +215,11 @@ static corot_status cvode_step(corot_integrator *self, double t_stop, corot_step
   cvode *c = self->method;
   double t, t_work;
   long nni = 0;
+  if (c->collapsed) {
+    snprintf(c->message, sizeof c->message, "steps have shrunk to %.2g s", self->hlast);
+    return give_up(c, c->message);
+  }
   COROT_TRY(advance(c, t_stop, &t));
-  c->fresh = false;
   if (CVodeGetQuad(c->memory, &t_work, c->work) || CVodeGetNumNonlinSolvIters(c->memory, &nni) ||
       CVodeGetLastOrder(c->memory, &step->order) || CVodeGetEstLocalErrors(c->memory, c->error) ||
       CVodeGetErrWeights(c->memory, c->weight))
@@ -208,8 +237,7 @@ static corot_status cvode_at(corot_integrator *self, double t, double *u, double
   N_Vector y = c->y;
   if (t != self->t) {
     y = c->error;
-    if (c->fresh || CVodeGetDky(c->memory, t, 0, y))
-      return corot_fail(COROT_EINVAL, "cvode: t = %.17g is not in the last step", t);
+    if (CVodeGetDky(c->memory, t, 0, y)) return refuse(c, "interpolant");
   }
   if (u) memcpy(u, N_VGetArrayPointer(y), n * sizeof *u);
   if (v) memcpy(v, N_VGetArrayPointer(y) + n, n * sizeof *v);
@@ -222,10 +250,10 @@ static corot_status cvode_work(corot_integrator *self, double t, double *dissipa
   const double *work = N_VGetArrayPointer(c->work);
   double at_end[2] = {work[0], work[1]};
   if (t != self->t) { /* c->work lends its room */
-    bool bad = c->fresh || CVodeGetQuadDky(c->memory, t, 0, c->work);
+    bool bad = CVodeGetQuadDky(c->memory, t, 0, c->work);
     double inside[2] = {work[0], work[1]};
     memcpy(N_VGetArrayPointer(c->work), at_end, sizeof at_end);
-    if (bad) return corot_fail(COROT_EINVAL, "cvode: t = %.17g is not in the last step", t);
+    if (bad) return refuse(c, "interpolant");
     memcpy(at_end, inside, sizeof inside);
   }
   *dissipated = at_end[0];
@@ -252,7 +280,7 @@ static void add_counts(const cvode *c, corot_statistics *s) {
 static corot_status derivative_jump(cvode *c, double *jump) {
   N_Vector now = c->error, old = c->scratch;
   c->before.nfe++;
-  if (rhs(c->self->t, c->y, now, c)) return give_up(c);
+  if (rhs(c->self->t, c->y, now, c)) return give_up(c, "after a change of the frames");
   if (CVodeGetDky(c->memory, c->self->t, 1, old) || CVodeGetErrWeights(c->memory, c->weight))
     return refuse(c, "interpolant");
   N_VLinearSum(1, now, -1, old, now);
@@ -265,20 +293,22 @@ static corot_status derivative_jump(cvode *c, double *jump) {
 static corot_status cvode_changed(corot_integrator *self, corot_history history) {
   cvode *c = self->method;
   double h = self->def.first_step;
-  if (c->fresh || history == COROT_HISTORY_KEEP) return COROT_OK;
+  bool fresh = self->before == self->t; /* no history yet */
+  if (fresh || history == COROT_HISTORY_KEEP) return COROT_OK;
   if (history == COROT_HISTORY_AUTO) {
     double jump = 0, h_last = 0, h_next = 0;
     COROT_TRY(derivative_jump(c, &jump));
     CVodeGetLastStep(c->memory, &h_last);
     CVodeGetCurrentStep(c->memory, &h_next);
     if (h_next * jump < 0.5) return COROT_OK;
-    h = fmin(h_last, 0.5 / jump);
+    h = fmax(fmin(h_last, 0.5 / jump), 100 * DBL_EPSILON * fabs(self->t));
   }
   add_counts(c, &c->before);
   c->before.nrestart++;
   c->nni = 0;
-  c->fresh = true;
   c->t_stop = NAN;
+  c->collapsed = false;
+  self->before = self->t;
   if (CVodeReInit(c->memory, self->t, c->y) || CVodeQuadReInit(c->memory, c->work) ||
       CVodeSetInitStep(c->memory, h))
     return refuse(c, "restart");
@@ -291,8 +321,6 @@ static void cvode_statistics(const corot_integrator *self, corot_statistics *s) 
   s->nfe = b->nfe, s->nsetups = b->nsetups, s->netf = b->netf, s->nni = b->nni, s->ncfn = b->ncfn;
   s->nfeQ = b->nfeQ, s->nrestart = b->nrestart;
   add_counts(c, s);
-  CVodeGetLastStep(c->memory, &s->hlast);
-  CVodeGetLastOrder(c->memory, &s->qlast);
 }
 
 const integrator_ops integrator_cvode = {"cvode",  cvode_create, cvode_destroy, cvode_step,

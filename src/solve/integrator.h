@@ -27,6 +27,9 @@ struct corot_integrator {
   corot_pencil *pencil;
   corot_integrator_def def; /* choices made; its strings are not kept */
   double t;                 /* reached */
+  double before;            /* where the last step began; t: there is no interpolant */
+  double hlast;             /* length of the last step, 0: there was none */
+  int qlast;                /* its order */
   long nst;                 /* steps taken */
   double force_s, work_s;   /* wall time in the right-hand side and the work integrands [s] */
   void *method;             /* the method's own part */

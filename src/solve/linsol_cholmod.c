@@ -1,5 +1,7 @@
 /* CHOLMOD: sparse Cholesky, by dense blocks where the factor is large enough for them to pay. A
    pivot that is not positive is an answer, not an accident: the matrix is indefinite. */
+#include <float.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <suitesparse/cholmod.h>
@@ -10,7 +12,8 @@ typedef struct cholesky {
   cholmod_common common;
   cholmod_sparse A; /* view of the pattern; its values are the caller's */
   cholmod_factor *L;
-  cholmod_dense *b, *x, *y, *e; /* right-hand side, solution, and workspace kept by cholmod */
+  bool factored;
+  cholmod_dense *b, *x, *y, *e; /* right-hand side, solution, and cholmod's workspace */
 } cholesky;
 
 static corot_status failure(const cholesky *c, const char *phase) {
@@ -35,6 +38,17 @@ static void cholesky_destroy(void *solver) {
   free(c);
 }
 
+static cholmod_dense *vector(cholesky *c, size_t n) {
+  return cholmod_allocate_dense(n, 1, n, CHOLMOD_REAL, &c->common);
+}
+
+/* Analysis, and all the room a solve needs: cholmod before version 4 crashes if it finds none. */
+static bool analyze(cholesky *c) {
+  size_t n = c->A.nrow;
+  return (c->L = cholmod_analyze(&c->A, &c->common)) && (c->b = vector(c, n)) &&
+         (c->x = vector(c, n)) && (c->y = vector(c, n)) && (c->e = vector(c, c->L->maxesize));
+}
+
 static corot_status cholesky_create(const corot_csc *pattern, void **solver) {
   cholesky *c = calloc(1, sizeof *c);
   if (!c) return corot_fail(COROT_ENOMEM, "no memory for cholmod");
@@ -54,9 +68,7 @@ static corot_status cholesky_create(const corot_csc *pattern, void **solver) {
                           .dtype = CHOLMOD_DOUBLE,
                           .sorted = 1,
                           .packed = 1};
-  c->L = cholmod_analyze(&c->A, &c->common);
-  c->b = c->L ? cholmod_allocate_dense(pattern->n, 1, pattern->n, CHOLMOD_REAL, &c->common) : NULL;
-  if (!c->b) {
+  if (!analyze(c)) {
     corot_status status = failure(c, "analysis");
     cholesky_destroy(c);
     return status;
@@ -71,11 +83,17 @@ static corot_status cholesky_factor(void *solver, const double *value, bool *fre
   *fresh = true;
   c->A.x = (double *)value; /* cholmod does not write to it */
   cholmod_factorize(&c->A, c->L, &c->common);
-  return c->common.status == CHOLMOD_OK ? COROT_OK : failure(c, "factorisation");
+  c->factored = false;
+  if (c->common.status != CHOLMOD_OK) return failure(c, "factorisation");
+  double ratio = cholmod_rcond(c->L, &c->common);
+  c->factored = ratio >= DBL_EPSILON;
+  if (c->factored) return COROT_OK;
+  return corot_fail(COROT_ESINGULAR, "cholmod: the matrix is singular (pivot ratio %.1e)", ratio);
 }
 
 static corot_status cholesky_solve(void *solver, double *x) {
   cholesky *c = solver;
+  if (!c->factored) return corot_fail(COROT_EINVAL, "cholmod: solve: there is no factor");
   memcpy(c->b->x, x, c->b->nrow * sizeof *x);
   if (!cholmod_solve2(CHOLMOD_A, c->L, c->b, NULL, &c->x, NULL, &c->y, &c->e, &c->common))
     return failure(c, "solve");

@@ -1,6 +1,8 @@
 /* KLU: sparse LU. The symbolic analysis is done once and the pivots are kept from one factorisation
-   to the next while the reciprocal condition number stays above eps^(2/3), the bound of SUNDIALS'
-   own KLU interface. */
+   to the next while the smallest and the largest of them are no further apart than eps^(2/3). (An
+   estimate of the condition number would not do: a good matrix factored with bad pivots has a good
+   one.) A factor with pivots chosen anew is refused where the smallest is mere rounding beside the
+   largest: KLU by itself objects only to a zero. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -63,32 +65,44 @@ static corot_status klu_solver_create(const corot_csc *pattern, void **solver) {
   return COROT_OK;
 }
 
-/* Whether a factor with old pivots can be trusted. */
-static bool well_conditioned(klu *k, double *value) {
-  const double bound = pow(DBL_EPSILON, 2.0 / 3.0);
-  if (!klu_rcond(k->symbolic, k->numeric, &k->common)) return false;
-  if (k->common.rcond >= bound) return true;
-  if (!klu_condest(k->pattern->colptr, value, k->symbolic, k->numeric, &k->common)) return false;
-  return k->common.condest <= 1 / bound;
+/* Refuses a factor without a usable pivot, or with a NaN in it. */
+static corot_status check_pivots(klu *k) {
+  if (!klu_rcond(k->symbolic, k->numeric, &k->common)) return failure(k, "condition");
+  if (k->common.rcond >= DBL_EPSILON) return COROT_OK;
+  const double *pivot = k->numeric->Udiag;
+  int smallest = 0;
+  for (int j = 1; j < k->pattern->n; j++)
+    if (!(fabs(pivot[j]) >= fabs(pivot[smallest]))) smallest = j;
+  corot_status status = corot_fail(
+      COROT_ESINGULAR, "klu: the matrix is singular at degree of freedom %d (pivot ratio %.1e)",
+      k->symbolic->Q[smallest], k->common.rcond);
+  klu_free_numeric(&k->numeric, &k->common);
+  return status;
+}
+
+/* Factors with the old pivots, if there are any and they will do. */
+static bool refactor(klu *k, double *value) {
+  const corot_csc *A = k->pattern;
+  return k->numeric &&
+         klu_refactor(A->colptr, A->row, value, k->symbolic, k->numeric, &k->common) &&
+         klu_rcond(k->symbolic, k->numeric, &k->common) &&
+         k->common.rcond >= pow(DBL_EPSILON, 2.0 / 3.0);
 }
 
 static corot_status klu_solver_factor(void *solver, const double *value, bool *fresh) {
   klu *k = solver;
   const corot_csc *A = k->pattern;
   double *x = (double *)value; /* klu does not write to it */
-  *fresh = false;
-  if (k->numeric && klu_refactor(A->colptr, A->row, x, k->symbolic, k->numeric, &k->common) &&
-      well_conditioned(k, x))
-    return COROT_OK;
-
-  *fresh = true;
+  *fresh = !refactor(k, x);
+  if (!*fresh) return COROT_OK;
   klu_free_numeric(&k->numeric, &k->common);
   k->numeric = klu_factor(A->colptr, A->row, x, k->symbolic, &k->common);
-  return k->numeric ? COROT_OK : failure(k, "factorisation");
+  return k->numeric ? check_pivots(k) : failure(k, "factorisation");
 }
 
 static corot_status klu_solver_solve(void *solver, double *x) {
   klu *k = solver;
+  if (!k->numeric) return corot_fail(COROT_EINVAL, "klu: solve: there is no factor");
   if (klu_solve(k->symbolic, k->numeric, k->pattern->n, 1, x, &k->common)) return COROT_OK;
   return failure(k, "solve");
 }

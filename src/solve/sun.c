@@ -45,9 +45,11 @@ static SUNLinearSolver_Type solver_type(SUNLinearSolver LS) {
   return SUNLINEARSOLVER_DIRECT;
 }
 
+/* A singular S is recoverable as well as an indefinite one: a smaller g brings it closer to M. */
 static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
   (void)A;
-  return corot_pencil_factor(LS->content);
+  corot_status status = corot_pencil_factor(LS->content);
+  return status == COROT_ESINGULAR ? COROT_RETRY : status;
 }
 
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {

@@ -14,4 +14,19 @@ expect 3 run model.yaml --set boundary.0.group=bse -o c; err "did you mean base?
 expect 3 run model.yaml --set mesh.box=null --set mesh.file=none.msh -o c; err "none.msh"
 echo >file
 expect 5 run model.yaml -o file/x; err "file: exists and is not a folder"; no_out
+
+# Interrupted: what there is gets written, and the exit code says by what.
+for signal in INT:130 TERM:143; do
+  "$corot" run model.yaml -o i --set time.end=1e6 --set output.fields=none >stdout 2>stderr &
+  what="interrupted run"
+  tries=0
+  until [ -s i/steps.csv ] || [ $tries = 100 ]; do sleep 0.1; tries=$((tries + 1)); done
+  kill -"${signal%:*}" $!
+  wait $!
+  got=$?
+  [ $got = "${signal#*:}" ] || complain "signal ${signal%:*}: exit code $got"
+  [ -s i/result.json ] || complain "signal ${signal%:*}: no result.json"
+  no_out
+  rm -r i
+done
 exit $failed

@@ -25,7 +25,7 @@ VTK_TETRA = 10
 
 def expect(condition, message):
     if not condition:
-        sys.exit(f"FAILED: {message}")
+        sys.exit(f"failed: {message}")
 
 
 def read(path):

@@ -29,6 +29,48 @@ static inline void apply(const double A[9], const double x[3], double y[3]) {
   for (int i = 0; i < 3; i++) y[i] = A[3 * i] * x[0] + A[3 * i + 1] * x[1] + A[3 * i + 2] * x[2];
 }
 
+/* C = A B and C = A' B, row-major; C is neither. */
+static inline void multiply(const double A[9], const double B[9], double C[9]) {
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      C[3 * i + j] = A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j];
+}
+
+static inline void multiply_transposed(const double A[9], const double B[9], double C[9]) {
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      C[3 * i + j] = A[i] * B[j] + A[3 + i] * B[3 + j] + A[6 + i] * B[6 + j];
+}
+
+static inline double determinant(const double A[9]) {
+  return A[0] * (A[4] * A[8] - A[5] * A[7]) + A[1] * (A[5] * A[6] - A[3] * A[8]) +
+         A[2] * (A[3] * A[7] - A[4] * A[6]);
+}
+
+/* Largest |A_ij - B_ij|; NaN if any entry is. */
+static inline double distance(const double A[9], const double B[9]) {
+  double d = 0;
+  for (int k = 0; k < 9; k++) {
+    double e = fabs(A[k] - B[k]);
+    if (!(e <= d)) d = e;
+    if (isnan(e)) break;
+  }
+  return d;
+}
+
+static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+/* A rotation about a random axis by up to pi. */
+static inline void random_rotation(uint64_t *seed, double Q[9]) {
+  double axis[3] = {noise(seed), noise(seed), noise(seed)};
+  rotation(axis, 3.14159 * noise(seed), Q);
+}
+
+/* I + size times noise. */
+static inline void random_gradient(uint64_t *seed, double size, double F[9]) {
+  for (int k = 0; k < 9; k++) F[k] = identity[k] + size * noise(seed);
+}
+
 /* A unit-size box whose inner nodes are moved, so that no two tets are alike. */
 static inline corot_mesh *crooked_box(int nx, int ny, int nz) {
   corot_box box = {.size = {1.0, 0.9, 1.1}, .cells = {nx, ny, nz}, .origin = {-0.3, 0.2, 0.1}};
@@ -43,6 +85,51 @@ static inline corot_mesh *crooked_box(int nx, int ny, int nz) {
 
 static const corot_material soft = {
     .lambda = 1.0e5, .mu = 1.0e4, .density = 1000, .damping_lambda = 10, .damping_mu = 1};
+
+/* A model with its mesh and a state, exact frames. */
+typedef struct body {
+  corot_mesh *mesh;
+  corot_model *model;
+  corot_state *state;
+  int n; /* degrees of freedom */
+} body;
+
+/* Takes the mesh, which is `def`'s from now on. */
+static inline body make_body(corot_mesh *mesh, corot_model_def def) {
+  body b = {.mesh = mesh};
+  def.mesh = mesh;
+  assert_ok(corot_model_create(&def, &b.model));
+  assert_ok(corot_state_create(b.model, &b.state));
+  b.n = corot_model_ndof(b.model);
+  return b;
+}
+
+static inline void drop_body(body *b) {
+  corot_state_destroy(b->state);
+  corot_model_destroy(b->model);
+  corot_mesh_destroy(b->mesh);
+}
+
+/* Nodal values [nnode][3] to degrees of freedom [n]; held components are left out. */
+static inline void to_dofs(const body *b, const double (*nodal)[3], double *free_values) {
+  const int(*dof)[3] = corot_model_dof(b->model);
+  for (int n = 0; n < b->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++)
+      if (dof[n][c] >= 0) free_values[dof[n][c]] = nodal[n][c];
+}
+
+static inline double norm_max(int n, const double *a) {
+  double largest = 0;
+  for (int i = 0; i < n; i++)
+    if (!(fabs(a[i]) <= largest)) largest = fabs(a[i]);
+  return largest;
+}
+
+static inline double inner(int n, const double *a, const double *b) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
 
 static const char *const measures[] = {"cauchy", "warp", "polar", "hybrid", "green"};
 enum { NMEASURE = 5 };

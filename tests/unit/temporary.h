@@ -42,11 +42,11 @@ static inline void remove_folder(char *path) {
   free(path);
 }
 
-/* DIR/NAME in a buffer that is overwritten by the fourth call from here. */
+/* DIR/NAME in a buffer that is overwritten by the eighth call from here. */
 static inline const char *in(const char *dir, const char *name) {
-  static char path[4][2048];
+  static char path[8][2048];
   static int turn;
-  turn = (turn + 1) % 4;
+  turn = (turn + 1) % 8;
   snprintf(path[turn], sizeof path[turn], "%s/%s", dir, name);
   return path[turn];
 }

@@ -2,7 +2,8 @@
 #include "core/polar.h"
 #include "solid.h"
 
-/* A crooked box turned by `angle` about `axis` through the origin, stretched by S first, all free. */
+/* A crooked box turned by `angle` about `axis` through the origin, stretched by S first, all free.
+ */
 typedef struct turned {
   corot_mesh *mesh;
   corot_model *model;
@@ -132,8 +133,8 @@ static void energy_jump_of_an_update_follows_its_law(void **state) {
   corot_state_use(s.state, COROT_FRAMES_HELD);
   double volume = corot_mesh_measure(s.mesh).volume, z[3] = {0, 0, 1}, theta = 1e-3;
   double s1 = stretched[0], s2 = stretched[1], trace = s1 + s2 + stretched[2] - 3;
-  double law = volume * 0.5 * theta * theta * (s1 + s2) *
-               (soft.mu * (s1 + s2 - 2) + soft.lambda * trace);
+  double law =
+      volume * 0.5 * theta * theta * (s1 + s2) * (soft.mu * (s1 + s2 - 2) + soft.lambda * trace);
   corot_frames_change change;
   turn(&s, z, 0.5, 0, stretched);
   assert_ok(corot_frames_update(s.model, s.state, 0, s.u, NULL));

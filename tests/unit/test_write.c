@@ -1,9 +1,11 @@
 /* The writers: tables, fields, result files. */
 #include <app/folder.h>
+#include <app/outputs.h>
 #include <app/schedule.h>
 #include <app/write_csv.h>
 #include <app/write_vtu.h>
 
+#include "alloc.h"
 #include "temporary.h"
 
 static void assert_file(const char *path, const char *expected) {
@@ -310,6 +312,68 @@ static void stops_are_kinks_updates_and_the_end(void **state) {
   }
 }
 
+/* A scenario made by hand, and what the objects under test are made from. */
+typedef struct maker {
+  const char *dir;
+  scenario scenario;
+  corot_model *model;
+} maker;
+
+static corot_status make_schedule(void *context) {
+  maker *m = context;
+  schedule *s = NULL;
+  corot_status status = schedule_create(m->model, 2, 0.1, 0.05, &s);
+  if (status == COROT_OK) assert_int_equal(s->nkink, 1);
+  schedule_destroy(s);
+  return status;
+}
+
+static corot_status make_outputs(void *context) {
+  maker *m = context;
+  outputs *o = NULL;
+  corot_status status = outputs_open(&m->scenario, m->model, m->dir, &o);
+  outputs_destroy(o);
+  return status;
+}
+
+static void failed_allocations_are_survived(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  corot_box box = {.size = {1, 1, 1}, .cells = {1, 1, 1}};
+  corot_mesh *mesh;
+  assert_ok(corot_mesh_box(&box, &mesh));
+  corot_material material = {.lambda = 1, .mu = 1, .density = 1};
+  corot_load load = {.kind = COROT_GRAVITY,
+                     .value = {1, 0, 0},
+                     .amplitude = {2, (const double[]){0, 1}, (const double[]){0, 1}}};
+  corot_model_def def = corot_model_defaults();
+  def.mesh = mesh;
+  def.nmaterial = def.nload = 1;
+  def.material = &material;
+  def.load = &load;
+  probe_def probe = {.name = (char *)"tip", .node = 7};
+  maker m = {.dir = dir,
+             .scenario = {.nmaterial = 1,
+                          .material = &material,
+                          .nprobe = 1,
+                          .probe = &probe,
+                          .write_fields = true}};
+  assert_ok(corot_model_create(&def, &m.model));
+
+  assert_true(assert_survives_failed_allocations(make_schedule, &m) >= 2);
+  assert_true(assert_survives_failed_allocations(make_outputs, &m) >= 10);
+  m.scenario.write_fields = false;
+  assert_true(assert_survives_failed_allocations(make_outputs, &m) >= 10);
+
+  probe.node = 8;
+  outputs *o = NULL;
+  assert_fails(outputs_open(&m.scenario, m.model, dir, &o), COROT_EINVAL,
+               "probe tip: node 8; the mesh's nodes are 0 to 7");
+  corot_model_destroy(m.model);
+  corot_mesh_destroy(mesh);
+  remove_folder(dir);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(folders_are_made_with_those_above),
@@ -323,6 +387,7 @@ int main(void) {
       cmocka_unit_test(the_list_of_frames_is_whole_at_any_time),
       cmocka_unit_test(outputs_are_due_once_each),
       cmocka_unit_test(stops_are_kinks_updates_and_the_end),
+      cmocka_unit_test(failed_allocations_are_survived),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

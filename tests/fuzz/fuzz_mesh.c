@@ -1,0 +1,69 @@
+/* Mesh files of any content: no crash, and what is accepted is sound. A gmsh file begins with $;
+   otherwise it is a TetGen .node file, a 0 byte, and a .ele file. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/mesh_read.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* The bytes and a 0, in a block of just that size. */
+static char *copy(const uint8_t *data, size_t size) {
+  char *p = malloc(size + 1);
+  if (!p) abort();
+  if (size) memcpy(p, data, size);
+  p[size] = 0;
+  return p;
+}
+
+static void require(bool condition, const char *what) {
+  if (condition) return;
+  fprintf(stderr, "%s: %s\n", what, corot_error());
+  abort();
+}
+
+static void require_ascending(int n, const int *a, int end, const char *what) {
+  for (int i = 0; i < n; i++) require(a[i] >= 0 && a[i] < end && (i == 0 || a[i] > a[i - 1]), what);
+}
+
+static void require_sound(const corot_mesh *m) {
+  corot_mesh *again;
+  require(corot_mesh_create(m->nnode, (const double(*)[3])m->x, m->ntet, (const int(*)[4])m->tet,
+                            &again) == COROT_OK,
+          "an unsound mesh");
+  corot_mesh_destroy(again);
+  for (int g = 0; g < m->ngroup; g++) {
+    const corot_group *p = &m->group[g];
+    require(p->nnode > 0, "an empty group");
+    require(corot_mesh_find_group(m, p->name) == p, "a repeated name");
+    require_ascending(p->nnode, p->node, m->nnode, "a group's nodes");
+    require_ascending(p->ntet, p->tet, m->ntet, "a group's tets");
+    for (int i = 0; i < 3 * p->ntri; i++)
+      require(p->tri[i / 3][i % 3] >= 0 && p->tri[i / 3][i % 3] < m->nnode, "a group's triangles");
+  }
+  require(corot_mesh_measure(m).volume > 0, "no volume");
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  corot_mesh *m = NULL;
+  corot_status status;
+  if (size > 0 && data[0] == '$') {
+    char *text = copy(data, size);
+    status = corot_gmsh_parse("fuzz", text, size, &m);
+    free(text);
+  } else {
+    const uint8_t *end = size ? memchr(data, 0, size) : NULL;
+    size_t n = end ? (size_t)(end - data) : size, rest = end ? size - n - 1 : 0;
+    char *node = copy(data, n), *ele = copy(data + size - rest, rest);
+    status = corot_tetgen_parse("fuzz.node", node, n, "fuzz.ele", ele, rest, &m);
+    free(node);
+    free(ele);
+  }
+  if (status == COROT_OK)
+    require_sound(m);
+  else
+    require(status == COROT_EFORMAT && !m && *corot_error(), "not a clean failure");
+  corot_mesh_destroy(m);
+  return 0;
+}

@@ -1,0 +1,192 @@
+/* The pencil: S = a M + b D + c K, its factor, its books; and what happens without memory. */
+#include "alloc.h"
+#include "bar.h"
+
+#include <corot/solve.h>
+
+static bar a_bar(void) {
+  bar b = bar_create(&example2);
+  uint64_t seed = 5;
+  for (int i = 0; i < b.n; i++) b.u[i] = 1e-3 * noise(&seed), b.v[i] = noise(&seed);
+  return b;
+}
+
+/* y = S x from the definition. */
+static void product(const bar *b, corot_tangent tangent, const double abc[3], const double *x,
+                    double *y) {
+  int nblock = corot_model_nblock(b->model);
+  double(*K)[9] = malloc(2 * nblock * sizeof *K), (*D)[9] = K + nblock;
+  double *Dx = malloc(b->n * sizeof *Dx);
+  assert_ok(corot_jacobian(b->model, b->state, 0, b->u, b->v, tangent, K, D));
+  corot_block_multiply(b->model, (const double(*)[9])K, x, y);
+  corot_block_multiply(b->model, (const double(*)[9])D, x, Dx);
+  const double *mass = corot_model_mass(b->model);
+  for (int i = 0; i < b->n; i++) y[i] = abc[0] * mass[i] * x[i] + abc[1] * Dx[i] + abc[2] * y[i];
+  free(K), free(Dx);
+}
+
+static void it_solves_the_system_it_names(void **state) {
+  (void)state;
+  const double abc[] = {2, 0.03, 0.004};
+  bar b = a_bar();
+  double *x = malloc(3 * b.n * sizeof *x), *y = x + b.n, *z = y + b.n;
+  uint64_t seed = 9;
+  for (int i = 0; i < b.n; i++) x[i] = noise(&seed);
+  for (int tangent = COROT_TANGENT_HELD; tangent <= COROT_TANGENT_EXACT; tangent++) {
+    corot_pencil *p;
+    assert_ok(corot_pencil_create(b.model, b.state, "klu", &p));
+    assert_string_equal(corot_pencil_solver(p), "klu");
+    corot_pencil_use(p, tangent);
+    assert_ok(corot_pencil_assemble(p, 0, b.u, b.v));
+    corot_pencil_combine(p, abc[0], abc[1], abc[2]);
+    assert_ok(corot_pencil_factor(p));
+    product(&b, tangent, abc, x, y);
+    assert_ok(corot_pencil_solve(p, y, z));
+    assert_below(difference_of(b.n, z, x), 1e-12);
+    assert_ok(corot_pencil_solve(p, y, y)); /* in place */
+    assert_int_equal(memcmp(y, z, b.n * sizeof *y), 0);
+    corot_pencil_destroy(p);
+  }
+  free(x);
+  bar_destroy(&b);
+}
+
+static void it_keeps_books(void **state) {
+  (void)state;
+  bar b = a_bar();
+  double *x = calloc(b.n, sizeof *x);
+  corot_pencil *p;
+  assert_ok(corot_pencil_create(b.model, b.state, "klu", &p));
+  assert_fails(corot_pencil_solve(p, x, x), COROT_EINVAL, "there is no factor");
+  assert_ok(corot_pencil_assemble(p, 0, b.u, b.v));
+  for (int k = 0; k < 3; k++) {
+    corot_pencil_combine(p, 1, 0.01, 0.01);
+    assert_ok(corot_pencil_factor(p));
+    assert_ok(corot_pencil_solve(p, x, x));
+  }
+  corot_pencil_combine(p, 0, 0, 0);
+  assert_fails(corot_pencil_factor(p), COROT_ESINGULAR, "degree of freedom");
+  corot_pencil_counts c = corot_pencil_statistics(p);
+  assert_int_equal(c.nassembly, 1);
+  assert_int_equal(c.ncombine, 4);
+  assert_int_equal(c.nfactor, 4);
+  assert_int_equal(c.nsolve, 4);
+  assert_int_equal(c.nfresh, 2);
+  assert_int_equal(c.nindefinite, 0);
+  assert_true(c.assembly_s > 0 && c.combine_s > 0 && c.factor_s > 0 && c.solve_s > 0);
+  corot_pencil_destroy(p);
+
+  if (corot_pencil_create(b.model, b.state, "cholmod", &p) == COROT_OK) {
+    assert_ok(corot_pencil_assemble(p, 0, b.u, b.v));
+    corot_pencil_combine(p, -1e4, 0, 1);
+    assert_fails(corot_pencil_factor(p), COROT_RETRY, "not positive definite");
+    assert_int_equal(corot_pencil_statistics(p).nindefinite, 1);
+    corot_pencil_destroy(p);
+  }
+  corot_pencil_destroy(NULL);
+  free(x);
+  bar_destroy(&b);
+}
+
+static void an_inverted_element_has_no_matrix(void **state) {
+  (void)state;
+  bar b = a_bar();
+  corot_pencil *p;
+  assert_ok(corot_pencil_create(b.model, b.state, "auto", &p));
+  b.u[b.tip + 2] = -0.5;
+  assert_fails(corot_pencil_assemble(p, 0, b.u, b.v), COROT_RETRY, "is inverted");
+  corot_pencil_destroy(p);
+  bar_destroy(&b);
+}
+
+static void an_unknown_solver_is_refused(void **state) {
+  (void)state;
+  bar b = a_bar();
+  corot_pencil *p = (corot_pencil *)&b;
+  assert_fails(corot_pencil_create(b.model, b.state, "gauss", &p), COROT_EINVAL, "'gauss'");
+  assert_ptr_equal(p, &b);
+  bar_destroy(&b);
+}
+
+static corot_status make_pencil(void *context) {
+  bar *b = context;
+  corot_pencil *p;
+  COROT_TRY(corot_pencil_create(b->model, b->state, "klu", &p));
+  corot_pencil_destroy(p);
+  return COROT_OK;
+}
+
+static corot_status make_cholmod(void *context) {
+  bar *b = context;
+  corot_pencil *p;
+  COROT_TRY(corot_pencil_create(b->model, b->state, "cholmod", &p));
+  corot_pencil_destroy(p);
+  return COROT_OK;
+}
+
+static const char *method;
+
+static corot_status make_integrator(void *context) {
+  bar *b = context;
+  corot_integrator_def def = corot_integrator_defaults();
+  def.method = method;
+  def.step = 0.1;
+  corot_integrator *integrator;
+  COROT_TRY(corot_integrator_create(&def, b->model, b->state, 0, b->u, b->v, &integrator));
+  corot_integrator_destroy(integrator);
+  return COROT_OK;
+}
+
+static void failed_allocations_are_survived(void **state) {
+  (void)state;
+  bar b = a_bar();
+  assert_true(assert_survives_failed_allocations(make_pencil, &b) > 5);
+  corot_pencil *p;
+  if (corot_pencil_create(b.model, b.state, "cholmod", &p) == COROT_OK) {
+    corot_pencil_destroy(p);
+    assert_true(assert_survives_failed_allocations(make_cholmod, &b) > 5);
+  }
+  method = "cvode";
+  assert_true(assert_survives_failed_allocations(make_integrator, &b) > 7);
+  method = "bdf2";
+  assert_true(assert_survives_failed_allocations(make_integrator, &b) > 7);
+  corot_integrator_destroy(NULL);
+  bar_destroy(&b);
+}
+
+/* Those of SUNDIALS and KLU are theirs; ours are all made before the first step. */
+static void no_step_allocates(void **state) {
+  (void)state;
+  const char *const methods[] = {"cvode", "bdf3", "newmark"};
+  for (int m = 0; m < 3; m++) {
+    bar b = bar_create(&example2);
+    corot_integrator_def def = corot_integrator_defaults();
+    def.method = methods[m];
+    def.step = 0.01;
+    corot_integrator *integrator = start(&b, &def);
+    corot_step step = {0};
+    alloc_fail_at(0);
+    for (int k = 0; k < 200; k++) {
+      assert_ok(corot_integrator_step(integrator, 40, &step));
+      assert_ok(corot_integrator_at(integrator, step.t - step.h / 2, b.u, b.v));
+      double dissipated, external;
+      assert_ok(corot_integrator_work(integrator, step.t, &dissipated, &external));
+      if (k % 20 == 19) assert_ok(corot_integrator_changed(integrator, COROT_HISTORY_RESTART));
+    }
+    assert_int_equal(alloc_count(), 0);
+    corot_integrator_destroy(integrator);
+    bar_destroy(&b);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(it_solves_the_system_it_names),
+      cmocka_unit_test(it_keeps_books),
+      cmocka_unit_test(an_inverted_element_has_no_matrix),
+      cmocka_unit_test(an_unknown_solver_is_refused),
+      cmocka_unit_test(failed_allocations_are_survived),
+      cmocka_unit_test(no_step_allocates),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
