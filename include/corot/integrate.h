@@ -22,7 +22,8 @@ typedef enum corot_solution {
                         of constant step, without error control: baselines */
 typedef struct corot_integrator_def {
   const char *method;
-  const char *linear_solver; /* "auto", "klu", "cholmod" */
+  const char *linear_solver; /* "auto", "klu", "cholmod", "pcg" */
+  double linear_tolerance;   /* relative residual of an iterative solver, > 0 */
   double rtol;               /* relative tolerance, > 0 */
   double atol_displacement;  /* [m]; 0: rtol * 0.01 * length of the model */
   double atol_velocity;      /* [m/s]; 0: atol_displacement * frequency of the model */

@@ -172,6 +172,7 @@ typedef struct corot_csc {
   int *row;    /* [nnz] */
   int *source; /* [nnz] where the entry stands in the blocks, counted in doubles */
   int *diagonal; /* [n] the entry of each column's diagonal */
+  int *node;     /* [n] the mesh node each degree of freedom belongs to; ascending */
 } corot_csc;
 
 corot_status corot_csc_create(const corot_model *model, corot_triangle triangle, corot_csc **csc);

@@ -69,27 +69,22 @@ static void pcg_destroy(void *solver) {
   free(p);
 }
 
-static void list_nodes(const corot_model *model, pcg *p) {
-  int nnode = corot_model_mesh(model)->nnode;
-  const int(*dof)[3] = corot_model_dof(model);
-  for (int n = 0; n < nnode; n++) {
-    node_block *b = &p->block[p->nblock];
-    b->n = 0;
-    for (int c = 0; c < 3; c++)
-      if (dof[n][c] >= 0) b->dof[b->n++] = dof[n][c];
-    if (b->n) p->nblock++;
+static void list_nodes(const corot_csc *A, pcg *p) {
+  for (int i = 0; i < A->n; i++) {
+    if (i == 0 || A->node[i] != A->node[i - 1]) p->block[p->nblock++].n = 0;
+    node_block *b = &p->block[p->nblock - 1];
+    b->dof[b->n++] = i;
   }
 }
 
-static corot_status pcg_create(const corot_model *model, const corot_csc *pattern, double tolerance,
-                               void **solver) {
+static corot_status pcg_create(const corot_csc *pattern, void **solver) {
   pcg *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for pcg");
   p->A = pattern;
-  p->tolerance = tolerance;
-  p->block = malloc(corot_model_mesh(model)->nnode * sizeof *p->block);
+  p->tolerance = 1e-10;
+  p->block = malloc(pattern->n * sizeof *p->block);
   p->rhs = malloc(pattern->n * sizeof *p->rhs);
-  if (p->block) list_nodes(model, p);
+  if (p->block) list_nodes(pattern, p);
   if (sun_context_create(&p->ctx) == 0) {
     p->x = N_VNewEmpty_Serial(pattern->n, p->ctx);
     p->b = N_VNewEmpty_Serial(pattern->n, p->ctx);
@@ -165,7 +160,11 @@ static corot_status pcg_solve(void *solver, double *x) {
                     SUNLinSolNumIters(p->cg));
 }
 
+static void pcg_set_tolerance(void *solver, double tolerance) {
+  ((pcg *)solver)->tolerance = tolerance;
+}
+
 static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
 
-const linsol_ops linsol_pcg = {"pcg",     COROT_FULL,  pcg_create,    pcg_factor,
-                               pcg_solve, pcg_destroy, pcg_iterations};
+const linsol_ops linsol_pcg = {"pcg",     COROT_FULL,  pcg_create,        pcg_factor,
+                               pcg_solve, pcg_destroy, pcg_set_tolerance, pcg_iterations};
