@@ -1,15 +1,17 @@
-/* Loops over all tets. Each reads the nodal fields in the state, writes where it says, and returns
-   the number of the first inverted tet, or -1; after an inversion the output means nothing. */
+/* Loops over the tets, all of them or those of one chunk. Each reads the nodal fields in the state,
+   writes where it says, and returns the number of the first inverted tet, or -1; after an inversion
+   the output means nothing. */
 #ifndef COROT_CORE_KERNEL_H
 #define COROT_CORE_KERNEL_H
 
 #include "core/state.h"
 
 /* state->force = -(internal + viscous force) for state->u and, if `damped`, state->v. */
-int kernel_force(const corot_model *m, corot_state *state, bool damped);
+int kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk);
 
-/* state->force = the change of that for the directions state->du and state->dv. */
-int kernel_derivative(const corot_model *m, corot_state *state, corot_tangent tangent);
+/* state->force = the change of that for the directions state->du and state->dv; `exact`: with that
+   of the frames. */
+int kernel_derivative(const corot_model *m, corot_state *state, bool exact, int chunk);
 
 /* Elastic energy and, if `damped`, the power of the viscous forces. */
 int kernel_energy(const corot_model *m, corot_state *state, bool damped, double *elastic,
@@ -22,27 +24,31 @@ int kernel_frames(const corot_model *m, corot_state *state, mat3 *R);
    state->v: dR/dt = [spin]x R. */
 int kernel_spin(const corot_model *m, corot_state *state, vec3 *spin);
 
-/* state->force = the internal force of a measure, index `strain`, with its own frames and with
-   the material's coefficients times the factors given. */
+/* state->force = -(the internal force of a measure, index `strain`, with its own frames and with
+   the material's coefficients times the factors given). */
 int kernel_internal(const corot_model *m, corot_state *state, int strain, double lambda_part,
-                    double mu_part);
+                    double mu_part, int chunk);
 
-/* Adds the element matrices to K and D; either may be NULL. */
-int kernel_tangent(const corot_model *m, corot_state *state, corot_tangent tangent, double (*K)[9],
+/* Adds the element matrices to K and D, either of which may be NULL, and completes the columns of
+   the nodes that are ready then. `exact`: with the variation of the frames. */
+int kernel_tangent(const corot_model *m, corot_state *state, bool exact, int chunk, double (*K)[9],
                    double (*D)[9]);
 
 /* --- shared by the loops --------------------------------------------------------------------- */
 
+/* The blocks of a chunk end before this one. */
+COROT_INLINE int chunk_end(const corot_model *m, int chunk) {
+  return chunk < m->tets.nblock / CHUNK ? (chunk + 1) * CHUNK : m->tets.nblock;
+}
+
 /* Gradient of a nodal field. */
 COROT_INLINE mat3 gradient(const tet_block *block, const double (*x)[4]) {
-  vd x0[3];
-  vd_gather3(x, block->node[0], x0);
   mat3 G;
   for (int a = 0; a < 3; a++) {
-    vd xa[3];
-    vd_gather3(x, block->node[a + 1], xa);
+    vd edge[3]; /* x_a - x_0 */
+    vd_gather3_difference(x, block->node[a + 1], block->node[0], edge);
     EACH_IJ {
-      vd term = (xa[i] - x0[i]) * block->g.m[a][j];
+      vd term = edge[i] * block->g.m[a][j];
       G.m[i][j] = a == 0 ? term : G.m[i][j] + term;
     }
   }
@@ -74,13 +80,14 @@ COROT_INLINE mat3 frame_in_use(const strain_measure *s, const corot_model *m,
   return R;
 }
 
-/* Nodal forces -V P g_a into the buffer. */
-COROT_INLINE void store_forces(const tet_block *block, mat3 P, vd force[4][3]) {
+/* Nodal forces A g_a of block b into the buffer; A is -V P. */
+COROT_INLINE void store_forces(const corot_model *m, corot_state *state, int b, mat3 A) {
+  const mat3 *g = &m->tets.block[b].g;
+  vd(*force)[3] = state->force[b % m->pattern.window];
   for (int i = 0; i < 3; i++) {
     vd rest = vd_all(0);
     for (int a = 1; a < 4; a++) {
-      vd f = -block->volume * (P.m[i][0] * block->g.m[a - 1][0] + P.m[i][1] * block->g.m[a - 1][1] +
-                               P.m[i][2] * block->g.m[a - 1][2]);
+      vd f = A.m[i][0] * g->m[a - 1][0] + A.m[i][1] * g->m[a - 1][1] + A.m[i][2] * g->m[a - 1][2];
       force[a][i] = f;
       rest -= f;
     }

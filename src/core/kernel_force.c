@@ -1,44 +1,46 @@
 #include "core/kernel.h"
 
+/* The viscous stress times a factor. */
 COROT_INLINE mat3 viscous_stress(const strain_measure *s, bool objective, const material *mat,
-                                 mat3 F, mat3 R, mat3 V) {
-  vd lambda = vd_all(mat->damping_lambda), mu = vd_all(mat->damping_mu);
+                                 vd factor, mat3 F, mat3 R, mat3 V) {
+  vd lambda = factor * mat->damping_lambda, mu = factor * mat->damping_mu;
   if (s->frame == FRAME_POLAR && objective) return stress_objective(s, lambda, mu, F, R, V);
   return stress_viscous(s, lambda, mu, F, R, V);
 }
 
 COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                            bool damped) {
-  for (int b = 0; b < m->tets.nblock; b++) {
+                            bool damped, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
     vi inverted = {0};
     mat3 F = deformation(block, (const double(*)[4])state->u);
     mat3 R = frame_in_use(s, m, state, b, F, &inverted);
-    mat3 P = stress(s, vd_all(mat->lambda), vd_all(mat->mu), F, R);
+    vd minus = -block->volume;
+    mat3 A = stress(s, minus * mat->lambda, minus * mat->mu, F, R);
     if (damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
-      P = mat3_add(P, viscous_stress(s, m->objective, mat, F, R, V));
+      A = mat3_add(A, viscous_stress(s, m->objective, mat, minus, F, R, V));
     }
-    store_forces(block, P, state->force[b]);
+    store_forces(m, state, b, A);
     if (vi_any(inverted)) return first_inverted(m, b, inverted);
   }
   return -1;
 }
 
 /* The hot loop is compiled for each measure, so that its branches on the measure fall away. */
-COROT_CLONES int kernel_force(const corot_model *m, corot_state *state, bool damped) {
+COROT_CLONES int kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk) {
   switch (m->strain) {
     case CAUCHY:
-      return force_loop(&strain_measures[CAUCHY], m, state, damped);
+      return force_loop(&strain_measures[CAUCHY], m, state, damped, chunk);
     case WARP:
-      return force_loop(&strain_measures[WARP], m, state, damped);
+      return force_loop(&strain_measures[WARP], m, state, damped, chunk);
     case POLAR:
-      return force_loop(&strain_measures[POLAR], m, state, damped);
+      return force_loop(&strain_measures[POLAR], m, state, damped, chunk);
     case HYBRID:
-      return force_loop(&strain_measures[HYBRID], m, state, damped);
+      return force_loop(&strain_measures[HYBRID], m, state, damped, chunk);
     default:
-      return force_loop(&strain_measures[GREEN], m, state, damped);
+      return force_loop(&strain_measures[GREEN], m, state, damped, chunk);
   }
 }
 
@@ -56,7 +58,7 @@ COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, coro
         vd_sum(block->volume * strain_energy(s, vd_all(mat->lambda), vd_all(mat->mu), F, R));
     if (!damped) continue;
     mat3 V = gradient(block, (const double(*)[4])state->v);
-    mat3 P = viscous_stress(s, m->objective, mat, F, R, V);
+    mat3 P = viscous_stress(s, m->objective, mat, vd_all(1), F, R, V);
     sum_power += vd_sum(block->volume * mat3_dot(P, V));
   }
   *elastic = sum_elastic;
@@ -106,8 +108,8 @@ COROT_CLONES int kernel_spin(const corot_model *m, corot_state *state, vec3 *spi
 }
 
 COROT_INLINE int internal_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                               double lambda_part, double mu_part) {
-  for (int b = 0; b < m->tets.nblock; b++) {
+                               double lambda_part, double mu_part, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
     mat3 Q0 = mat3_identity();
@@ -117,13 +119,14 @@ COROT_INLINE int internal_loop(const strain_measure *s, const corot_model *m, co
     mat3 R = frame_of(s->frame, F, &Q0, &inverted);
     bool linear = s->frame == FRAME_IDENTITY && s->shear == BY_FRAME;
     if (!linear && vi_any(inverted)) return first_inverted(m, b, inverted);
-    mat3 P = stress(s, vd_all(lambda_part * mat->lambda), vd_all(mu_part * mat->mu), F, R);
-    store_forces(block, P, state->force[b]);
+    vd lambda = -block->volume * (lambda_part * mat->lambda),
+       mu = -block->volume * (mu_part * mat->mu);
+    store_forces(m, state, b, stress(s, lambda, mu, F, R));
   }
   return -1;
 }
 
 COROT_CLONES int kernel_internal(const corot_model *m, corot_state *state, int strain,
-                                 double lambda_part, double mu_part) {
-  return internal_loop(&strain_measures[strain], m, state, lambda_part, mu_part);
+                                 double lambda_part, double mu_part, int chunk) {
+  return internal_loop(&strain_measures[strain], m, state, lambda_part, mu_part, chunk);
 }

@@ -1,14 +1,12 @@
 #include "core/kernel.h"
 
-typedef double vd_unaligned __attribute__((vector_size(64), aligned(8), may_alias));
-
 /* The block [9] of each lane is added to the matrix: eight entries as a vector, the ninth alone. */
 COROT_INLINE void scatter(double (*A)[9], const int place[W], mat3 block) {
   vd row[W];
   vd_transpose(&block.m[0][0], row);
   for (int l = 0; l < W; l++) {
     double *a = A[place[l]];
-    *(vd_unaligned *)a += row[l];
+    vd_add_to(a, row[l]);
     a[8] += block.m[2][2][l];
   }
 }
@@ -21,20 +19,23 @@ COROT_INLINE mat3 constant_bases(vd lambda, vd mu, vd gg, mat3 BsBs, vec3 pa, ve
   return K;
 }
 
-/* The stretch rates of unit velocities e_i of the upper nodes, and the damping block of two nodes
+/* The stretch rates of unit velocities e_i of the nodes, and the damping block of two nodes
    under the objective law, dS/dt : D : dS/dt. */
 typedef struct node_rates {
-  mat3 rate[3][3]; /* [node][component] */
+  mat3 rate[4][3]; /* [node][component] */
 } node_rates;
 
 COROT_INLINE node_rates node_rates_of(const tet_block *block, mat3 F, mat3 R) {
   node_rates n;
-  for (int a = 0; a < 3; a++)
-    for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < 3; i++) {
+    for (int a = 1; a < 4; a++) {
       mat3 V = mat3_scale(vd_all(0), R);
-      for (int j = 0; j < 3; j++) V.m[i][j] = block->g.m[a][j];
+      for (int j = 0; j < 3; j++) V.m[i][j] = block->g.m[a - 1][j];
       n.rate[a][i] = stretch_rate_of(F, R, V).rate;
     }
+    mat3 sum = mat3_add(mat3_add(n.rate[1][i], n.rate[2][i]), n.rate[3][i]);
+    n.rate[0][i] = mat3_scale(vd_all(-1), sum);
+  }
   return n;
 }
 
@@ -59,44 +60,49 @@ COROT_INLINE mat3 add_skew_transposed(mat3 A, vec3 a, mat3 Q) {
   return A;
 }
 
-/* Gradients of the three upper nodes, and the bases applied to them. */
+/* Gradients of the nodes, and the bases applied to them. */
 typedef struct node_vectors {
-  vec3 g[3], p[3], s[3];
+  vec3 g[4], p[4], s[4];
 } node_vectors;
+
+COROT_INLINE vec3 minus_sum(const vec3 *x) {
+  vec3 y;
+  for (int c = 0; c < 3; c++) y.v[c] = -(x[0].v[c] + x[1].v[c] + x[2].v[c]);
+  return y;
+}
 
 COROT_INLINE node_vectors node_vectors_of(const tet_block *block, const tangent_terms *k) {
   node_vectors n;
-  for (int a = 0; a < 3; a++) {
-    for (int c = 0; c < 3; c++) n.g[a].v[c] = block->g.m[a][c];
+  for (int a = 1; a < 4; a++) {
+    for (int c = 0; c < 3; c++) n.g[a].v[c] = block->g.m[a - 1][c];
     n.p[a] = mat3_apply(k->Bp, n.g[a]);
     n.s[a] = mat3_apply(k->Bs, n.g[a]);
   }
+  n.g[0] = minus_sum(&n.g[1]), n.p[0] = minus_sum(&n.p[1]), n.s[0] = minus_sum(&n.s[1]);
   return n;
 }
 
-/* The blocks of the pairs with node 0, whose gradient is minus the sum of the others', and then
-   all ten are added to the matrix. A_ba = A_ab'. upper: pairs of nodes 1 to 3, lower triangle by
-   rows 11, 21, 22, 31, 32, 33. */
-COROT_INLINE void complete_and_scatter(double (*M)[9], const int (*place)[W], const mat3 upper[6]) {
-  const mat3 *A11 = &upper[0], *A21 = &upper[1], *A22 = &upper[2], *A31 = &upper[3],
-             *A32 = &upper[4], *A33 = &upper[5];
-  vd minus = vd_all(-1);
-  mat3 A10 = mat3_scale(
-      minus, mat3_add(*A11, mat3_transpose(mat3_add(*A21, *A31)))); /* -(A11 + A12 + A13) */
-  mat3 A20 = mat3_scale(minus, mat3_add(mat3_add(*A21, *A22), mat3_transpose(*A32)));
-  mat3 A30 = mat3_scale(minus, mat3_add(mat3_add(*A31, *A32), *A33));
-  mat3 A00 = mat3_scale(minus, mat3_add(mat3_add(A10, A20), A30));
-  /* symmetric up to rounding already; exactly so for the factorisation's sake */
-  EACH_IJ if (i > j) A00.m[i][j] = A00.m[j][i] = 0.5 * (A00.m[i][j] + A00.m[j][i]);
-  scatter(M, place[0], A00), scatter(M, place[1], A10), scatter(M, place[2], A20);
-  scatter(M, place[3], A30), scatter(M, place[4], *A11), scatter(M, place[5], *A21);
-  scatter(M, place[6], *A31), scatter(M, place[7], *A22), scatter(M, place[8], *A32);
-  scatter(M, place[9], *A33);
+/* A body moved as a whole feels no force: a diagonal block is minus the sum of the others of its
+   row, which stand in its own column and in those before. It is symmetric up to rounding; for the
+   factorisation's sake exactly so. */
+COROT_INLINE void complete_columns(const pattern *p, int first, int last, double (*A)[9]) {
+  for (int j = first; j < last; j++) {
+    double *diagonal = A[p->colptr[j]], half[9];
+    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) {
+      double *of_row = A[p->colptr[p->row[k]]];
+      vd a = vd_load(A[k]);
+      vd_add_to(diagonal, -a), vd_add_to(of_row, -a);
+      diagonal[8] -= A[k][8], of_row[8] -= A[k][8];
+    }
+    for (int i = 0; i < 9; i++) half[i] = 0.5 * diagonal[i];
+    for (int r = 0; r < 3; r++)
+      for (int c = 0; c < 3; c++) diagonal[3 * r + c] = half[3 * r + c] + half[3 * c + r];
+  }
 }
 
 COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                              bool exact, double (*K)[9], double (*D)[9]) {
-  for (int b = 0; b < m->tets.nblock; b++) {
+                              bool exact, int chunk, double (*K)[9], double (*D)[9]) {
+  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
     const int(*place)[W] = (const int(*)[W])m->pattern.place[b];
@@ -106,43 +112,42 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
     if (vi_any(inverted)) return first_inverted(m, b, inverted);
 
     vd lambda = block->volume * mat->lambda, mu = block->volume * mat->mu;
+    vd dlambda = block->volume * mat->damping_lambda, dmu = block->volume * mat->damping_mu;
     tangent_terms t = tangent_terms_of(s, exact, lambda, mu, F, R);
     node_vectors n = node_vectors_of(block, &t);
-    vd damping_lambda = block->volume * mat->damping_lambda,
-       damping_mu = block->volume * mat->damping_mu;
-    bool objective = m->objective && s->frame == FRAME_POLAR;
+    bool objective = D && m->objective && s->frame == FRAME_POLAR;
     node_rates rates;
-    if (D && objective) rates = node_rates_of(block, F, R);
-    mat3 element[6], damping[6];
-    for (int a = 0, k = 0; a < 3; a++)
-      for (int c = 0; c <= a; c++, k++) {
-        vd gg = vec3_dot(n.g[a], n.g[c]);
-        element[k] = constant_bases(lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
-        if (D && objective)
-          damping[k] =
-              objective_damping(s, damping_lambda, damping_mu, &rates, a, c, n.p[a], n.p[c]);
-        else if (D)
-          damping[k] = constant_bases(damping_lambda, damping_mu, gg, t.BsBs, n.p[a], n.p[c],
-                                      n.s[a], n.s[c]);
-        if (s->pressure == BY_GRADIENT)
-          element[k] = mat3_add_identity(element[k], vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
-        if (exact && s->frame == FRAME_POLAR)
-          element[k] = add_skew_transposed(element[k], n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
-      }
-    if (K) complete_and_scatter(K, place, element);
-    if (D) complete_and_scatter(D, place, damping);
+    if (objective) rates = node_rates_of(block, F, R);
+    for (int k = 0; k < NPAIR; k++) {
+      int a = pair_row[k], c = pair_col[k];
+      vd gg = vec3_dot(n.g[a], n.g[c]);
+      mat3 A = constant_bases(lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
+      if (s->pressure == BY_GRADIENT)
+        A = mat3_add_identity(A, vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
+      if (exact && s->frame == FRAME_POLAR)
+        A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
+      if (K) scatter(K, place[k], A);
+      if (objective)
+        scatter(D, place[k], objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
+      else if (D)
+        scatter(D, place[k],
+                constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]));
+    }
   }
+  const pattern *p = &m->pattern;
+  if (K) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], K);
+  if (D) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], D);
   return -1;
 }
 
-COROT_CLONES int kernel_tangent(const corot_model *m, corot_state *state, corot_tangent tangent,
+COROT_CLONES int kernel_tangent(const corot_model *m, corot_state *state, bool exact, int chunk,
                                 double (*K)[9], double (*D)[9]) {
-  return tangent_loop(&strain_measures[m->strain], m, state, tangent == COROT_TANGENT_EXACT, K, D);
+  return tangent_loop(&strain_measures[m->strain], m, state, exact, chunk, K, D);
 }
 
 COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                                 bool exact) {
-  for (int b = 0; b < m->tets.nblock; b++) {
+                                 bool exact, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
     vi inverted = {0};
@@ -156,21 +161,22 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, 
       const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
       dR = frame_derivative(s->frame, F, Q0, R, dF);
     }
-    mat3 dP = stress_derivative(s, vd_all(mat->lambda), vd_all(mat->mu), F, R, dF, dR);
+    vd minus = -block->volume;
+    mat3 dA = stress_derivative(s, minus * mat->lambda, minus * mat->mu, F, R, dF, dR);
     if (m->damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
       mat3 dV = gradient(block, (const double(*)[4])state->dv);
-      vd lambda = vd_all(mat->damping_lambda), mu = vd_all(mat->damping_mu);
-      dP = mat3_add(dP, m->objective && s->frame == FRAME_POLAR
+      vd lambda = minus * mat->damping_lambda, mu = minus * mat->damping_mu;
+      dA = mat3_add(dA, m->objective && s->frame == FRAME_POLAR
                             ? stress_objective_derivative(s, lambda, mu, F, R, V, dF, dR, dV)
                             : stress_viscous_derivative(s, lambda, mu, F, R, V, dF, dR, dV));
     }
-    store_forces(block, dP, state->force[b]);
+    store_forces(m, state, b, dA);
   }
   return -1;
 }
 
-COROT_CLONES int kernel_derivative(const corot_model *m, corot_state *state,
-                                   corot_tangent tangent) {
-  return derivative_loop(&strain_measures[m->strain], m, state, tangent == COROT_TANGENT_EXACT);
+COROT_CLONES int kernel_derivative(const corot_model *m, corot_state *state, bool exact,
+                                   int chunk) {
+  return derivative_loop(&strain_measures[m->strain], m, state, exact, chunk);
 }

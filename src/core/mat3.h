@@ -83,9 +83,10 @@ COROT_INLINE vd mat3_trace(mat3 A) { return A.m[0][0] + A.m[1][1] + A.m[2][2]; }
 
 /* A : B = tr(A' B) */
 COROT_INLINE vd mat3_dot(mat3 A, mat3 B) {
-  vd s = vd_all(0);
-  EACH_IJ s += A.m[i][j] * B.m[i][j];
-  return s;
+  vd row[3]; /* three short chains of additions, not one long one */
+  for (int i = 0; i < 3; i++)
+    row[i] = A.m[i][0] * B.m[i][0] + A.m[i][1] * B.m[i][1] + A.m[i][2] * B.m[i][2];
+  return row[0] + row[1] + row[2];
 }
 
 /* cof A = det(A) A^-T */

@@ -284,7 +284,8 @@ size_t corot_model_bytes(const corot_model *m) {
   if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
   bytes += t->nblock * (sizeof *t->block + W * sizeof *t->number);
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
-  bytes += (2 * (size_t)p->nnode + 2 + p->nblock + p->first[p->nnode]) * sizeof(int) +
+  bytes += (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) *
+               sizeof(int) +
            t->nblock * sizeof *p->place;
   return bytes;
 }

@@ -3,35 +3,49 @@
 
 #include "core/kernel.h"
 
-/* Adds to r each node's own element forces, in the order of the tets. Returns the sum of r, which
-   is finite only if r is. */
-static double collect(const corot_model *m, const corot_state *s, double *r) {
+/* Adds to s->r the element forces of nodes first to last - 1, each node's own in the order of the
+   tets. Returns the sum of these r, which is finite only if they are. */
+static double collect(const corot_model *m, const corot_state *s, int first, int last) {
   const double *force = (const double *)s->force;
-  const int *first = m->pattern.first, *slot = m->pattern.slot;
+  const int *begin = m->pattern.first, *slot = m->pattern.slot;
   double check = 0;
-  for (int n = 0; n < m->mesh->nnode; n++) {
+  for (int n = first; n < last; n++) {
     double f[3] = {0, 0, 0};
-    for (int k = first[n]; k < first[n + 1]; k++)
+    for (int k = begin[n]; k < begin[n + 1]; k++)
       for (int c = 0; c < 3; c++) f[c] += force[slot[k] + c * W];
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
-      if (i >= 0) check += r[i] += f[c];
+      if (i >= 0) check += s->r[i] += f[c];
     }
   }
   return check;
+}
+
+typedef int force_kernel(const corot_model *m, corot_state *state, bool option, int chunk);
+
+/* Adds to s->r the forces that the kernel finds, chunk by chunk, and hands the result on. */
+static corot_status sum_forces(const corot_model *m, corot_state *s, double t, force_kernel *kernel,
+                               bool option, double *r) {
+  const int *ready = m->pattern.ready;
+  double check = 0;
+  for (int c = 0; c < m->pattern.nchunk; c++) {
+    COROT_TRY(state_inverted(s, kernel(m, s, option, c)));
+    check += collect(m, s, ready[c], ready[c + 1]);
+  }
+  if (!isfinite(check))
+    return corot_fail(COROT_RETRY, "the forces exceed double precision at t = %g", t);
+  memcpy(r, s->r, m->ndof * sizeof *r);
+  return COROT_OK;
 }
 
 corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, double *r) {
   state_displace(m, s, t, u);
   if (m->damped) model_velocity(m, s->phase, t, v, s->v[0], 4);
-  COROT_TRY(state_inverted(s, kernel_force(m, s, m->damped)));
-  loads_force(m, t, (const double(*)[4])s->u, r);
+  loads_force(m, t, (const double(*)[4])s->u, s->r);
   if (m->mass_damped)
-    for (int i = 0; i < m->ndof; i++) r[i] -= m->mass_damping[i] * v[i];
-  if (!isfinite(collect(m, s, r)))
-    return corot_fail(COROT_RETRY, "the forces exceed double precision at t = %g", t);
-  return COROT_OK;
+    for (int i = 0; i < m->ndof; i++) s->r[i] -= m->mass_damping[i] * v[i];
+  return sum_forces(m, s, t, kernel_force, m->damped, r);
 }
 
 corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
@@ -55,7 +69,10 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
     for (int n = 0; n < m->mesh->nnode; n++)
       for (int c = 0; c < 3; c++)
         if (m->dof[n][c] >= 0) D[m->pattern.colptr[n]][4 * c] = m->mass_damping[m->dof[n][c]];
-  return state_inverted(s, kernel_tangent(m, s, tangent, K, m->damped ? D : NULL));
+  bool exact = tangent == COROT_TANGENT_EXACT;
+  for (int c = 0; c < m->pattern.nchunk; c++)
+    COROT_TRY(state_inverted(s, kernel_tangent(m, s, exact, c, K, m->damped ? D : NULL)));
+  return COROT_OK;
 }
 
 corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const double *u,
@@ -65,13 +82,11 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
   model_velocity(m, s->phase, t, v, s->v[0], 4);
   model_spread(m, du, s->du[0], 4);
   model_spread(m, dv, s->dv[0], 4);
-  COROT_TRY(state_inverted(s, kernel_derivative(m, s, tangent)));
-  memset(jv, 0, m->ndof * sizeof *jv);
-  loads_derivative(m, t, (const double(*)[4])s->u, (const double(*)[4])s->du, jv);
+  memset(s->r, 0, m->ndof * sizeof *s->r);
+  loads_derivative(m, t, (const double(*)[4])s->u, (const double(*)[4])s->du, s->r);
   if (m->mass_damped)
-    for (int i = 0; i < m->ndof; i++) jv[i] -= m->mass_damping[i] * dv[i];
-  collect(m, s, jv);
-  return COROT_OK;
+    for (int i = 0; i < m->ndof; i++) s->r[i] -= m->mass_damping[i] * dv[i];
+  return sum_forces(m, s, t, kernel_derivative, tangent == COROT_TANGENT_EXACT, jv);
 }
 
 static void add_cross(double a[3], double m, const double x[3], const double v[3]) {
@@ -80,17 +95,18 @@ static void add_cross(double a[3], double m, const double x[3], const double v[3
   a[2] += m * (x[0] * v[1] - x[1] * v[0]);
 }
 
-/* Power of the internal and viscous forces on moving supports: what the supports put in. */
+/* Power of the internal and viscous forces on moving supports: what the supports put in. Components
+   at rest have no velocity. */
 static corot_status support_power(const corot_model *m, corot_state *s, double *power) {
   const double *force = (const double *)s->force;
-  const int *first = m->pattern.first, *slot = m->pattern.slot;
-  COROT_TRY(state_inverted(s, kernel_force(m, s, m->damped)));
-  for (int k = 0; k < m->nmotion; k++)
-    for (int i = 0; i < m->motion[k].nnode; i++) {
-      int n = m->motion[k].node[i];
-      for (int j = first[n]; j < first[n + 1]; j++)
-        for (int c = 0; c < 3; c++) *power -= force[slot[j] + c * W] * s->v[n][c];
-    }
+  const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
+  for (int c = 0; c < m->pattern.nchunk; c++) {
+    COROT_TRY(state_inverted(s, kernel_force(m, s, m->damped, c)));
+    for (int n = ready[c]; n < ready[c + 1]; n++)
+      for (int k = begin[n]; k < begin[n + 1]; k++)
+        for (int i = 0; i < 3; i++)
+          if (m->dof[n][i] < 0) *power -= force[slot[k] + i * W] * s->v[n][i];
+  }
   return COROT_OK;
 }
 
@@ -128,14 +144,16 @@ corot_status corot_internal_force(const corot_model *m, corot_state *s, double t
   int index;
   COROT_TRY(model_find_strain(strain, &index));
   state_displace(m, s, t, u);
-  COROT_TRY(state_inverted(s, kernel_internal(m, s, index, lambda_part, mu_part)));
   const double *force = (const double *)s->force;
-  const int *first = m->pattern.first, *slot = m->pattern.slot;
-  for (int n = 0; n < m->mesh->nnode; n++)
-    for (int c = 0; c < 3; c++) {
-      double sum = 0;
-      for (int k = first[n]; k < first[n + 1]; k++) sum -= force[slot[k] + c * W];
-      f[n][c] = sum;
-    }
+  const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
+  for (int c = 0; c < m->pattern.nchunk; c++) {
+    COROT_TRY(state_inverted(s, kernel_internal(m, s, index, lambda_part, mu_part, c)));
+    for (int n = ready[c]; n < ready[c + 1]; n++)
+      for (int i = 0; i < 3; i++) {
+        double sum = 0;
+        for (int k = begin[n]; k < begin[n + 1]; k++) sum -= force[slot[k] + i * W];
+        f[n][i] = sum;
+      }
+  }
   return COROT_OK;
 }

@@ -3,7 +3,9 @@
 #include <limits.h>
 #include <stdlib.h>
 
-/* Each node's slots in the force buffer: count, then fill in the order of the tets. */
+enum { BLOCK_SLOTS = 4 * 3 * W }; /* element forces of a block */
+
+/* Each node's slots in a force buffer of all blocks: count, then fill in the order of the tets. */
 static corot_status list_slots(int nnode, const tets *t, pattern *p) {
   size_t nslot = 0;
   for (int b = 0; b < t->nblock; b++) nslot += 4 * (size_t)t->block[b].ntet;
@@ -19,7 +21,7 @@ static corot_status list_slots(int nnode, const tets *t, pattern *p) {
   for (int b = 0; b < t->nblock; b++)
     for (int a = 0; a < 4; a++)
       for (int l = 0; l < t->block[b].ntet; l++)
-        p->slot[next[t->block[b].node[a][l]]++] = (b * 4 + a) * 3 * W + l;
+        p->slot[next[t->block[b].node[a][l]]++] = b * BLOCK_SLOTS + a * 3 * W + l;
   return COROT_OK;
 }
 
@@ -28,7 +30,7 @@ static int column_rows(const tets *t, const pattern *p, int j, int *mark, int *l
   int n = 0;
   for (int k = p->first[j]; k < p->first[j + 1]; k++) {
     int slot = p->slot[k], lane = slot % W;
-    const tet_block *block = &t->block[slot / (4 * 3 * W)];
+    const tet_block *block = &t->block[slot / BLOCK_SLOTS];
     for (int a = 0; a < 4; a++) {
       int i = block->node[a][lane];
       if (i < j || mark[i] == j) continue;
@@ -96,15 +98,47 @@ static corot_status place_tets(const tets *t, pattern *p) {
   return COROT_OK;
 }
 
+static int chunk_end(const tets *t, int chunk) {
+  return chunk < t->nblock / CHUNK ? (chunk + 1) * CHUNK : t->nblock;
+}
+
+/* A node is ready when all nodes up to it are below the lowest node of every later tet. */
+static corot_status plan_chunks(int nnode, const tets *t, pattern *p) {
+  p->nchunk = (t->nblock + CHUNK - 1) / CHUNK;
+  p->ready = malloc((p->nchunk + 1) * sizeof *p->ready);
+  if (!p->ready) return corot_fail(COROT_ENOMEM, "no memory for %d chunks", p->nchunk);
+  p->ready[p->nchunk] = nnode;
+  for (int c = p->nchunk - 1; c >= 0; c--) {
+    p->ready[c] = p->ready[c + 1];
+    for (int b = c * CHUNK; b < chunk_end(t, c); b++)
+      for (int l = 0; l < W; l++)
+        if (t->block[b].node[0][l] < p->ready[c]) p->ready[c] = t->block[b].node[0][l];
+  }
+  for (int c = 0; c < p->nchunk; c++)
+    for (int n = p->ready[c]; n < p->ready[c + 1]; n++) {
+      int back = chunk_end(t, c) - p->slot[p->first[n]] / BLOCK_SLOTS;
+      if (back > p->window) p->window = back;
+    }
+  return COROT_OK;
+}
+
+/* The buffer is used again and again: no more than a window of it is needed at a time. */
+static void wrap_slots(int nnode, pattern *p) {
+  int size = p->window * BLOCK_SLOTS;
+  for (int k = 0; k < p->first[nnode]; k++) p->slot[k] %= size;
+}
+
 corot_status pattern_create(int nnode, const tets *t, pattern *out) {
   pattern p = {.nnode = nnode};
   corot_status status = list_slots(nnode, t, &p);
   if (!status) status = list_blocks(nnode, t, &p);
   if (!status) status = place_tets(t, &p);
+  if (!status) status = plan_chunks(nnode, t, &p);
   if (status) {
     pattern_clear(&p);
     return status;
   }
+  wrap_slots(nnode, &p);
   *out = p;
   return COROT_OK;
 }
@@ -113,6 +147,7 @@ void pattern_clear(pattern *p) {
   free(p->colptr);
   free(p->row);
   free(p->place);
+  free(p->ready);
   free(p->first);
   free(p->slot);
   *p = (pattern){0};

@@ -5,10 +5,14 @@
 
 #include "core/tets.h"
 
-/* Pairs (a, b), a >= b, of local nodes in the order of an element matrix's lower triangle. */
-enum { NPAIR = 10 };
-static const int pair_row[NPAIR] = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};
-static const int pair_col[NPAIR] = {0, 0, 0, 0, 1, 1, 1, 2, 2, 3};
+/* Pairs (a, b), a > b, of local nodes: the edges of a tet. */
+enum { NPAIR = 6 };
+static const int pair_row[NPAIR] = {1, 2, 3, 2, 3, 3};
+static const int pair_col[NPAIR] = {0, 0, 0, 1, 1, 2};
+
+/* The kernels work through the blocks of tets in chunks of so many. When a chunk is done, the nodes
+   that have no tet in later ones are summed up while what they need is in the cache. */
+enum { CHUNK = 32 };
 
 /* The blocks of the lower triangle by columns, rows ascending: the first of each column is its
    diagonal. */
@@ -18,9 +22,13 @@ typedef struct pattern {
   int *colptr;            /* [nnode + 1] */
   int *row;               /* [nblock] */
   int (*place)[NPAIR][W]; /* [tets.nblock] the block each pair of each tet is added to */
-  int *first;             /* [nnode + 1] each node's part of `slot` */
-  int *slot;              /* [4 ntet] element forces of a node, ascending: where the x component
-                             stands in the buffer [tets.nblock][4][3][W]; y and z W further */
+  int nchunk;
+  int *ready; /* [nchunk + 1] chunk c completes the nodes ready[c] to ready[c + 1] - 1 */
+  int window; /* so many blocks back reach the tets of the nodes that a chunk completes */
+  int *first; /* [nnode + 1] each node's part of `slot` */
+  int *slot;  /* [4 ntet] element forces of a node, in the order of the tets: where the x component
+                 stands in the buffer [window][4][3][W], which block b uses at b modulo window;
+                 y and z W further */
 } pattern;
 
 corot_status pattern_create(int nnode, const tets *t, pattern *out);

@@ -32,29 +32,28 @@ COROT_INLINE vd fourth_root_of_ratio(vd a, vd b) {
    was lost in rounding. */
 COROT_INLINE mat3 polar(mat3 F, vi *inverted) {
   mat3 X = F;
-  vd det = mat3_det(F, mat3_cofactor(F));
-  vi done = ~(det > vd_all(0));
-  *inverted = done;
-  X = mat3_select(done, mat3_identity(), X);
+  vd det = vd_all(0);
+  vi refused = {0}, done = {0};
   for (int k = 0; k < POLAR_MAX_ITERATIONS; k++) {
     mat3 C = mat3_cofactor(X);
     det = mat3_det(X, C);
-    vd norm = mat3_dot(X, X);
-    vd g = fourth_root_of_ratio(mat3_dot(C, C), det * det * norm);
-    vd off = (norm - 3) * (norm - 3) + (det - 1) * (det - 1);
-    g = vd_select(off > 0.04, g, vd_all(1));
-    vd half_g = 0.5 * g, half_c = 0.5 / (g * det);
-    mat3 Y = mat3_sum(half_g, X, half_c, C);
+    if (k == 0) done = refused = ~(det > vd_all(0));
+    vd norm = mat3_dot(X, X), half_g = vd_all(0.5);
+    vi far = (norm - 3) * (norm - 3) + (det - 1) * (det - 1) > 0.04;
+    if (vi_any(far)) {
+      vd g = fourth_root_of_ratio(mat3_dot(C, C), det * det * norm);
+      half_g = vd_select(far, 0.5 * g, half_g);
+    }
+    mat3 Y = mat3_sum(half_g, X, 0.25 / (half_g * det), C);
     X = mat3_select(done, X, Y);
     if (k > 0) {
       done |= norm - 3 < 1e-8;
       if (!vi_any(~done)) break;
     }
   }
-  vi lost = ~done | ~(det > vd_all(0));
-  if (!vi_any(lost)) return X;
-  *inverted |= lost;
-  return mat3_select(lost, mat3_identity(), X);
+  *inverted = refused | ~done | ~(det > vd_all(0));
+  if (!vi_any(*inverted)) return X;
+  return mat3_select(*inverted, mat3_identity(), X);
 }
 
 /* G^-1 for G = tr(S) I - S: a rotation rate w of the frame, dR = R [w]x, solves

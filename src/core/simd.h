@@ -28,14 +28,29 @@ COROT_INLINE vd vd_all(double x) { return (vd){x, x, x, x, x, x, x, x}; }
 /* mask ? a : b */
 COROT_INLINE vd vd_select(vi mask, vd a, vd b) { return (vd)((mask & (vi)a) | (~mask & (vi)b)); }
 
+/* Halves are folded onto each other, so that a few instructions do. */
 COROT_INLINE int vi_any(vi mask) {
-  long long any = 0;
-  for (int l = 0; l < W; l++) any |= mask[l];
-  return any != 0;
+  typedef long long vi4 __attribute__((vector_size(32)));
+  typedef long long vi2 __attribute__((vector_size(16)));
+  vi4 four = __builtin_shufflevector(mask, mask, 0, 1, 2, 3) |
+             __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+  vi2 two = __builtin_shufflevector(four, four, 0, 1) | __builtin_shufflevector(four, four, 2, 3);
+  return (two[0] | two[1]) != 0;
 }
 
 COROT_INLINE double vd_sum(vd a) {
   return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+}
+
+/* x [8] += a */
+COROT_INLINE void vd_add_to(double *x, vd a) {
+  typedef double vd_anywhere __attribute__((vector_size(64), aligned(8), may_alias));
+  *(vd_anywhere *)x += a;
+}
+
+COROT_INLINE vd vd_load(const double *x) {
+  typedef double vd_anywhere __attribute__((vector_size(64), aligned(8), may_alias));
+  return *(const vd_anywhere *)x;
 }
 
 COROT_INLINE vd4 vd4_load(const double *x) {
@@ -48,16 +63,17 @@ COROT_INLINE vd vd_join(vd4 low, vd4 high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-/* Rows of four (three used) for eight lanes become three vectors. */
-COROT_INLINE void vd_gather3(const double (*x)[4], const int *row, vd out[3]) {
-  vd r0 = vd_join(vd4_load(x[row[0]]), vd4_load(x[row[4]]));
-  vd r1 = vd_join(vd4_load(x[row[1]]), vd4_load(x[row[5]]));
-  vd r2 = vd_join(vd4_load(x[row[2]]), vd4_load(x[row[6]]));
-  vd r3 = vd_join(vd4_load(x[row[3]]), vd4_load(x[row[7]]));
-  vd xz01 = __builtin_shufflevector(r0, r1, 0, 8, 2, 10, 4, 12, 6, 14);
-  vd xz23 = __builtin_shufflevector(r2, r3, 0, 8, 2, 10, 4, 12, 6, 14);
-  vd y01 = __builtin_shufflevector(r0, r1, 1, 9, 3, 11, 5, 13, 7, 15);
-  vd y23 = __builtin_shufflevector(r2, r3, 1, 9, 3, 11, 5, 13, 7, 15);
+/* Rows x[a] - x[b] of four (three used) for eight lanes become three vectors. */
+COROT_INLINE void vd_gather3_difference(const double (*x)[4], const int *a, const int *b,
+                                        vd out[3]) {
+  vd r[4];
+  for (int k = 0; k < 4; k++)
+    r[k] = vd_join(vd4_load(x[a[k]]), vd4_load(x[a[k + 4]])) -
+           vd_join(vd4_load(x[b[k]]), vd4_load(x[b[k + 4]]));
+  vd xz01 = __builtin_shufflevector(r[0], r[1], 0, 8, 2, 10, 4, 12, 6, 14);
+  vd xz23 = __builtin_shufflevector(r[2], r[3], 0, 8, 2, 10, 4, 12, 6, 14);
+  vd y01 = __builtin_shufflevector(r[0], r[1], 1, 9, 3, 11, 5, 13, 7, 15);
+  vd y23 = __builtin_shufflevector(r[2], r[3], 1, 9, 3, 11, 5, 13, 7, 15);
   out[0] = __builtin_shufflevector(xz01, xz23, 0, 1, 8, 9, 4, 5, 12, 13);
   out[1] = __builtin_shufflevector(y01, y23, 0, 1, 8, 9, 4, 5, 12, 13);
   out[2] = __builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15);

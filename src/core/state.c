@@ -12,7 +12,7 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
   s->new_R = vector_calloc(nblock, sizeof *s->new_R);
   s->now_R = vector_calloc(nblock, sizeof *s->now_R);
   s->spin = vector_calloc(nblock, sizeof *s->spin);
-  s->force = vector_calloc(nblock, sizeof *s->force);
+  s->force = vector_calloc(m->pattern.window, sizeof *s->force);
   s->r = calloc(m->ndof, sizeof *s->r);
   if (!s->u || !s->v || !s->du || !s->dv || !s->R || !s->new_R || !s->now_R || !s->spin ||
       !s->force || !s->r)
@@ -33,6 +33,7 @@ corot_status corot_state_create(const corot_model *m, corot_state **state) {
   }
   s->nnode = m->mesh->nnode;
   s->nblock = m->tets.nblock;
+  s->window = m->pattern.window;
   s->ndof = m->ndof;
   *state = s;
   return COROT_OK;
@@ -55,7 +56,7 @@ void corot_state_destroy(corot_state *s) {
 
 size_t corot_state_bytes(const corot_state *s) {
   return sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
-         s->nblock * (3 * sizeof *s->R + sizeof *s->spin + sizeof *s->force);
+         s->nblock * (3 * sizeof *s->R + sizeof *s->spin) + s->window * sizeof *s->force;
 }
 
 void corot_state_use(corot_state *s, corot_frames frames) { s->frames = frames; }

@@ -7,7 +7,7 @@
 #include "core/model.h"
 
 struct corot_state {
-  int nnode, nblock, ndof; /* of the model */
+  int nnode, nblock, window, ndof; /* of the model */
   corot_frames frames;
   int inverted;    /* tet number in the mesh, or -1 */
   double phase;    /* motions follow the law in force just after this time; NaN: after t */
@@ -21,7 +21,7 @@ struct corot_state {
   double (*v)[4];  /* [nnode] velocity */
   double (*du)[4]; /* [nnode] directions of a derivative */
   double (*dv)[4];
-  vd (*force)[4][3]; /* [nblock][local node][component] element forces */
+  vd (*force)[4][3]; /* [window][local node][component] element forces, see pattern.h */
   double *r;         /* [ndof] */
 };
 

@@ -48,9 +48,11 @@ COROT_INLINE vd dilatation_of(basis b, mat3 F, mat3 R) {
 /* First Piola-Kirchhoff stress; see above. */
 COROT_INLINE mat3 stress(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R) {
   mat3 Bp = basis_of(s->pressure, F, R), Bs = basis_of(s->shear, F, R);
-  mat3 e = strain_of(s->shear, F, R);
-  vd p = lambda * (s->pressure == s->shear ? mat3_trace(e) : dilatation_of(s->pressure, F, R));
-  return mat3_sum(p, Bp, 2 * mu, mat3_mul(Bs, e));
+  mat3 e = strain_of(s->shear, F, R), shear = mat3_scale(2 * mu, e);
+  if (s->pressure == s->shear)
+    return mat3_mul(Bs, mat3_add_identity(shear, lambda * mat3_trace(e)));
+  vd p = lambda * dilatation_of(s->pressure, F, R);
+  return mat3_add(mat3_scale(p, Bp), mat3_mul(Bs, shear));
 }
 
 /* Strain energy density. */

@@ -1,9 +1,9 @@
 /* CVODE's variable-order BDF, through the CVODES library (which has the work integrals as
    quadratures; one program must never link both).
 
-   SUNDIALS 6.4.1 has a defect: after a stop time has been reached by a call whose tout equals it,
-   the next call returns at once without advancing. The remedy is in advance(): tout always lies
-   beyond the stop time.
+   SUNDIALS before 6.6.1 has a defect: after a stop time has been reached by a CV_NORMAL call whose
+   tout equals it, the next call returns at once without advancing. advance() steps in CV_ONE_STEP
+   mode, and its tout always lies beyond the stop time.
 
    Where the model cannot be evaluated beyond some time (an element inverts), CVODE takes ever
    shorter steps towards it without end: collapsed() ends that. */

@@ -86,7 +86,7 @@ static corot_status cholesky_factor(void *solver, const double *value, bool *fre
   c->factored = false;
   if (c->common.status != CHOLMOD_OK) return failure(c, "factorisation");
   double ratio = cholmod_rcond(c->L, &c->common);
-  c->factored = ratio >= DBL_EPSILON;
+  c->factored = ratio >= (double)c->A.nrow * DBL_EPSILON;
   if (c->factored) return COROT_OK;
   return corot_fail(COROT_ESINGULAR, "cholmod: the matrix is singular (pivot ratio %.1e)", ratio);
 }

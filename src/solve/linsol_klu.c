@@ -68,7 +68,7 @@ static corot_status klu_solver_create(const corot_csc *pattern, void **solver) {
 /* Refuses a factor without a usable pivot, or with a NaN in it. */
 static corot_status check_pivots(klu *k) {
   if (!klu_rcond(k->symbolic, k->numeric, &k->common)) return failure(k, "condition");
-  if (k->common.rcond >= DBL_EPSILON) return COROT_OK;
+  if (k->common.rcond >= k->pattern->n * DBL_EPSILON) return COROT_OK;
   const double *pivot = k->numeric->Udiag;
   int smallest = 0;
   for (int j = 1; j < k->pattern->n; j++)

@@ -51,30 +51,33 @@ static void bare_end(bare *b) {
   bar_destroy(&b->bar);
 }
 
-/* To t = 0.1 and its stop time with the given tout, and then once towards 0.2 and a stop there:
-   the flag, and the time reached. */
-static int go_on_after_a_stop(double tout, double *t) {
+/* To a stop at t = 0.1 with the given tout, and then one call towards 0.2: its flag, and the time it
+   reached. */
+static int go_on_after_a_stop(double tout, int mode, double *t) {
   bare b;
   bare_start(&b);
   assert_int_equal(CVodeSetStopTime(b.cvode, 0.1), 0);
-  do assert_true(CVode(b.cvode, tout, b.y, t, CV_NORMAL) >= 0);
+  do assert_true(CVode(b.cvode, tout, b.y, t, mode) >= 0);
   while (*t < 0.1);
-  int flag = CVode(b.cvode, 0.2, b.y, t, CV_NORMAL);
+  int flag = CVode(b.cvode, 0.2, b.y, t, mode);
   bare_end(&b);
   return flag;
 }
 
 /* The defect that integrate_cvode.c works around, in the SUNDIALS of Debian 12: if tout was the stop
-   time, the stop is not disarmed when reached, and the next call does nothing but report it again.
-   Should this fail with another version, nothing is wrong. */
+   time, the stop is not disarmed when reached, and the next call does nothing but report it again. */
 static void cvode_stands_still_where_tout_was_the_stop_time(void **state) {
   (void)state;
   if (strcmp(corot_sundials_version(), "6.4.1") != 0) skip();
   double t;
-  assert_int_equal(go_on_after_a_stop(0.1, &t), CV_TSTOP_RETURN);
+  assert_int_equal(go_on_after_a_stop(0.1, CV_NORMAL, &t), CV_TSTOP_RETURN);
   assert_true(t == 0.1);
-  assert_int_equal(go_on_after_a_stop(0.15, &t), CV_SUCCESS);
+  assert_int_equal(go_on_after_a_stop(0.15, CV_NORMAL, &t), CV_SUCCESS);
   assert_true(t == 0.2);
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(go_on_after_a_stop(0.1 + 0.05 * k, CV_ONE_STEP, &t), CV_SUCCESS);
+    assert_true(t > 0.1);
+  }
 }
 
 /* 1000 stops, in turn without consequence, after a change that keeps the history, and with a
@@ -107,7 +110,6 @@ static void every_stop_is_reached_exactly_and_once(void **state) {
   corot_statistics s = corot_integrator_statistics(integrator);
   assert_int_equal(s.nst, steps);
   assert_int_equal(s.nrestart, restarts);
-  print_message("%ld %ld\n", s.nst, restarts);
   corot_integrator_destroy(integrator);
   bar_destroy(&b);
 }
@@ -225,7 +227,6 @@ static void the_interpolant_follows_the_solution(void **state) {
     double dissipated, external, dissipated_fine, external_fine;
     assert_ok(corot_integrator_work(integrator, t, &dissipated, &external));
     assert_ok(corot_integrator_work(fine, t, &dissipated_fine, &external_fine));
-    print_message("%g %g | %g %g  %g %g\n", difference_of(b.n, b.u, exact.u)/ norm_max(b.n, exact.u),difference_of(b.n, b.v, exact.v)/norm_max(b.n, exact.v), dissipated/dissipated_fine-1, external/external_fine-1, dissipated, external);
     assert_close(dissipated, dissipated_fine, 2e-2, 0);
     assert_close(external, external_fine, 1e-2, 0);
   }
