@@ -4,6 +4,7 @@
 #define COROT_INTEGRATE_H
 
 #include <corot/ode.h>
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -21,7 +22,8 @@ typedef enum corot_solution {
                         of constant step, without error control: baselines */
 typedef struct corot_integrator_def {
   const char *method;
-  const char *linear_solver; /* "auto", "klu", "cholmod" */
+  const char *linear_solver; /* "auto", "klu", "cholmod", "pcg" */
+  double linear_tolerance;   /* relative residual of an iterative solver, > 0 */
   double rtol;               /* relative tolerance, > 0 */
   double atol_displacement;  /* [m]; 0: rtol * 0.01 * length of the model */
   double atol_velocity;      /* [m/s]; 0: atol_displacement * frequency of the model */
@@ -86,6 +88,68 @@ typedef enum corot_history {
 
 /* To be called after a change of the held frames, at the end of a step. */
 corot_status corot_integrator_changed(corot_integrator *integrator, corot_history history);
+
+/* --- Frames that follow the body between steps ------------------------------------------------ */
+
+/* Asked after each step; true: update the frames now. u and v [n] at t; `drift` is how far the
+   frames in use are from the body's. */
+typedef bool corot_frame_hook(void *data, double t, const double *u, const double *v,
+                              const corot_frames_change *drift);
+
+/* When held or extrapolated frames are found anew. Any of the conditions suffices. */
+typedef struct corot_frame_policy {
+  corot_frames frames;   /* exact: none of the rest matters */
+  bool every_step;
+  double interval;       /* [s] at its multiples; 0: no */
+  double max_angle;      /* [rad] after a step that leaves a tet's frame off by more; 0: no */
+  corot_history history; /* what the integrator does with its past after an update */
+  corot_frame_hook *hook; /* or NULL */
+  void *hook_data;
+} corot_frame_policy;
+
+/* Exact frames; history auto. */
+corot_frame_policy corot_frame_policy_defaults(void);
+
+/* Extrapolated frames are never turned further than this from where they were found: an update is
+   forced there [rad]. */
+#define COROT_EXTRAPOLATION_CAP 0.1
+
+typedef enum corot_frame_reason {
+  COROT_FRAMES_KEPT = 0, /* no update */
+  COROT_FRAMES_BY_STEP,
+  COROT_FRAMES_BY_INTERVAL,
+  COROT_FRAMES_BY_ANGLE,
+  COROT_FRAMES_BY_CAP,
+  COROT_FRAMES_BY_HOOK,
+} corot_frame_reason;
+
+typedef struct corot_frame_event {
+  corot_frame_reason reason;
+  corot_frames_change change; /* by the update */
+  bool restarted;             /* the integrator began again */
+} corot_frame_event;
+
+/* Carries a policy out on one integrator. */
+typedef struct corot_frame_clock corot_frame_clock;
+
+/* Puts the state on the policy's frames, found at (t, u, v), where the integrator starts. Model,
+   state and integrator must outlive the clock. COROT_EINVAL: an interval or angle is negative, or
+   held frames have no condition to be updated by. */
+corot_status corot_frame_clock_create(const corot_frame_policy *policy, const corot_model *model,
+                                      corot_state *state, corot_integrator *integrator, double t,
+                                      const double *u, const double *v, corot_frame_clock **clock);
+
+/* Takes NULL. */
+void corot_frame_clock_destroy(corot_frame_clock *clock);
+
+/* The next time the integrator must stop for an update; INFINITY: none is fixed. */
+double corot_frame_clock_stop(const corot_frame_clock *clock);
+
+/* To be called at the end of each step, at t: updates the frames if it is time, and tells the
+   integrator. */
+corot_status corot_frame_clock_tick(corot_frame_clock *clock, double t, corot_frame_event *event);
+
+/* --- Statistics ------------------------------------------------------------------------------- */
 
 /* Statistics of the whole run, restarts included, under SUNDIALS' own names. */
 typedef struct corot_statistics {

@@ -21,7 +21,13 @@ typedef struct corot_material {
   double density;         /* [kg/m^3] > 0 */
   double damping_lambda;  /* [Pa s] >= 0 */
   double damping_mu;      /* [Pa s] >= 0 */
+  double damping_mass;    /* Rayleigh's: a force -damping_mass M v [1/s] >= 0 */
 } corot_material;
+
+/* Viscous law of terms on a frame basis. COROTATED, the paper's: strain rate sym(R' dF/dt), which
+   a spinning deformed body feels a little. OBJECTIVE: the rate dS/dt of the stretch of F = R S
+   itself, which is exactly zero in any rigid motion; polar and hybrid only. */
+typedef enum corot_viscosity { COROT_COROTATED, COROT_OBJECTIVE } corot_viscosity;
 
 /* A factor piecewise linear in time, constant beyond its ends. n = 0: one at all times. */
 typedef struct corot_amplitude {
@@ -33,6 +39,9 @@ typedef struct corot_amplitude {
 typedef enum corot_load_kind {
   COROT_TRACTION, /* force per rest area on the group's triangles, fixed direction [Pa] */
   COROT_GRAVITY,  /* acceleration of the whole body [m/s^2]; the group is ignored */
+  COROT_FORCE,    /* total force, spread evenly over the group's nodes, fixed direction [N] */
+  COROT_PRESSURE, /* value[0], on the deformed area of the group's triangles, against their outward
+                     normal: it follows the surface [Pa] */
 } corot_load_kind;
 
 typedef struct corot_load {
@@ -48,6 +57,23 @@ typedef struct corot_fix {
   bool component[3];
 } corot_fix;
 
+typedef enum corot_motion_kind {
+  COROT_ROTATE,    /* about an axis through `center`, at `rate`, right-handed */
+  COROT_TRANSLATE, /* at `velocity` */
+} corot_motion_kind;
+
+/* Nodes of a group on a prescribed path: at rest until `from`, then at constant rate, at rest again
+   from `to`. Holds all three components. */
+typedef struct corot_motion {
+  corot_motion_kind kind;
+  const char *group;
+  double axis[3];   /* not zero */
+  double center[3]; /* [m] */
+  double rate;      /* [rad/s] */
+  double velocity[3]; /* [m/s] */
+  double from, to;  /* [s] from < to; to may be INFINITY */
+} corot_motion;
+
 /* What a model is made of; everything in it is copied. */
 typedef struct corot_model_def {
   const corot_mesh *mesh;
@@ -56,8 +82,11 @@ typedef struct corot_model_def {
   const corot_material *material; /* [nmaterial] every tet must be covered exactly once */
   int nfix;
   const corot_fix *fix; /* [nfix] none: a free body */
+  int nmotion;
+  const corot_motion *motion; /* [nmotion] on nodes that nothing else holds */
   int nload;
   const corot_load *load; /* [nload] */
+  corot_viscosity viscosity;
 } corot_model_def;
 
 /* Strain polar, nothing else. */
@@ -87,7 +116,7 @@ const int (*corot_model_dof(const corot_model *model))[3];
 /* [n] lumped mass (row sums) of each degree of freedom [kg]; positive. */
 const double *corot_model_mass(const corot_model *model);
 
-/* The times strictly between t0 and t1 where a load has a kink, ascending; at most `max` are
+/* The times strictly between t0 and t1 where a load or a motion has a kink, ascending; at most `max` are
    written to `time` (which may be NULL if max is 0). Returns how many there are. */
 int corot_model_kinks(const corot_model *model, double t0, double t1, int max, double *time);
 

@@ -19,8 +19,9 @@
 
    The viscous stress is the same law with the damping coefficients on sym(B' dF/dt).
 
-   Frames are either EXACT, found anew from F in every evaluation, so that r is a smooth function
-   of (t, u, v); or HELD, those of the last corot_frames_update (the paper's linear systems). */
+   Frames are EXACT, found anew from F in every evaluation, so that r is a smooth function of
+   (t, u, v); or HELD, those of the last corot_frames_update (the paper's linear systems); or
+   EXTRAPOLATED, those turned on at the spin they had then, which r sees as a dependence on t. */
 #ifndef COROT_ODE_H
 #define COROT_ODE_H
 
@@ -34,6 +35,7 @@ extern "C" {
 typedef enum corot_frames {
   COROT_FRAMES_EXACT,
   COROT_FRAMES_HELD,
+  COROT_FRAMES_EXTRAPOLATED,
 } corot_frames;
 
 /* What the evaluations of one run need beside the model: frames and scratch. One state belongs
@@ -51,6 +53,11 @@ size_t corot_state_bytes(const corot_state *state);
 
 void corot_state_use(corot_state *state, corot_frames frames);
 corot_frames corot_state_frames(const corot_state *state);
+
+/* From now on, evaluations belong to the time after t and before the next kink of a motion: at a
+   kink itself the velocity of a support has two values, and this says which is meant. To be called
+   at each kink by who stops there; until the first call the later value is taken. */
+void corot_state_enter(corot_state *state, double t);
 
 /* r(t, u, v) [N]. COROT_RETRY when a tet is inverted (det F <= 0 or not a number; not asked of
    cauchy, which is linear): the message and corot_state_inverted() name it. */
@@ -74,7 +81,7 @@ typedef enum corot_tangent {
 /* Elastic stiffness K = -dr/du at v = 0 and damping D = -dr/dv, both symmetric, as 3x3 blocks
    [corot_model_nblock()][9] on the model's pattern (below). Either may be NULL.
    What K leaves out, so as to stay symmetric: the change of the viscous force with u, and the
-   variation of a warp frame. corot_jvp has both. */
+   variation of a warp frame; the turning of a pressure. corot_jvp has them. */
 corot_status corot_jacobian(const corot_model *model, corot_state *state, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
 
@@ -84,7 +91,7 @@ corot_status corot_jvp(const corot_model *model, corot_state *state, double t, c
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv);
 
-/* What an update of the held frames did. */
+/* What an update of the held frames did, or would do. */
 typedef struct corot_frames_change {
   double angle_max;  /* largest angle between old and new frame of a tet [rad] */
   double angle_mean; /* [rad] */
@@ -96,13 +103,24 @@ typedef struct corot_frames_change {
 corot_status corot_frames_update(const corot_model *model, corot_state *state, double t,
                                  const double *u, corot_frames_change *change);
 
-/* Energies and powers of one instant. */
+/* The same change, from the frames in use at t to those of u, without making it. */
+corot_status corot_frames_drift(const corot_model *model, corot_state *state, double t,
+                                const double *u, corot_frames_change *drift);
+
+/* After an update: the spin at which the frames turn on where they are extrapolated, from v; zero
+   until this is called. *spin_max (or NULL): the largest [rad/s]. */
+corot_status corot_frames_spin(const corot_model *model, corot_state *state, double t,
+                               const double *u, const double *v, double *spin_max);
+
+/* Energies and powers of one instant. Of the kinetic energy and the momenta, the part of the free
+   degrees of freedom; the work of a moving support is that of the internal and viscous forces on
+   its nodes. */
 typedef struct corot_energies {
   double kinetic;          /* 1/2 v' M v [J] */
   double elastic;          /* of the strain energy whose gradient is f_int (warp: whose held-frame
                               gradient is f_int) [J] */
-  double power_dissipated; /* f_damp . v [W] */
-  double power_external;   /* f_ext . v [W] */
+  double power_dissipated; /* by the viscous forces and the mass damping [W] */
+  double power_external;   /* of the loads and the moving supports [W] */
   double momentum[3];         /* sum m v over free components [kg m/s] */
   double angular_momentum[3]; /* about the origin [kg m^2/s] */
 } corot_energies;
@@ -128,6 +146,13 @@ typedef struct corot_element_fields {
 corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
                             const corot_element_fields *fields);
 
+/* Internal force of any strain measure with its own exact frames, whatever the model's is, on all
+   nodes [nnode][3] [N]: f = lambda_part * (lambda term) + mu_part * (mu term). COROT_RETRY as for
+   corot_residual. */
+corot_status corot_internal_force(const corot_model *model, corot_state *state, double t,
+                                  const double *u, const char *strain, double lambda_part,
+                                  double mu_part, double (*f)[3]);
+
 /* --- The matrices' pattern ------------------------------------------------------------------- */
 
 /* Number of stored 3x3 blocks: the diagonal and the lower triangle over pairs of nodes that share
@@ -147,6 +172,7 @@ typedef struct corot_csc {
   int *row;    /* [nnz] */
   int *source; /* [nnz] where the entry stands in the blocks, counted in doubles */
   int *diagonal; /* [n] the entry of each column's diagonal */
+  int *node;     /* [n] the mesh node each degree of freedom belongs to; ascending */
 } corot_csc;
 
 corot_status corot_csc_create(const corot_model *model, corot_triangle triangle, corot_csc **csc);

@@ -21,7 +21,7 @@ extern "C" {
 /* K, D, S and a factor of S: one for each run. */
 typedef struct corot_pencil corot_pencil;
 
-/* `linear_solver`: "klu", "cholmod" (if built in) or "auto". COROT_EINVAL: no solver of that name.
+/* `linear_solver`: "klu", "cholmod" (if built in), "pcg" or "auto". COROT_EINVAL: no solver of that name.
    Model and state must outlive the pencil. */
 corot_status corot_pencil_create(const corot_model *model, corot_state *state,
                                  const char *linear_solver, corot_pencil **pencil);
@@ -34,6 +34,10 @@ const char *corot_pencil_solver(const corot_pencil *pencil);
 
 /* Which derivative of the frames K uses; held at first. */
 void corot_pencil_use(corot_pencil *pencil, corot_tangent tangent);
+
+/* The residual an iterative solver reduces to, relative to the right-hand side; 1e-10 at first. A
+   direct one does not look at it. */
+void corot_pencil_tolerance(corot_pencil *pencil, double tolerance);
 
 /* K and D at (t, u, v). */
 corot_status corot_pencil_assemble(corot_pencil *pencil, double t, const double *u, const double *v);
@@ -54,6 +58,7 @@ void corot_pencil_invalidate(corot_pencil *pencil);
 typedef struct corot_pencil_counts {
   long nassembly, ncombine, nfactor, nsolve; /* calls */
   long nfresh;     /* factorisations that chose their pivots anew */
+  long niteration;  /* of an iterative solver */
   long nindefinite; /* factorisations refused because S was not positive definite */
   double assembly_s, combine_s, factor_s, solve_s; /* wall time [s] */
 } corot_pencil_counts;

@@ -87,7 +87,8 @@ static corot_status fill(const corot_model *m, corot_triangle triangle, const up
   csc->n = m->ndof;
   csc->colptr = malloc((csc->n + 1) * sizeof *csc->colptr);
   csc->diagonal = malloc(csc->n * sizeof *csc->diagonal);
-  if (!csc->colptr || !csc->diagonal)
+  csc->node = malloc(csc->n * sizeof *csc->node);
+  if (!csc->colptr || !csc->diagonal || !csc->node)
     return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d columns", csc->n);
   for (int pass = 0; pass < 2; pass++) { /* count, then write */
     int nnz = 0;
@@ -95,6 +96,7 @@ static corot_status fill(const corot_model *m, corot_triangle triangle, const up
       for (int c = 0; c < 3; c++) {
         if (m->dof[j][c] < 0) continue;
         csc->colptr[m->dof[j][c]] = nnz;
+        csc->node[m->dof[j][c]] = j;
         nnz = fill_column(m, u, triangle, j, c, csc, nnz);
         if (nnz > INT_MAX - 9 * m->pattern.nnode)
           return corot_fail(COROT_EINVAL, "the matrix exceeds 32-bit counts at node %d", j);
@@ -131,6 +133,7 @@ void corot_csc_destroy(corot_csc *csc) {
   free(csc->row);
   free(csc->source);
   free(csc->diagonal);
+  free(csc->node);
   free(csc);
 }
 

@@ -3,9 +3,8 @@
 
 void corot_nodal(const corot_model *m, double t, const double *u, const double *v,
                  double (*displacement)[3], double (*velocity)[3]) {
-  (void)t; /* supports do not move */
-  if (displacement) model_spread(m, u, displacement[0], 3);
-  if (velocity) model_spread(m, v, velocity[0], 3);
+  if (displacement) model_displacement(m, NAN, t, u, displacement[0], 3);
+  if (velocity) model_velocity(m, NAN, t, v, velocity[0], 3);
 }
 
 /* sqrt(3/2 dev:dev) of sym(A). */
@@ -31,10 +30,9 @@ static void store_lane(const corot_element_fields *f, int tet, int l, mat3 R, ma
 
 corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
                             const corot_element_fields *fields) {
-  (void)t;
   const strain_measure *measure = &strain_measures[m->strain];
   bool linear = measure->frame == FRAME_IDENTITY && measure->shear == BY_FRAME;
-  model_spread(m, u, s->u[0], 4);
+  state_displace(m, s, t, u);
   s->inverted = -1;
   for (int b = 0; b < m->tets.nblock; b++) {
     const tet_block *block = &m->tets.block[b];

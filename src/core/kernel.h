@@ -20,6 +20,15 @@ int kernel_energy(const corot_model *m, corot_state *state, bool damped, double 
 /* R [tets.nblock] = the measure's own frames. */
 int kernel_frames(const corot_model *m, corot_state *state, mat3 *R);
 
+/* spin [tets.nblock] = the angular velocity of the measure's own frames for the velocity
+   state->v: dR/dt = [spin]x R. */
+int kernel_spin(const corot_model *m, corot_state *state, vec3 *spin);
+
+/* state->force = -(the internal force of a measure, index `strain`, with its own frames and with
+   the material's coefficients times the factors given). */
+int kernel_internal(const corot_model *m, corot_state *state, int strain, double lambda_part,
+                    double mu_part, int chunk);
+
 /* Adds the element matrices to K and D, either of which may be NULL, and completes the columns of
    the nodes that are ready then. `exact`: with the variation of the frames. */
 int kernel_tangent(const corot_model *m, corot_state *state, bool exact, int chunk, double (*K)[9],
@@ -51,7 +60,7 @@ COROT_INLINE mat3 deformation(const tet_block *block, const double (*u)[4]) {
   return mat3_add_identity(gradient(block, u), vd_all(1));
 }
 
-/* The frame in use, held or exact, and the lanes whose F is not that of a deformation. Cauchy
+/* The frame in use, and the lanes whose F is not that of a deformation. Cauchy
    strain is linear in F, so there nothing can invert. */
 COROT_INLINE mat3 frame_in_use(const strain_measure *s, const corot_model *m,
                                const corot_state *state, int b, mat3 F, vi *inverted) {
@@ -59,11 +68,13 @@ COROT_INLINE mat3 frame_in_use(const strain_measure *s, const corot_model *m,
   const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
   vi bad;
   mat3 R;
-  if (state->frames == COROT_FRAMES_HELD) {
-    bad = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
-    R = s->frame == FRAME_IDENTITY ? mat3_identity() : state->R[b];
-  } else {
+  if (state->frames == COROT_FRAMES_EXACT || s->frame == FRAME_IDENTITY) {
     R = frame_of(s->frame, F, Q0, &bad);
+  } else {
+    bad = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
+    R = state->R[b];
+    if (state->frames == COROT_FRAMES_EXTRAPOLATED)
+      R = rotate_by(state->spin[b], state->elapsed, R);
   }
   *inverted |= bad;
   return R;

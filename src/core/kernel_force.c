@@ -1,5 +1,13 @@
 #include "core/kernel.h"
 
+/* The viscous stress times a factor. */
+COROT_INLINE mat3 viscous_stress(const strain_measure *s, bool objective, const material *mat,
+                                 vd factor, mat3 F, mat3 R, mat3 V) {
+  vd lambda = factor * mat->damping_lambda, mu = factor * mat->damping_mu;
+  if (s->frame == FRAME_POLAR && objective) return stress_objective(s, lambda, mu, F, R, V);
+  return stress_viscous(s, lambda, mu, F, R, V);
+}
+
 COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot_state *state,
                             bool damped, int chunk) {
   for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
@@ -12,8 +20,7 @@ COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot
     mat3 A = stress(s, minus * mat->lambda, minus * mat->mu, F, R);
     if (damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
-      A = mat3_add(
-          A, stress_viscous(s, minus * mat->damping_lambda, minus * mat->damping_mu, F, R, V));
+      A = mat3_add(A, viscous_stress(s, m->objective, mat, minus, F, R, V));
     }
     store_forces(m, state, b, A);
     if (vi_any(inverted)) return first_inverted(m, b, inverted);
@@ -51,7 +58,7 @@ COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, coro
         vd_sum(block->volume * strain_energy(s, vd_all(mat->lambda), vd_all(mat->mu), F, R));
     if (!damped) continue;
     mat3 V = gradient(block, (const double(*)[4])state->v);
-    mat3 P = stress_viscous(s, vd_all(mat->damping_lambda), vd_all(mat->damping_mu), F, R, V);
+    mat3 P = viscous_stress(s, m->objective, mat, vd_all(1), F, R, V);
     sum_power += vd_sum(block->volume * mat3_dot(P, V));
   }
   *elastic = sum_elastic;
@@ -78,4 +85,48 @@ COROT_INLINE int frames_loop(const strain_measure *s, const corot_model *m, coro
 
 COROT_CLONES int kernel_frames(const corot_model *m, corot_state *state, mat3 *R) {
   return frames_loop(&strain_measures[m->strain], m, state, R);
+}
+
+COROT_INLINE int spin_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+                           vec3 *spin) {
+  for (int b = 0; b < m->tets.nblock; b++) {
+    const tet_block *block = &m->tets.block[b];
+    const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+    vi inverted = {0};
+    mat3 F = deformation(block, (const double(*)[4])state->u);
+    mat3 V = gradient(block, (const double(*)[4])state->v);
+    mat3 R = frame_of(s->frame, F, Q0, &inverted);
+    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(m, b, inverted);
+    mat3 dR = frame_derivative(s->frame, F, Q0, R, V);
+    spin[b] = mat3_vee(mat3_scale(vd_all(0.5), mat3_mul(dR, mat3_transpose(R))));
+  }
+  return -1;
+}
+
+COROT_CLONES int kernel_spin(const corot_model *m, corot_state *state, vec3 *spin) {
+  return spin_loop(&strain_measures[m->strain], m, state, spin);
+}
+
+COROT_INLINE int internal_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+                               double lambda_part, double mu_part, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
+    const tet_block *block = &m->tets.block[b];
+    const material *mat = &m->material[block->material];
+    mat3 Q0 = mat3_identity();
+    if (s->frame == FRAME_WARP) Q0 = tets_rest_basis(m->mesh, m->tets.number + b * W);
+    vi inverted = {0};
+    mat3 F = deformation(block, (const double(*)[4])state->u);
+    mat3 R = frame_of(s->frame, F, &Q0, &inverted);
+    bool linear = s->frame == FRAME_IDENTITY && s->shear == BY_FRAME;
+    if (!linear && vi_any(inverted)) return first_inverted(m, b, inverted);
+    vd lambda = -block->volume * (lambda_part * mat->lambda),
+       mu = -block->volume * (mu_part * mat->mu);
+    store_forces(m, state, b, stress(s, lambda, mu, F, R));
+  }
+  return -1;
+}
+
+COROT_CLONES int kernel_internal(const corot_model *m, corot_state *state, int strain,
+                                 double lambda_part, double mu_part, int chunk) {
+  return internal_loop(&strain_measures[strain], m, state, lambda_part, mu_part, chunk);
 }

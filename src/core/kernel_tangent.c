@@ -19,6 +19,38 @@ COROT_INLINE mat3 constant_bases(vd lambda, vd mu, vd gg, mat3 BsBs, vec3 pa, ve
   return K;
 }
 
+/* The stretch rates of unit velocities e_i of the nodes, and the damping block of two nodes
+   under the objective law, dS/dt : D : dS/dt. */
+typedef struct node_rates {
+  mat3 rate[4][3]; /* [node][component] */
+} node_rates;
+
+COROT_INLINE node_rates node_rates_of(const tet_block *block, mat3 F, mat3 R) {
+  node_rates n;
+  for (int i = 0; i < 3; i++) {
+    for (int a = 1; a < 4; a++) {
+      mat3 V = mat3_scale(vd_all(0), R);
+      for (int j = 0; j < 3; j++) V.m[i][j] = block->g.m[a - 1][j];
+      n.rate[a][i] = stretch_rate_of(F, R, V).rate;
+    }
+    mat3 sum = mat3_add(mat3_add(n.rate[1][i], n.rate[2][i]), n.rate[3][i]);
+    n.rate[0][i] = mat3_scale(vd_all(-1), sum);
+  }
+  return n;
+}
+
+COROT_INLINE mat3 objective_damping(const strain_measure *s, vd lambda, vd mu, const node_rates *n,
+                                    int a, int b, vec3 pa, vec3 pb) {
+  mat3 D;
+  EACH_IJ {
+    D.m[i][j] = 2 * mu * mat3_dot(n->rate[a][i], n->rate[b][j]);
+    D.m[i][j] += lambda * (s->pressure == BY_GRADIENT
+                               ? pa.v[i] * pb.v[j]
+                               : mat3_trace(n->rate[a][i]) * mat3_trace(n->rate[b][j]));
+  }
+  return D;
+}
+
 /* A + [a]x' Q */
 COROT_INLINE mat3 add_skew_transposed(mat3 A, vec3 a, mat3 Q) {
   EACH_IJ {
@@ -83,6 +115,9 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
     vd dlambda = block->volume * mat->damping_lambda, dmu = block->volume * mat->damping_mu;
     tangent_terms t = tangent_terms_of(s, exact, lambda, mu, F, R);
     node_vectors n = node_vectors_of(block, &t);
+    bool objective = D && m->objective && s->frame == FRAME_POLAR;
+    node_rates rates;
+    if (objective) rates = node_rates_of(block, F, R);
     for (int k = 0; k < NPAIR; k++) {
       int a = pair_row[k], c = pair_col[k];
       vd gg = vec3_dot(n.g[a], n.g[c]);
@@ -92,7 +127,9 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
       if (exact && s->frame == FRAME_POLAR)
         A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
       if (K) scatter(K, place[k], A);
-      if (D)
+      if (objective)
+        scatter(D, place[k], objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
+      else if (D)
         scatter(D, place[k],
                 constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]));
     }
@@ -129,8 +166,10 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, 
     if (m->damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
       mat3 dV = gradient(block, (const double(*)[4])state->dv);
-      dA = mat3_add(dA, stress_viscous_derivative(s, minus * mat->damping_lambda,
-                                                  minus * mat->damping_mu, F, R, V, dF, dR, dV));
+      vd lambda = minus * mat->damping_lambda, mu = minus * mat->damping_mu;
+      dA = mat3_add(dA, m->objective && s->frame == FRAME_POLAR
+                            ? stress_objective_derivative(s, lambda, mu, F, R, V, dF, dR, dV)
+                            : stress_viscous_derivative(s, lambda, mu, F, R, V, dF, dR, dV));
     }
     store_forces(m, state, b, dA);
   }

@@ -1,4 +1,4 @@
-/* Loads: constant force vectors on the free degrees of freedom, each with an amplitude in time. */
+/* Loads: constant forces and pressures that follow the surface, each with an amplitude in time. */
 #include <stdlib.h>
 
 #include "core/model.h"
@@ -9,28 +9,75 @@ static void add_force(const corot_model *m, double *force, int node, const doubl
     if (m->dof[node][c] >= 0) force[m->dof[node][c]] += factor * value[c];
 }
 
+/* The faces of a load's group. */
+static corot_status find_faces(const corot_model *m, const char *name, const char *user,
+                               const corot_group **group) {
+  COROT_TRY(model_find_group(m->mesh, name, user, group));
+  if (!(*group)->ntri) return corot_fail(COROT_EINVAL, "%s: group '%s' has no faces", user, name);
+  return COROT_OK;
+}
+
+/* Half the cross product of two edges: the area, along the normal of the winding. */
+static void area_vector(const double a[3], const double b[3], double area[3]) {
+  area[0] = 0.5 * (a[1] * b[2] - a[2] * b[1]);
+  area[1] = 0.5 * (a[2] * b[0] - a[0] * b[2]);
+  area[2] = 0.5 * (a[0] * b[1] - a[1] * b[0]);
+}
+
+/* Edges 0-1 and 0-2 of a face; those of the rest mesh if u is NULL. */
+static void edges(const corot_model *m, const double (*u)[4], const int n[3], double a[3],
+                  double b[3]) {
+  const double(*x)[3] = (const double(*)[3])m->mesh->x;
+  for (int c = 0; c < 3; c++) {
+    a[c] = x[n[1]][c] - x[n[0]][c] + (u ? u[n[1]][c] - u[n[0]][c] : 0);
+    b[c] = x[n[2]][c] - x[n[0]][c] + (u ? u[n[2]][c] - u[n[0]][c] : 0);
+  }
+}
+
 /* A third of each face's traction to each of its nodes. */
-static corot_status add_traction(const corot_model *m, const corot_load *load, double *force) {
+static corot_status add_traction(const corot_model *m, const corot_load *from, load *to) {
   const corot_group *group;
-  COROT_TRY(model_find_group(m->mesh, load->group, "traction", &group));
-  if (!group->ntri)
-    return corot_fail(COROT_EINVAL, "traction: group '%s' has no faces", load->group);
+  COROT_TRY(find_faces(m, from->group, "traction", &group));
   for (int f = 0; f < group->ntri; f++) {
     const int *n = group->tri[f];
-    double a[3], b[3];
-    for (int c = 0; c < 3; c++) {
-      a[c] = m->mesh->x[n[1]][c] - m->mesh->x[n[0]][c];
-      b[c] = m->mesh->x[n[2]][c] - m->mesh->x[n[0]][c];
-    }
-    double nx = a[1] * b[2] - a[2] * b[1], ny = a[2] * b[0] - a[0] * b[2],
-           nz = a[0] * b[1] - a[1] * b[0];
-    double area = 0.5 * sqrt(nx * nx + ny * ny + nz * nz);
-    for (int k = 0; k < 3; k++) add_force(m, force, n[k], load->value, area / 3);
+    double a[3], b[3], area[3];
+    edges(m, NULL, n, a, b);
+    area_vector(a, b, area);
+    double size = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    for (int k = 0; k < 3; k++) add_force(m, to->force, n[k], from->value, size / 3);
   }
   return COROT_OK;
 }
 
-static corot_status copy_amplitude(const corot_amplitude *a, int k, dead_load *load) {
+static corot_status add_point_force(const corot_model *m, const corot_load *from, load *to) {
+  const corot_group *group;
+  COROT_TRY(model_find_group(m->mesh, from->group, "force", &group));
+  for (int i = 0; i < group->nnode; i++)
+    add_force(m, to->force, group->node[i], from->value, 1.0 / group->nnode);
+  return COROT_OK;
+}
+
+static corot_status add_gravity(const corot_model *m, const corot_load *from, load *to) {
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      if (i >= 0) to->force[i] = m->mass[i] * from->value[c];
+    }
+  return COROT_OK;
+}
+
+static corot_status add_pressure(const corot_model *m, const corot_load *from, load *to) {
+  const corot_group *group;
+  COROT_TRY(find_faces(m, from->group, "pressure", &group));
+  to->tri = malloc(group->ntri * sizeof *to->tri);
+  if (!to->tri) return corot_fail(COROT_ENOMEM, "no memory for %d faces", group->ntri);
+  memcpy(to->tri, group->tri, group->ntri * sizeof *to->tri);
+  to->ntri = group->ntri;
+  to->pressure = from->value[0];
+  return COROT_OK;
+}
+
+static corot_status copy_amplitude(const corot_amplitude *a, int k, load *to) {
   for (int i = 0; i < a->n; i++) {
     if (!isfinite(a->time[i]) || !isfinite(a->value[i]))
       return corot_fail(COROT_EINVAL, "load %d: point %d of the amplitude is not finite", k, i);
@@ -39,56 +86,57 @@ static corot_status copy_amplitude(const corot_amplitude *a, int k, dead_load *l
                         k, i);
   }
   if (a->n <= 0) return COROT_OK;
-  load->time = malloc(a->n * sizeof *load->time);
-  load->value = malloc(a->n * sizeof *load->value);
-  if (!load->time || !load->value) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
-  memcpy(load->time, a->time, a->n * sizeof *load->time);
-  memcpy(load->value, a->value, a->n * sizeof *load->value);
-  load->n = a->n;
+  to->time = malloc(a->n * sizeof *to->time);
+  to->value = malloc(a->n * sizeof *to->value);
+  if (!to->time || !to->value) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
+  memcpy(to->time, a->time, a->n * sizeof *to->time);
+  memcpy(to->value, a->value, a->n * sizeof *to->value);
+  to->n = a->n;
   return COROT_OK;
+}
+
+static corot_status create(const corot_model *m, const corot_load *from, int k, load *to) {
+  for (int c = 0; c < 3; c++)
+    if (!isfinite(from->value[c]))
+      return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);
+  COROT_TRY(copy_amplitude(&from->amplitude, k, to));
+  if (from->kind == COROT_PRESSURE) return add_pressure(m, from, to);
+  to->force = calloc(m->ndof, sizeof *to->force);
+  if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
+  switch (from->kind) {
+    case COROT_TRACTION:
+      return add_traction(m, from, to);
+    case COROT_GRAVITY:
+      return add_gravity(m, from, to);
+    case COROT_FORCE:
+      return add_point_force(m, from, to);
+    default:
+      return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
+                        (int)from->kind);
+  }
 }
 
 corot_status loads_create(const corot_model_def *def, corot_model *m) {
   m->load = calloc(def->nload + 1, sizeof *m->load);
   if (!m->load) return corot_fail(COROT_ENOMEM, "no memory for %d loads", def->nload);
   m->nload = def->nload;
-  for (int k = 0; k < def->nload; k++) {
-    const corot_load *from = &def->load[k];
-    dead_load *to = &m->load[k];
-    if (from->kind != COROT_TRACTION && from->kind != COROT_GRAVITY)
-      return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
-                        (int)from->kind);
-    for (int c = 0; c < 3; c++)
-      if (!isfinite(from->value[c]))
-        return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);
-    COROT_TRY(copy_amplitude(&from->amplitude, k, to));
-    to->force = calloc(m->ndof, sizeof *to->force);
-    if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
-    if (from->kind == COROT_TRACTION) {
-      COROT_TRY(add_traction(m, from, to->force));
-    } else {
-      for (int n = 0; n < m->mesh->nnode; n++)
-        for (int c = 0; c < 3; c++) {
-          int i = m->dof[n][c];
-          if (i >= 0) to->force[i] = m->mass[i] * from->value[c];
-        }
-    }
-  }
+  for (int k = 0; k < def->nload; k++) COROT_TRY(create(m, &def->load[k], k, &m->load[k]));
   return COROT_OK;
 }
 
 void loads_destroy(corot_model *m) {
   for (int k = 0; k < m->nload; k++) {
     free(m->load[k].force);
+    free(m->load[k].tri);
     free(m->load[k].time);
     free(m->load[k].value);
   }
   free(m->load);
 }
 
-static double amplitude_at(const dead_load *load, double t) {
-  int n = load->n;
-  const double *time = load->time, *value = load->value;
+static double amplitude_at(const load *l, double t) {
+  int n = l->n;
+  const double *time = l->time, *value = l->value;
   if (n == 0) return 1;
   if (!(t > time[0])) return value[0];
   if (t >= time[n - 1]) return value[n - 1];
@@ -98,28 +146,42 @@ static double amplitude_at(const dead_load *load, double t) {
   return (1 - s) * value[k - 1] + s * value[k];
 }
 
-int corot_model_kinks(const corot_model *m, double t0, double t1, int max, double *time) {
-  int n = 0;
-  for (double last = t0;; n++) { /* the next kink after the last one */
-    double next = INFINITY;
-    for (int k = 0; k < m->nload; k++)
-      for (int i = 0; i < m->load[k].n; i++)
-        if (m->load[k].time[i] > last) {
-          next = fmin(next, m->load[k].time[i]);
-          break;
-        }
-    if (!(next < t1)) return n;
-    if (n < max) time[n] = next;
-    last = next;
+void loads_force(const corot_model *m, double t, const double (*u)[4], double *f) {
+  memset(f, 0, m->ndof * sizeof *f);
+  for (int k = 0; k < m->nload; k++) {
+    const load *l = &m->load[k];
+    double factor = amplitude_at(l, t);
+    if (factor == 0) continue;
+    if (l->force)
+      for (int i = 0; i < m->ndof; i++) f[i] += factor * l->force[i];
+    for (int j = 0; j < l->ntri; j++) {
+      double a[3], b[3], area[3];
+      edges(m, u, l->tri[j], a, b);
+      area_vector(a, b, area);
+      for (int i = 0; i < 3; i++) add_force(m, f, l->tri[j][i], area, -factor * l->pressure / 3);
+    }
   }
 }
 
-void loads_force(const corot_model *m, double t, double *f) {
-  memset(f, 0, m->ndof * sizeof *f);
+void loads_derivative(const corot_model *m, double t, const double (*u)[4], const double (*du)[4],
+                      double *f) {
   for (int k = 0; k < m->nload; k++) {
-    double a = amplitude_at(&m->load[k], t);
-    const double *force = m->load[k].force;
-    if (a != 0)
-      for (int i = 0; i < m->ndof; i++) f[i] += a * force[i];
+    const load *l = &m->load[k];
+    double factor = amplitude_at(l, t);
+    for (int j = 0; j < l->ntri; j++) { /* d(a x b) = da x b + a x db */
+      const int *n = l->tri[j];
+      double a[3], b[3], da[3], db[3], first[3], second[3];
+      edges(m, u, n, a, b);
+      for (int c = 0; c < 3; c++) {
+        da[c] = du[n[1]][c] - du[n[0]][c];
+        db[c] = du[n[2]][c] - du[n[0]][c];
+      }
+      area_vector(da, b, first);
+      area_vector(a, db, second);
+      for (int i = 0; i < 3; i++) {
+        add_force(m, f, n[i], first, -factor * l->pressure / 3);
+        add_force(m, f, n[i], second, -factor * l->pressure / 3);
+      }
+    }
   }
 }

@@ -4,7 +4,7 @@
 
 corot_model_def corot_model_defaults(void) { return (corot_model_def){.strain = "polar"}; }
 
-static corot_status find_strain(const char *name, int *strain) {
+corot_status model_find_strain(const char *name, int *strain) {
   for (int k = 0; k < NSTRAIN; k++)
     if (name && strcmp(name, strain_measures[k].name) == 0) {
       *strain = k;
@@ -48,9 +48,10 @@ static corot_status assign_materials(const corot_model_def *def, corot_model *m,
   for (int k = 0; k < def->nmaterial; k++) {
     const corot_material *from = &def->material[k];
     COROT_TRY(check_material(from, k));
-    m->material[k] =
-        (material){from->lambda, from->mu, from->damping_lambda, from->damping_mu, from->density};
+    m->material[k] = (material){from->lambda,     from->mu,           from->damping_lambda,
+                                from->damping_mu, from->damping_mass, from->density};
     m->damped |= from->damping_lambda > 0 || from->damping_mu > 0;
+    m->mass_damped |= from->damping_mass > 0;
     if (!from->group) {
       if (rest >= 0)
         return corot_fail(COROT_EINVAL, "materials %d and %d both have no group", rest, k);
@@ -75,47 +76,89 @@ static corot_status assign_materials(const corot_model_def *def, corot_model *m,
   return COROT_OK;
 }
 
-/* Numbers the components that no support holds. */
-static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
-  int nnode = m->mesh->nnode;
-  m->dof = calloc(nnode, sizeof *m->dof);
-  if (!m->dof) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", nnode);
+static corot_status hold_fixed(const corot_model_def *def, const corot_model *m, char (*held)[3]) {
   for (int k = 0; k < def->nfix; k++) {
     const corot_group *group;
     COROT_TRY(model_find_group(m->mesh, def->fix[k].group, "fix", &group));
     for (int i = 0; i < group->nnode; i++)
       for (int c = 0; c < 3; c++)
-        if (def->fix[k].component[c]) m->dof[group->node[i]][c] = -1;
+        if (def->fix[k].component[c]) held[group->node[i]][c] = 1;
   }
-  for (int n = 0; n < nnode; n++)
-    for (int c = 0; c < 3; c++)
-      if (m->dof[n][c] == 0) m->dof[n][c] = m->ndof++;
+  return COROT_OK;
+}
+
+/* Supports, and numbers for the components that none of them holds. */
+static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
+  int nnode = m->mesh->nnode;
+  m->dof = malloc(nnode * sizeof *m->dof);
+  char(*held)[3] = calloc(nnode, sizeof *held);
+  corot_status status = COROT_OK;
+  if (!m->dof || !held) status = corot_fail(COROT_ENOMEM, "no memory for %d nodes", nnode);
+  if (!status) status = hold_fixed(def, m, held);
+  if (!status) status = motions_create(def, m, held);
+  if (!status)
+    for (int n = 0; n < nnode; n++)
+      for (int c = 0; c < 3; c++) m->dof[n][c] = held[n][c] ? -1 : m->ndof++;
+  free(held);
+  COROT_TRY(status);
   if (m->ndof == 0) return corot_fail(COROT_EINVAL, "every node is fixed: nothing can move");
   return COROT_OK;
 }
 
-/* Row-sum lumping: a quarter of each tet's mass to each of its nodes. */
+/* Row-sum lumping: a quarter of each tet's mass, and of its mass damping, to each of its nodes. */
 static corot_status lump_mass(corot_model *m) {
   int nnode = m->mesh->nnode;
-  double *nodal = calloc(nnode, sizeof *nodal);
+  double(*nodal)[2] = calloc(nnode, sizeof *nodal);
   m->mass = malloc(m->ndof * sizeof *m->mass);
   m->inverse_mass = malloc(m->ndof * sizeof *m->inverse_mass);
-  if (!nodal || !m->mass || !m->inverse_mass) {
+  if (m->mass_damped) m->mass_damping = malloc(m->ndof * sizeof *m->mass_damping);
+  if (!nodal || !m->mass || !m->inverse_mass || (m->mass_damped && !m->mass_damping)) {
     free(nodal);
     return corot_fail(COROT_ENOMEM, "no memory for the mass of %d nodes", nnode);
   }
   for (int b = 0; b < m->tets.nblock; b++) {
     const tet_block *block = &m->tets.block[b];
+    const material *mat = &m->material[block->material];
     for (int l = 0; l < block->ntet; l++)
-      for (int a = 0; a < 4; a++)
-        nodal[block->node[a][l]] += m->material[block->material].density * block->volume[l] / 4;
+      for (int a = 0; a < 4; a++) {
+        double quarter = mat->density * block->volume[l] / 4;
+        nodal[block->node[a][l]][0] += quarter;
+        nodal[block->node[a][l]][1] += quarter * mat->damping_mass;
+      }
   }
   for (int n = 0; n < nnode; n++)
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
-      if (i >= 0) m->mass[i] = nodal[n], m->inverse_mass[i] = 1 / nodal[n];
+      if (i < 0) continue;
+      m->mass[i] = nodal[n][0];
+      m->inverse_mass[i] = 1 / nodal[n][0];
+      if (m->mass_damped) m->mass_damping[i] = nodal[n][1];
     }
   free(nodal);
+  return COROT_OK;
+}
+
+static int by_time(const void *a, const void *b) {
+  double d = *(const double *)a - *(const double *)b;
+  return (d > 0) - (d < 0);
+}
+
+/* All times at which a load or a motion changes its law, ascending, each once. */
+static corot_status list_kinks(corot_model *m) {
+  size_t n = 2 * (size_t)m->nmotion;
+  for (int k = 0; k < m->nload; k++) n += m->load[k].n;
+  m->kink = malloc((n + 1) * sizeof *m->kink);
+  if (!m->kink) return corot_fail(COROT_ENOMEM, "no memory for %zu kinks", n);
+  n = 0;
+  for (int k = 0; k < m->nload; k++)
+    for (int i = 0; i < m->load[k].n; i++) m->kink[n++] = m->load[k].time[i];
+  for (int k = 0; k < m->nmotion; k++) {
+    m->kink[n++] = m->motion[k].from;
+    if (isfinite(m->motion[k].to)) m->kink[n++] = m->motion[k].to;
+  }
+  qsort(m->kink, n, sizeof *m->kink, by_time);
+  for (size_t k = 0; k < n; k++)
+    if (m->nkink == 0 || m->kink[k] > m->kink[m->nkink - 1]) m->kink[m->nkink++] = m->kink[k];
   return COROT_OK;
 }
 
@@ -135,7 +178,11 @@ static void find_scales(corot_model *m) {
 
 static corot_status build(const corot_model_def *def, corot_model *m) {
   if (!def->mesh) return corot_fail(COROT_EINVAL, "the model has no mesh");
-  COROT_TRY(find_strain(def->strain, &m->strain));
+  COROT_TRY(model_find_strain(def->strain, &m->strain));
+  m->objective = def->viscosity == COROT_OBJECTIVE;
+  if (m->objective && strain_measures[m->strain].frame != FRAME_POLAR)
+    return corot_fail(COROT_EINVAL, "the objective viscous law needs a polar frame, not strain %s",
+                      def->strain);
   COROT_TRY(corot_mesh_copy(def->mesh, &m->mesh));
 
   int *of_tet = malloc(m->mesh->ntet * sizeof *of_tet);
@@ -150,6 +197,7 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   COROT_TRY(number_dofs(def, m));
   COROT_TRY(lump_mass(m));
   COROT_TRY(loads_create(def, m));
+  COROT_TRY(list_kinks(m));
   COROT_TRY(pattern_create(m->mesh->nnode, &m->tets, &m->pattern));
   find_scales(m);
   return COROT_OK;
@@ -170,10 +218,13 @@ corot_status corot_model_create(const corot_model_def *def, corot_model **model)
 void corot_model_destroy(corot_model *m) {
   if (!m) return;
   loads_destroy(m);
+  motions_destroy(m);
+  free(m->kink);
   free(m->material);
   free(m->dof);
   free(m->mass);
   free(m->inverse_mass);
+  free(m->mass_damping);
   tets_clear(&m->tets);
   pattern_clear(&m->pattern);
   corot_mesh_destroy(m->mesh);
@@ -186,6 +237,16 @@ void model_spread(const corot_model *m, const double *values, double *nodal, int
       int i = m->dof[n][c];
       nodal[n * stride + c] = i >= 0 ? values[i] : 0;
     }
+}
+
+int corot_model_kinks(const corot_model *m, double t0, double t1, int max, double *time) {
+  int n = 0;
+  for (int k = 0; k < m->nkink; k++)
+    if (m->kink[k] > t0 && m->kink[k] < t1) {
+      if (n < max) time[n] = m->kink[k];
+      n++;
+    }
+  return n;
 }
 
 const corot_mesh *corot_model_mesh(const corot_model *m) { return m->mesh; }
@@ -212,8 +273,15 @@ size_t corot_model_bytes(const corot_model *m) {
   const pattern *p = &m->pattern;
   size_t bytes = sizeof *m + mesh_bytes(m->mesh) + m->nmaterial * sizeof *m->material +
                  m->mesh->nnode * sizeof *m->dof + 2 * m->ndof * sizeof *m->mass;
-  for (int k = 0; k < m->nload; k++)
-    bytes += sizeof *m->load + (m->ndof + 2 * m->load[k].n) * sizeof(double);
+  for (int k = 0; k < m->nload; k++) {
+    const load *l = &m->load[k];
+    bytes += sizeof *l + 2 * l->n * sizeof *l->time + l->ntri * sizeof *l->tri;
+    if (l->force) bytes += m->ndof * sizeof *l->force;
+  }
+  for (int k = 0; k < m->nmotion; k++)
+    bytes += sizeof *m->motion + m->motion[k].nnode * sizeof *m->motion[k].node;
+  bytes += m->nkink * sizeof *m->kink;
+  if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
   bytes += t->nblock * (sizeof *t->block + W * sizeof *t->number);
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
   bytes += (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) *

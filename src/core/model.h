@@ -8,48 +8,87 @@
 #include "core/strain.h"
 
 typedef struct material {
-  double lambda, mu, damping_lambda, damping_mu, density;
+  double lambda, mu, damping_lambda, damping_mu, damping_mass, density;
 } material;
 
-/* A load that keeps its direction: amplitude(t) times a constant force. */
-typedef struct dead_load {
-  double *force; /* [ndof] at amplitude one [N] */
-  int n;         /* points of the amplitude; 0: one at all times */
+/* A constant force, or a pressure on faces of the deformed body, times amplitude(t). */
+typedef struct load {
+  double *force; /* [ndof] at amplitude one [N]; NULL: a pressure */
+  int ntri;
+  int (*tri)[3];
+  double pressure; /* at amplitude one [Pa] */
+  int n;           /* points of the amplitude; 0: one at all times */
   double *time, *value;
-} dead_load;
+} load;
+
+/* Nodes on a prescribed path. */
+typedef struct motion {
+  corot_motion_kind kind;
+  int nnode;
+  int *node;
+  double center[3];
+  double axis[3]; /* of length one */
+  double rate, velocity[3], from, to;
+} motion;
 
 struct corot_model {
   corot_mesh *mesh;
   int strain; /* index into strain_measures */
   int nmaterial;
   material *material;
-  bool damped; /* some damping coefficient is not zero */
+  bool damped;      /* some viscous coefficient is not zero */
+  bool mass_damped; /* some mass damping is not zero */
+  bool objective;   /* viscous law on the stretch's own rate */
 
   int ndof;
   int (*dof)[3];        /* [nnode] or -1 */
   double *mass;         /* [ndof] [kg] */
   double *inverse_mass; /* [ndof] */
+  double *mass_damping; /* [ndof] force per velocity [kg/s]; NULL unless mass_damped */
   double length, frequency, damping_time;
 
   int nload;
-  dead_load *load;
+  load *load;
+  int nmotion;
+  motion *motion;
+  int nkink;
+  double *kink; /* [nkink] ascending: where a load or a motion changes its law [s] */
 
   tets tets;
   pattern pattern;
 };
 
+/* Index into strain_measures by name. */
+corot_status model_find_strain(const char *name, int *strain);
+
 /* COROT_EINVAL if the mesh has no such group; `user` says who asked. */
 corot_status model_find_group(const corot_mesh *mesh, const char *name, const char *user,
                               const corot_group **group);
 
-/* Free degrees of freedom to all nodes, `stride` doubles each; held components are zero. */
+/* Displacement and velocity at t of all nodes, `stride` doubles each: the free values, the motions'
+   on their nodes, zero on held components. At a kink of a motion, `phase` says which side is meant:
+   the law in force just after that time; NaN: just after t. */
+void model_displacement(const corot_model *m, double phase, double t, const double *u,
+                        double *nodal, int stride);
+void model_velocity(const corot_model *m, double phase, double t, const double *v, double *nodal,
+                    int stride);
+
+/* The free values alone: zero on every held component. */
 void model_spread(const corot_model *m, const double *values, double *nodal, int stride);
 
 /* m->load from the definition, once the degrees of freedom and the mass are known. */
 corot_status loads_create(const corot_model_def *def, corot_model *m);
 void loads_destroy(corot_model *m);
 
-/* f [ndof] = external force at time t. */
-void loads_force(const corot_model *m, double t, double *f);
+/* f [ndof] = external force at time t on the body displaced by u [nnode]. */
+void loads_force(const corot_model *m, double t, const double (*u)[4], double *f);
+
+/* f += its change in the direction du. */
+void loads_derivative(const corot_model *m, double t, const double (*u)[4], const double (*du)[4],
+                      double *f);
+
+/* m->motion from the definition; marks the nodes' components in `held`. */
+corot_status motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]);
+void motions_destroy(corot_model *m);
 
 #endif

@@ -21,12 +21,6 @@ static double collect(const corot_model *m, const corot_state *s, int first, int
   return check;
 }
 
-static corot_status inverted(corot_state *s, int tet) {
-  s->inverted = tet;
-  if (tet < 0) return COROT_OK;
-  return corot_fail(COROT_RETRY, "tet %d is inverted", tet);
-}
-
 typedef int force_kernel(const corot_model *m, corot_state *state, bool option, int chunk);
 
 /* Adds to s->r the forces that the kernel finds, chunk by chunk, and hands the result on. */
@@ -35,7 +29,7 @@ static corot_status sum_forces(const corot_model *m, corot_state *s, double t, f
   const int *ready = m->pattern.ready;
   double check = 0;
   for (int c = 0; c < m->pattern.nchunk; c++) {
-    COROT_TRY(inverted(s, kernel(m, s, option, c)));
+    COROT_TRY(state_inverted(s, kernel(m, s, option, c)));
     check += collect(m, s, ready[c], ready[c + 1]);
   }
   if (!isfinite(check))
@@ -46,9 +40,11 @@ static corot_status sum_forces(const corot_model *m, corot_state *s, double t, f
 
 corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, double *r) {
-  model_spread(m, u, s->u[0], 4);
-  if (m->damped) model_spread(m, v, s->v[0], 4);
-  loads_force(m, t, s->r);
+  state_displace(m, s, t, u);
+  if (m->damped) model_velocity(m, s->phase, t, v, s->v[0], 4);
+  loads_force(m, t, (const double(*)[4])s->u, s->r);
+  if (m->mass_damped)
+    for (int i = 0; i < m->ndof; i++) s->r[i] -= m->mass_damping[i] * v[i];
   return sum_forces(m, s, t, kernel_force, m->damped, r);
 }
 
@@ -64,79 +60,33 @@ corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const dou
 corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
-  (void)t, (void)v; /* dead loads, and viscous forces linear in v: neither enters K and D */
-  model_spread(m, u, s->u[0], 4);
+  (void)v; /* viscous forces are linear in it */
+  state_displace(m, s, t, u);
   size_t bytes = m->pattern.nblock * sizeof *K;
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
+  if (D && m->mass_damped)
+    for (int n = 0; n < m->mesh->nnode; n++)
+      for (int c = 0; c < 3; c++)
+        if (m->dof[n][c] >= 0) D[m->pattern.colptr[n]][4 * c] = m->mass_damping[m->dof[n][c]];
   bool exact = tangent == COROT_TANGENT_EXACT;
   for (int c = 0; c < m->pattern.nchunk; c++)
-    COROT_TRY(inverted(s, kernel_tangent(m, s, exact, c, K, m->damped ? D : NULL)));
+    COROT_TRY(state_inverted(s, kernel_tangent(m, s, exact, c, K, m->damped ? D : NULL)));
   return COROT_OK;
 }
 
 corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const double *u,
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
-  model_spread(m, u, s->u[0], 4);
-  model_spread(m, v, s->v[0], 4);
+  state_displace(m, s, t, u);
+  model_velocity(m, s->phase, t, v, s->v[0], 4);
   model_spread(m, du, s->du[0], 4);
   model_spread(m, dv, s->dv[0], 4);
-  memset(s->r, 0, m->ndof * sizeof *s->r); /* of dead loads there is no change */
+  memset(s->r, 0, m->ndof * sizeof *s->r);
+  loads_derivative(m, t, (const double(*)[4])s->u, (const double(*)[4])s->du, s->r);
+  if (m->mass_damped)
+    for (int i = 0; i < m->ndof; i++) s->r[i] -= m->mass_damping[i] * dv[i];
   return sum_forces(m, s, t, kernel_derivative, tangent == COROT_TANGENT_EXACT, jv);
-}
-
-/* Largest and mean angle between two sets of frames: tr(A' B) = 1 + 2 cos, |A - B| = sqrt(8) sin
-   of half the angle, which keeps its digits where the angle is small. */
-static void compare_frames(const corot_model *m, const mat3 *A, const mat3 *B,
-                           corot_frames_change *change) {
-  double sum = 0;
-  for (int b = 0; b < m->tets.nblock; b++)
-    for (int l = 0; l < m->tets.block[b].ntet; l++) {
-      double square = 0;
-      EACH_IJ {
-        double d = A[b].m[i][j][l] - B[b].m[i][j][l];
-        square += d * d;
-      }
-      double angle = 2 * asin(fmin(1, sqrt(square / 8)));
-      sum += angle;
-      if (angle > change->angle_max) {
-        change->angle_max = angle;
-        change->angle_tet = m->tets.number[b * W + l];
-      }
-    }
-  change->angle_mean = sum / m->mesh->ntet;
-}
-
-/* Elastic energy with the held frames, whatever the policy. */
-static corot_status held_energy(const corot_model *m, corot_state *s, double *energy) {
-  corot_frames policy = s->frames;
-  double power;
-  s->frames = COROT_FRAMES_HELD;
-  int tet = kernel_energy(m, s, false, energy, &power);
-  s->frames = policy;
-  return inverted(s, tet);
-}
-
-corot_status corot_frames_update(const corot_model *m, corot_state *s, double t, const double *u,
-                                 corot_frames_change *change) {
-  (void)t; /* supports do not move */
-  corot_frames_change c = {0};
-  double before = 0, after = 0;
-  model_spread(m, u, s->u[0], 4);
-  COROT_TRY(inverted(s, kernel_frames(m, s, s->new_R)));
-  if (change) {
-    COROT_TRY(held_energy(m, s, &before));
-    compare_frames(m, s->R, s->new_R, &c);
-  }
-  mat3 *old = s->R;
-  s->R = s->new_R;
-  s->new_R = old;
-  if (!change) return COROT_OK;
-  COROT_TRY(held_energy(m, s, &after));
-  c.energy = after - before;
-  *change = c;
-  return COROT_OK;
 }
 
 static void add_cross(double a[3], double m, const double x[3], const double v[3]) {
@@ -145,26 +95,65 @@ static void add_cross(double a[3], double m, const double x[3], const double v[3
   a[2] += m * (x[0] * v[1] - x[1] * v[0]);
 }
 
+/* Power of the internal and viscous forces on moving supports: what the supports put in. Components
+   at rest have no velocity. */
+static corot_status support_power(const corot_model *m, corot_state *s, double *power) {
+  const double *force = (const double *)s->force;
+  const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
+  for (int c = 0; c < m->pattern.nchunk; c++) {
+    COROT_TRY(state_inverted(s, kernel_force(m, s, m->damped, c)));
+    for (int n = ready[c]; n < ready[c + 1]; n++)
+      for (int k = begin[n]; k < begin[n + 1]; k++)
+        for (int i = 0; i < 3; i++)
+          if (m->dof[n][i] < 0) *power -= force[slot[k] + i * W] * s->v[n][i];
+  }
+  return COROT_OK;
+}
+
 corot_status corot_energy(const corot_model *m, corot_state *s, double t, const double *u,
                           const double *v, corot_energies *energies) {
   corot_energies e = {0};
-  model_spread(m, u, s->u[0], 4);
-  model_spread(m, v, s->v[0], 4);
-  COROT_TRY(inverted(s, kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
-  loads_force(m, t, s->r);
+  state_displace(m, s, t, u);
+  model_velocity(m, s->phase, t, v, s->v[0], 4);
+  COROT_TRY(state_inverted(s, kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
+  if (m->nmotion) COROT_TRY(support_power(m, s, &e.power_external));
+  loads_force(m, t, (const double(*)[4])s->u, s->r);
   for (int i = 0; i < m->ndof; i++) {
     e.kinetic += 0.5 * m->mass[i] * v[i] * v[i];
     e.power_external += s->r[i] * v[i];
+    if (m->mass_damped) e.power_dissipated += m->mass_damping[i] * v[i] * v[i];
   }
   for (int n = 0; n < m->mesh->nnode; n++) {
-    double x[3], mass = 0;
+    double x[3], velocity[3] = {0, 0, 0}, mass = 0;
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
       x[c] = m->mesh->x[n][c] + s->u[n][c];
-      if (i >= 0) mass = m->mass[i], e.momentum[c] += mass * v[i];
+      if (i < 0) continue;
+      mass = m->mass[i], velocity[c] = v[i];
+      e.momentum[c] += mass * v[i];
     }
-    add_cross(e.angular_momentum, mass, x, s->v[n]);
+    add_cross(e.angular_momentum, mass, x, velocity);
   }
   *energies = e;
+  return COROT_OK;
+}
+
+corot_status corot_internal_force(const corot_model *m, corot_state *s, double t, const double *u,
+                                  const char *strain, double lambda_part, double mu_part,
+                                  double (*f)[3]) {
+  int index;
+  COROT_TRY(model_find_strain(strain, &index));
+  state_displace(m, s, t, u);
+  const double *force = (const double *)s->force;
+  const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
+  for (int c = 0; c < m->pattern.nchunk; c++) {
+    COROT_TRY(state_inverted(s, kernel_internal(m, s, index, lambda_part, mu_part, c)));
+    for (int n = ready[c]; n < ready[c + 1]; n++)
+      for (int i = 0; i < 3; i++) {
+        double sum = 0;
+        for (int k = begin[n]; k < begin[n + 1]; k++) sum -= force[slot[k] + i * W];
+        f[n][i] = sum;
+      }
+  }
   return COROT_OK;
 }

@@ -67,6 +67,23 @@ COROT_INLINE mat3 polar_inverse_g(mat3 S) {
   return mat3_scale(1.0 / mat3_det(G, C), C);
 }
 
+/* exp([w t]x) R, by the quaternion of half the angle. The series are exact to rounding up to an
+   angle of pi; beyond, dividing by the norm keeps the result a rotation. */
+COROT_INLINE mat3 rotate_by(vec3 w, double t, mat3 R) {
+  vec3 q;
+  for (int i = 0; i < 3; i++) q.v[i] = 0.5 * t * w.v[i];
+  vd y = vec3_dot(q, q), c = vd_all(1), s = vd_all(1);
+  for (int k = 20; k > 0; k -= 2) { /* cos and sin(x)/x of x^2 = y by Horner's rule */
+    c = 1 - c * y / (double)(k * (k - 1));
+    s = 1 - s * y / (double)(k * (k + 1));
+  }
+  vd two = 2 / (c * c + s * s * y);
+  for (int i = 0; i < 3; i++) q.v[i] *= s;
+  mat3 X = mat3_skew(q), E = mat3_scale(two * c, X);
+  E = mat3_add(E, mat3_scale(two, mat3_mul(X, X)));
+  return mat3_add(R, mat3_mul(E, R));
+}
+
 /* Right-handed Gram-Schmidt on the columns of A: A = Q T, T upper triangular. The paper's edges
    d_1, d_2 of a tet are F D_1, F D_2, and an upper triangular factor on the right does not change
    Q, so the warping frame is gram_schmidt(F Q0) Q0' with Q0 = gram_schmidt of the rest edges. */
@@ -103,5 +120,9 @@ COROT_INLINE mat3 gram_schmidt_derivative(mat3 Q, mat3 A, mat3 dA) {
 /* Polar factor of one matrix, row-major [9]. COROT_RETRY if det F <= 0, or F is not finite.
    Any scale of F that double precision holds will do. */
 corot_status corot_polar(const double F[9], double R[9]);
+
+/* Polar factor of a 2x2 matrix, row-major: the columns of J + sign(det J) cof(J), normalised. The
+   paper's (4.15) prints +J_12 where the cofactor is -J_12. COROT_RETRY if J is singular. */
+corot_status corot_polar_2d(const double J[4], double R[4]);
 
 #endif

@@ -10,9 +10,12 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
   s->dv = vector_calloc(nnode, sizeof *s->dv);
   s->R = vector_calloc(nblock, sizeof *s->R);
   s->new_R = vector_calloc(nblock, sizeof *s->new_R);
+  s->now_R = vector_calloc(nblock, sizeof *s->now_R);
+  s->spin = vector_calloc(nblock, sizeof *s->spin);
   s->force = vector_calloc(m->pattern.window, sizeof *s->force);
   s->r = calloc(m->ndof, sizeof *s->r);
-  if (!s->u || !s->v || !s->du || !s->dv || !s->R || !s->new_R || !s->force || !s->r)
+  if (!s->u || !s->v || !s->du || !s->dv || !s->R || !s->new_R || !s->now_R || !s->spin ||
+      !s->force || !s->r)
     return corot_fail(COROT_ENOMEM, "no memory for a state of %d nodes", nnode);
   for (int b = 0; b < nblock; b++) s->R[b] = mat3_identity();
   return COROT_OK;
@@ -22,6 +25,7 @@ corot_status corot_state_create(const corot_model *m, corot_state **state) {
   corot_state *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "no memory for a state");
   s->inverted = -1;
+  s->phase = NAN;
   corot_status status = allocate(m, s);
   if (status) {
     corot_state_destroy(s);
@@ -43,6 +47,8 @@ void corot_state_destroy(corot_state *s) {
   free(s->dv);
   free(s->R);
   free(s->new_R);
+  free(s->now_R);
+  free(s->spin);
   free(s->force);
   free(s->r);
   free(s);
@@ -50,9 +56,21 @@ void corot_state_destroy(corot_state *s) {
 
 size_t corot_state_bytes(const corot_state *s) {
   return sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
-         2 * s->nblock * sizeof *s->R + s->window * sizeof *s->force;
+         s->nblock * (3 * sizeof *s->R + sizeof *s->spin) + s->window * sizeof *s->force;
 }
 
 void corot_state_use(corot_state *s, corot_frames frames) { s->frames = frames; }
 corot_frames corot_state_frames(const corot_state *s) { return s->frames; }
 int corot_state_inverted(const corot_state *s) { return s->inverted; }
+void corot_state_enter(corot_state *s, double t) { s->phase = t; }
+
+void state_displace(const corot_model *m, corot_state *s, double t, const double *u) {
+  s->elapsed = t - s->t_update;
+  model_displacement(m, s->phase, t, u, s->u[0], 4);
+}
+
+corot_status state_inverted(corot_state *s, int tet) {
+  s->inverted = tet;
+  if (tet < 0) return COROT_OK;
+  return corot_fail(COROT_RETRY, "tet %d is inverted", tet);
+}

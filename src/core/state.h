@@ -10,7 +10,12 @@ struct corot_state {
   int nnode, nblock, window, ndof; /* of the model */
   corot_frames frames;
   int inverted;    /* tet number in the mesh, or -1 */
+  double phase;    /* motions follow the law in force just after this time; NaN: after t */
+  double t_update; /* when the held frames were found */
+  double elapsed;  /* since then, in the present evaluation */
   mat3 *R;         /* [nblock] the held frames */
+  vec3 *spin;      /* [nblock] their angular velocity, for extrapolation [rad/s] */
+  mat3 *now_R;     /* [nblock] extrapolated frames, to compare with */
   mat3 *new_R;     /* [nblock] those of an update, until it is known to succeed */
   double (*u)[4];  /* [nnode] displacement of all nodes, padded for the gather */
   double (*v)[4];  /* [nnode] velocity */
@@ -19,5 +24,11 @@ struct corot_state {
   vd (*force)[4][3]; /* [window][local node][component] element forces, see pattern.h */
   double *r;         /* [ndof] */
 };
+
+/* Before an evaluation: all nodes' displacement at t, and the age of the held frames. */
+void state_displace(const corot_model *m, corot_state *s, double t, const double *u);
+
+/* Remembers the tet a kernel returned; COROT_RETRY if there is one. */
+corot_status state_inverted(corot_state *s, int tet);
 
 #endif

@@ -71,6 +71,73 @@ COROT_INLINE mat3 stress_viscous(const strain_measure *s, vd lambda, vd mu, mat3
   return mat3_sum(p, Bp, 2 * mu, mat3_mul(Bs, mat3_sym_tmul(Bs, dF)));
 }
 
+/* The objective law's quantities: S = sym(R'F), A = R' dF/dt, the frame's rotation rate w and the
+   rate of the stretch dS/dt = A - [w]x S, which is symmetric by the choice of w. */
+typedef struct stretch_rate {
+  mat3 S, A, Ginv, rate;
+  vec3 w;
+} stretch_rate;
+
+COROT_INLINE stretch_rate stretch_rate_of(mat3 F, mat3 R, mat3 V) {
+  stretch_rate r = {.S = mat3_sym_tmul(R, F), .A = mat3_tmul(R, V)};
+  r.Ginv = polar_inverse_g(r.S);
+  r.w = mat3_apply(r.Ginv, mat3_vee(r.A));
+  r.rate = mat3_sum(vd_all(1), r.A, vd_all(-1), mat3_mul(mat3_skew(r.w), r.S));
+  return r;
+}
+
+/* Viscous stress of a stretch rate, in the frame: the terms on a frame basis. */
+COROT_INLINE mat3 rate_stress(const strain_measure *s, vd lambda, vd mu, mat3 rate) {
+  mat3 T = s->shear == BY_FRAME ? mat3_scale(2 * mu, rate) : mat3_scale(vd_all(0), rate);
+  return s->pressure == BY_FRAME ? mat3_add_identity(T, lambda * mat3_trace(rate)) : T;
+}
+
+/* Objective viscous stress R (T + [G^-1 vee(S T)]x), the adjoint of dF/dt -> dS/dt: its power is
+   T : dS/dt. A pressure term on F is objective as it stands. */
+COROT_INLINE mat3 stress_objective(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R,
+                                   mat3 V) {
+  stretch_rate r = stretch_rate_of(F, R, V);
+  mat3 T = rate_stress(s, lambda, mu, r.rate);
+  vec3 z = mat3_apply(r.Ginv, mat3_vee(mat3_mul(r.S, T)));
+  mat3 P = mat3_mul(R, mat3_add(T, mat3_skew(z)));
+  if (s->pressure == BY_FRAME) return P;
+  return mat3_add(P, mat3_scale(lambda * mat3_dot(F, V), F));
+}
+
+/* dG x for G = tr(S) I - S. */
+COROT_INLINE vec3 apply_g_change(mat3 dS, vec3 x) {
+  vec3 y = mat3_apply(dS, x);
+  for (int i = 0; i < 3; i++) y.v[i] = mat3_trace(dS) * x.v[i] - y.v[i];
+  return y;
+}
+
+COROT_INLINE vec3 vec3_less(vec3 a, vec3 b) {
+  for (int i = 0; i < 3; i++) a.v[i] -= b.v[i];
+  return a;
+}
+
+/* The change of the objective viscous stress with (dF, dR) and dV. */
+COROT_INLINE mat3 stress_objective_derivative(const strain_measure *s, vd lambda, vd mu, mat3 F,
+                                              mat3 R, mat3 V, mat3 dF, mat3 dR, mat3 dV) {
+  vd minus = vd_all(-1), one = vd_all(1);
+  stretch_rate r = stretch_rate_of(F, R, V);
+  mat3 dS = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
+  mat3 dA = mat3_add(mat3_tmul(dR, V), mat3_tmul(R, dV));
+  vec3 dw = mat3_apply(r.Ginv, vec3_less(mat3_vee(dA), apply_g_change(dS, r.w)));
+  mat3 drate = mat3_add(mat3_mul(mat3_skew(dw), r.S), mat3_mul(mat3_skew(r.w), dS));
+  drate = mat3_sum(one, dA, minus, drate);
+
+  mat3 T = rate_stress(s, lambda, mu, r.rate), dT = rate_stress(s, lambda, mu, drate);
+  vec3 z = mat3_apply(r.Ginv, mat3_vee(mat3_mul(r.S, T)));
+  mat3 dST = mat3_add(mat3_mul(dS, T), mat3_mul(r.S, dT));
+  vec3 dz = mat3_apply(r.Ginv, vec3_less(mat3_vee(dST), apply_g_change(dS, z)));
+  mat3 dP =
+      mat3_add(mat3_mul(dR, mat3_add(T, mat3_skew(z))), mat3_mul(R, mat3_add(dT, mat3_skew(dz))));
+  if (s->pressure == BY_FRAME) return dP;
+  vd p = lambda * mat3_dot(F, V), dp = lambda * (mat3_dot(dF, V) + mat3_dot(F, dV));
+  return mat3_add(dP, mat3_sum(p, dF, dp, F));
+}
+
 /* The frame of F by the measure's own rule. Q0 (the rest edges' Gram-Schmidt basis) is looked at
    by warp only. */
 COROT_INLINE mat3 frame_of(frame_rule rule, mat3 F, const mat3 *Q0, vi *inverted) {

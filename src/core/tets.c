@@ -50,7 +50,7 @@ static void fill_block(const corot_mesh *mesh, const int *number, tet_block *blo
   for (int l = 0; l < W; l++) block->volume[l] = l < block->ntet ? fabs(det[l]) / 6 : 0;
 }
 
-static mat3 rest_basis_of(const corot_mesh *mesh, const int *number) {
+mat3 tets_rest_basis(const corot_mesh *mesh, const int *number) {
   mat3 D;
   for (int l = 0; l < W; l++) {
     const int *node = mesh->tet[number[l]];
@@ -93,7 +93,7 @@ corot_status tets_create(const corot_mesh *mesh, int nmaterial, const int *mater
       number[block->ntet++] = order[k++];
     for (int l = block->ntet; l < W; l++) number[l] = number[block->ntet - 1];
     fill_block(mesh, number, block);
-    if (with_rest_basis) t.rest_basis[b] = rest_basis_of(mesh, number);
+    if (with_rest_basis) t.rest_basis[b] = tets_rest_basis(mesh, number);
   }
   free(lowest), free(count), free(by_node), free(order);
   *out = t;

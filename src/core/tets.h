@@ -31,6 +31,9 @@ corot_status tets_create(const corot_mesh *mesh, int nmaterial, const int *mater
                          int with_rest_basis, tets *out);
 void tets_clear(tets *t);
 
+/* The rest basis of one block. */
+mat3 tets_rest_basis(const corot_mesh *mesh, const int *number);
+
 /* Zeroed memory aligned for vectors, freed by free(). NULL if there is none. */
 void *vector_calloc(size_t count, size_t size);
 

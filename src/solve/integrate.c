@@ -9,6 +9,7 @@
 corot_integrator_def corot_integrator_defaults(void) {
   return (corot_integrator_def){.method = "cvode",
                                 .linear_solver = "auto",
+                                .linear_tolerance = 1e-10,
                                 .rtol = 1e-4,
                                 .tangent = COROT_TANGENT_HELD,
                                 .reassembly = 20,
@@ -37,6 +38,7 @@ static corot_status check(const corot_integrator_def *d) {
     bool zero; /* stands for "choose" or "none" */
   } number[] = {
       {"rtol", d->rtol, false},
+      {"linear_tolerance", d->linear_tolerance, false},
       {"atol_displacement", d->atol_displacement, true},
       {"atol_velocity", d->atol_velocity, true},
       {"first_step", d->first_step, true},
@@ -113,6 +115,7 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
   corot_status status = corot_pencil_create(model, state, def->linear_solver, &self->pencil);
   if (!status) {
     corot_pencil_use(self->pencil, def->tangent);
+    corot_pencil_tolerance(self->pencil, def->linear_tolerance);
     status = ops->create(self, u, v);
   }
   if (status) {
@@ -192,6 +195,7 @@ corot_status corot_integrator_changed(corot_integrator *self, corot_history hist
 corot_statistics corot_integrator_statistics(const corot_integrator *self) {
   corot_pencil_counts p = corot_pencil_statistics(self->pencil);
   corot_statistics s = {.nje = p.nassembly,
+                        .nli = p.niteration,
                         .nfactor = p.nfactor,
                         .nsolve = p.nsolve,
                         .nfresh = p.nfresh,

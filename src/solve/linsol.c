@@ -8,14 +8,16 @@ enum { KLU_MAX = 3000 };
 
 corot_status linsol_find(const char *name, int n, const linsol_ops **ops) {
   static const linsol_ops *const built[] = {
+      &linsol_pcg,
       &linsol_klu,
 #ifdef COROT_HAVE_CHOLMOD
       &linsol_cholmod,
 #endif
   };
   int nbuilt = sizeof built / sizeof *built;
+  const linsol_ops *largest = built[nbuilt - 1];
   if (name && strcmp(name, "auto") == 0) {
-    *ops = n > KLU_MAX ? built[nbuilt - 1] : built[0];
+    *ops = n > KLU_MAX ? largest : &linsol_klu;
     return COROT_OK;
   }
   for (int k = 0; k < nbuilt; k++)
@@ -27,5 +29,6 @@ corot_status linsol_find(const char *name, int n, const linsol_ops **ops) {
     return corot_fail(
         COROT_EINVAL,
         "linear solver cholmod is not in this build (configure with COROT_CHOLMOD=ON)");
-  return corot_fail(COROT_EINVAL, "no linear solver '%s': auto, klu or cholmod", name ? name : "");
+  return corot_fail(COROT_EINVAL, "no linear solver '%s': auto, klu, cholmod or pcg",
+                    name ? name : "");
 }

@@ -1,4 +1,4 @@
-/* Direct solvers behind one interface, found by name. */
+/* Linear solvers behind one interface, found by name. */
 #ifndef COROT_SOLVE_LINSOL_H
 #define COROT_SOLVE_LINSOL_H
 
@@ -17,9 +17,14 @@ typedef struct linsol_ops {
   /* x [n] becomes A^-1 x. */
   corot_status (*solve)(void *solver, double *x);
   void (*destroy)(void *solver);
+
+  /* Of iterative solvers; else NULL: the relative residual to reach, and iterations so far. */
+  void (*set_tolerance)(void *solver, double tolerance);
+  long (*iterations)(const void *solver);
 } linsol_ops;
 
 extern const linsol_ops linsol_klu;
+extern const linsol_ops linsol_pcg;
 #ifdef COROT_HAVE_CHOLMOD
 extern const linsol_ops linsol_cholmod;
 #endif

@@ -49,7 +49,15 @@ void corot_pencil_destroy(corot_pencil *p) {
 const char *corot_pencil_solver(const corot_pencil *p) { return p->ops->name; }
 void corot_pencil_use(corot_pencil *p, corot_tangent tangent) { p->tangent = tangent; }
 void corot_pencil_invalidate(corot_pencil *p) { p->dirty = true; }
-corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) { return p->counts; }
+corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
+  corot_pencil_counts counts = p->counts;
+  if (p->ops->iterations) counts.niteration = p->ops->iterations(p->solver);
+  return counts;
+}
+
+void corot_pencil_tolerance(corot_pencil *p, double tolerance) {
+  if (p->ops->set_tolerance) p->ops->set_tolerance(p->solver, tolerance);
+}
 
 corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, const double *v) {
   double start = clock_wall();

@@ -10,20 +10,24 @@ typedef struct solid {
   double *u, *v, *du, *dv;
 } solid;
 
-static solid make(const char *strain, double velocity) {
+static solid make_with(const char *strain, double velocity, corot_viscosity viscosity,
+                       bool pressure) {
   solid s = {.mesh = crooked_box(2, 2, 2)};
   double time[] = {0, 2}, value[] = {0, 3};
   corot_fix fix[] = {{"zmin", {true, true, true}}, {"xmin", {true, false, false}}};
   corot_load load[] = {
       {COROT_TRACTION, "zmax", {200, 0, 30}, {2, time, value}},
       {COROT_GRAVITY, NULL, {0, 0, -9.81}, {0, NULL, NULL}},
+      {COROT_FORCE, "xmax", {3, -2, 1}, {0, NULL, NULL}},
+      {COROT_PRESSURE, "zmax", {500}, {2, time, value}},
   };
-  corot_material two[] = {soft, soft};
-  two[1].group = "ymax"; /* the tets with all nodes there: none; see below */
+  corot_material material = soft;
+  material.damping_mass = 0.3;
   corot_model_def def = corot_model_defaults();
   def.mesh = s.mesh, def.strain = strain;
-  def.nmaterial = 1, def.material = two;
-  def.nfix = 2, def.fix = fix, def.nload = 2, def.load = load;
+  def.nmaterial = 1, def.material = &material;
+  def.nfix = 2, def.fix = fix, def.nload = pressure ? 4 : 3, def.load = load;
+  def.viscosity = viscosity;
   assert_ok(corot_model_create(&def, &s.model));
   assert_ok(corot_state_create(s.model, &s.state));
   s.n = corot_model_ndof(s.model);
@@ -49,6 +53,10 @@ static solid make(const char *strain, double velocity) {
     }
   }
   return s;
+}
+
+static solid make(const char *strain, double velocity) {
+  return make_with(strain, velocity, COROT_COROTATED, false);
 }
 
 static void drop(solid *s) {
@@ -132,6 +140,29 @@ static void jvp_is_the_derivative_with_nothing_left_out(void **state) {
     }
 }
 
+/* The objective law's derivative has terms of its own, and a pressure turns with the surface. */
+static void jvp_knows_the_objective_law_and_pressure(void **state) {
+  (void)state;
+  for (int m = 2; m < 4; m++)
+    for (int held = 0; held < 2; held++) {
+      solid s = make_with(measures[m], 30, COROT_OBJECTIVE, true);
+      if (held) hold_frames(&s);
+      corot_tangent tangent = held ? COROT_TANGENT_HELD : COROT_TANGENT_EXACT;
+      double *fd = malloc(2 * s.n * sizeof *fd), *jv = fd + s.n;
+      difference(&s, s.du, s.dv, fd);
+      assert_ok(corot_jvp(s.model, s.state, 1.5, s.u, s.v, tangent, s.du, s.dv, jv));
+      assert_below(relative(s.n, jv, fd, 1), 1e-7);
+
+      int nblock = corot_model_nblock(s.model);
+      double(*D)[9] = malloc(nblock * sizeof *D);
+      assert_ok(corot_jacobian(s.model, s.state, 1.5, s.u, s.v, tangent, NULL, D));
+      difference(&s, NULL, s.dv, fd);
+      corot_block_multiply(s.model, (const double(*)[9])D, s.dv, jv);
+      assert_below(relative(s.n, jv, fd, -1), 1e-7);
+      free(fd), free(D), drop(&s);
+    }
+}
+
 static void jvp_is_the_matrices_times_the_direction(void **state) {
   (void)state;
   for (int m = 0; m < NMEASURE; m++)
@@ -191,6 +222,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(matrices_are_derivatives),
       cmocka_unit_test(jvp_is_the_derivative_with_nothing_left_out),
+      cmocka_unit_test(jvp_knows_the_objective_law_and_pressure),
       cmocka_unit_test(jvp_is_the_matrices_times_the_direction),
       cmocka_unit_test(columns_hold_the_same_symmetric_matrix),
   };

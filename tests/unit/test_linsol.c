@@ -256,7 +256,7 @@ static void solvers_are_found_by_name_or_size(void **state) {
   assert_ptr_equal(ops, large);
   for (int s = 0; s < NSOLVER; s++)
     if (find(names[s])) assert_string_equal(find(names[s])->name, names[s]);
-  assert_fails(linsol_find("umfpack", 10, &ops), COROT_EINVAL, "'umfpack': auto, klu or cholmod");
+  assert_fails(linsol_find("umfpack", 10, &ops), COROT_EINVAL, "'umfpack': auto, klu, cholmod or pcg");
   assert_fails(linsol_find(NULL, 10, &ops), COROT_EINVAL, "''");
 }
 
