@@ -8,7 +8,7 @@ void corot_nodal(const corot_model *m, double t, const double *u, const double *
 }
 
 /* sqrt(3/2 dev:dev) of sym(A). */
-static vd von_mises_of(mat3 A) {
+COROT_INLINE vd von_mises_of(mat3 A) {
   vd mean = mat3_trace(A) / 3, square = vd_all(0);
   EACH_IJ {
     vd a = 0.5 * (A.m[i][j] + A.m[j][i]) - (i == j ? mean : vd_all(0));
@@ -18,8 +18,8 @@ static vd von_mises_of(mat3 A) {
   return square;
 }
 
-static void store_lane(const corot_element_fields *f, int tet, int l, mat3 R, mat3 e, vd mises,
-                       vd det) {
+COROT_INLINE void store_lane(const corot_element_fields *f, int tet, int l, mat3 R, mat3 e,
+                             vd mises, vd det) {
   static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
   if (f->frame) mat3_store(R, l, f->frame[tet]);
   if (f->strain)
@@ -28,12 +28,13 @@ static void store_lane(const corot_element_fields *f, int tet, int l, mat3 R, ma
   if (f->det) f->det[tet] = det[l];
 }
 
-corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
-                            const corot_element_fields *fields) {
+/* Unlike the loops in kernel.h it goes on after an inversion: the other tets are still worth
+ * seeing. */
+static COROT_CLONES int elements_loop(const corot_model *m, const corot_state *s,
+                                      const corot_element_fields *fields) {
   const strain_measure *measure = &strain_measures[m->strain];
   bool linear = measure->frame == FRAME_IDENTITY && measure->shear == BY_FRAME;
-  state_displace(m, s, t, u);
-  s->inverted = -1;
+  int first = -1;
   for (int b = 0; b < m->tets.nblock; b++) {
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
@@ -47,8 +48,13 @@ corot_status corot_elements(const corot_model *m, corot_state *s, double t, cons
     mat3 e = strain_of(measure->shear, F, R);
     for (int l = 0; l < block->ntet; l++)
       store_lane(fields, m->tets.number[b * W + l], l, R, e, mises, det);
-    if (s->inverted < 0) s->inverted = first_inverted(m, b, inverted);
+    if (first < 0) first = first_inverted(m, b, inverted);
   }
-  if (s->inverted >= 0) return corot_fail(COROT_RETRY, "tet %d is inverted", s->inverted);
-  return COROT_OK;
+  return first;
+}
+
+corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
+                            const corot_element_fields *fields) {
+  state_displace(m, s, t, u);
+  return state_inverted(s, elements_loop(m, s, fields));
 }
