@@ -63,7 +63,8 @@ typedef enum corot_motion_kind {
 } corot_motion_kind;
 
 /* Nodes of a group on a prescribed path: at rest until `from`, then at constant rate, at rest again
-   from `to`. Holds all three components. */
+   from `to`. Holds all three components. Several motions of one group follow one another: turns
+   about one and the same axis, or translations, at times that do not overlap. */
 typedef struct corot_motion {
   corot_motion_kind kind;
   const char *group;

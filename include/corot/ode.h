@@ -56,7 +56,8 @@ corot_frames corot_state_frames(const corot_state *state);
 
 /* From now on, evaluations belong to the time after t and before the next kink of a motion: at a
    kink itself the velocity of a support has two values, and this says which is meant. To be called
-   at each kink by who stops there; until the first call the later value is taken. */
+   at each kink by who stops there; until the first call, and after t = NaN, which lets a step
+   cross a kink, the later value is taken. */
 void corot_state_enter(corot_state *state, double t);
 
 /* r(t, u, v) [N]. COROT_RETRY when a tet is inverted (det F <= 0 or not a number; not asked of

@@ -34,6 +34,9 @@ static corot_status check_material(const corot_material *m, int k) {
                       m->damping_lambda);
   if (!(m->damping_mu >= 0) || !isfinite(m->damping_mu))
     return corot_fail(COROT_EINVAL, "material %d: damping_mu = %g is negative", k, m->damping_mu);
+  if (!(m->damping_mass >= 0) || !isfinite(m->damping_mass))
+    return corot_fail(COROT_EINVAL, "material %d: damping_mass = %g is negative", k,
+                      m->damping_mass);
   return COROT_OK;
 }
 
@@ -145,17 +148,19 @@ static int by_time(const void *a, const void *b) {
 
 /* All times at which a load or a motion changes its law, ascending, each once. */
 static corot_status list_kinks(corot_model *m) {
-  size_t n = 2 * (size_t)m->nmotion;
+  size_t n = 0;
+  for (int k = 0; k < m->nmotion; k++) n += 2 * (size_t)m->motion[k].nspan;
   for (int k = 0; k < m->nload; k++) n += m->load[k].n;
   m->kink = malloc((n + 1) * sizeof *m->kink);
   if (!m->kink) return corot_fail(COROT_ENOMEM, "no memory for %zu kinks", n);
   n = 0;
   for (int k = 0; k < m->nload; k++)
     for (int i = 0; i < m->load[k].n; i++) m->kink[n++] = m->load[k].time[i];
-  for (int k = 0; k < m->nmotion; k++) {
-    m->kink[n++] = m->motion[k].from;
-    if (isfinite(m->motion[k].to)) m->kink[n++] = m->motion[k].to;
-  }
+  for (int k = 0; k < m->nmotion; k++)
+    for (int i = 0; i < m->motion[k].nspan; i++) {
+      m->kink[n++] = m->motion[k].span[i].from;
+      if (isfinite(m->motion[k].span[i].to)) m->kink[n++] = m->motion[k].span[i].to;
+    }
   qsort(m->kink, n, sizeof *m->kink, by_time);
   for (size_t k = 0; k < n; k++)
     if (m->nkink == 0 || m->kink[k] > m->kink[m->nkink - 1]) m->kink[m->nkink++] = m->kink[k];
@@ -279,7 +284,8 @@ size_t corot_model_bytes(const corot_model *m) {
     if (l->force) bytes += m->ndof * sizeof *l->force;
   }
   for (int k = 0; k < m->nmotion; k++)
-    bytes += sizeof *m->motion + m->motion[k].nnode * sizeof *m->motion[k].node;
+    bytes += sizeof *m->motion + m->motion[k].nnode * sizeof *m->motion[k].node +
+             m->motion[k].nspan * sizeof *m->motion[k].span;
   bytes += m->nkink * sizeof *m->kink;
   if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
   bytes += t->nblock * (sizeof *t->block + W * sizeof *t->number);

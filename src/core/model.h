@@ -21,14 +21,21 @@ typedef struct load {
   double *time, *value;
 } load;
 
-/* Nodes on a prescribed path. */
+/* A time of constant rate in a motion. */
+typedef struct motion_span {
+  double rate, velocity[3], from, to;
+} motion_span;
+
+/* Nodes on a prescribed path: turning about one axis, or translating, span after span. */
 typedef struct motion {
   corot_motion_kind kind;
+  char *group;
   int nnode;
   int *node;
   double center[3];
   double axis[3]; /* of length one */
-  double rate, velocity[3], from, to;
+  int nspan;
+  motion_span *span; /* [nspan] */
 } motion;
 
 struct corot_model {

@@ -9,6 +9,9 @@ static corot_status check(const corot_motion *from, int k) {
     length += from->axis[c] * from->axis[c];
     size += fabs(from->center[c]) + fabs(from->velocity[c]);
   }
+  if (from->kind != COROT_ROTATE && from->kind != COROT_TRANSLATE)
+    return corot_fail(COROT_EINVAL, "motion %d: no kind of motion has the number %d", k,
+                      (int)from->kind);
   if (from->kind == COROT_ROTATE && !(length > 0 && isfinite(length)))
     return corot_fail(COROT_EINVAL, "motion %d: the axis has no direction", k);
   if (!isfinite(size + from->rate))
@@ -33,47 +36,109 @@ static corot_status claim(const corot_group *group, int k, char (*held)[3]) {
   return COROT_OK;
 }
 
-static corot_status create(const corot_model *m, const corot_motion *from, int k, char (*held)[3],
-                           motion *to) {
-  const corot_group *group;
-  COROT_TRY(check(from, k));
-  COROT_TRY(model_find_group(m->mesh, from->group, "motion", &group));
-  COROT_TRY(claim(group, k, held));
-  to->kind = from->kind;
-  to->rate = from->rate, to->from = from->from, to->to = from->to;
+static void unit_axis(const corot_motion *from, double axis[3]) {
   double length = sqrt(from->axis[0] * from->axis[0] + from->axis[1] * from->axis[1] +
                        from->axis[2] * from->axis[2]);
-  for (int c = 0; c < 3; c++) {
-    to->axis[c] = from->kind == COROT_ROTATE ? from->axis[c] / length : 0;
-    to->center[c] = from->center[c];
-    to->velocity[c] = from->velocity[c];
+  for (int c = 0; c < 3; c++) axis[c] = from->kind == COROT_ROTATE ? from->axis[c] / length : 0;
+}
+
+/* The motion on the same group that `from` continues: any translation, or a turn about the same
+   axis; NULL if it starts one of its own. */
+static motion *continued(const corot_model *m, const corot_motion *from) {
+  double axis[3];
+  unit_axis(from, axis);
+  for (int k = 0; k < m->nmotion; k++) {
+    motion *a = &m->motion[k];
+    if (a->kind != from->kind || strcmp(a->group, from->group) != 0) continue;
+    double off = 0;
+    for (int c = 0; c < 3; c++)
+      off += fabs(a->axis[c] - axis[c]) + fabs(a->center[c] - from->center[c]);
+    if (from->kind == COROT_TRANSLATE || off == 0) return a;
   }
+  return NULL;
+}
+
+/* A motion without spans yet. */
+static corot_status start(corot_model *m, const corot_motion *from, int k, int nspan,
+                          char (*held)[3]) {
+  const corot_group *group;
+  COROT_TRY(model_find_group(m->mesh, from->group, "motion", &group));
+  COROT_TRY(claim(group, k, held));
+  motion *to = &m->motion[m->nmotion++];
+  to->kind = from->kind;
+  unit_axis(from, to->axis);
+  for (int c = 0; c < 3; c++) to->center[c] = from->center[c];
+  size_t length = strlen(from->group) + 1;
+  to->group = malloc(length);
   to->node = malloc(group->nnode * sizeof *to->node);
-  if (!to->node) return corot_fail(COROT_ENOMEM, "no memory for motion %d", k);
+  to->span = malloc(nspan * sizeof *to->span);
+  if (!to->group || !to->node || !to->span)
+    return corot_fail(COROT_ENOMEM, "no memory for motion %d", k);
+  memcpy(to->group, from->group, length);
   memcpy(to->node, group->node, group->nnode * sizeof *to->node);
   to->nnode = group->nnode;
+  return COROT_OK;
+}
+
+static corot_status add_span(motion *to, const corot_motion *from, int k) {
+  motion_span *span = &to->span[to->nspan];
+  for (int i = 0; i < to->nspan; i++)
+    if (from->from < to->span[i].to && to->span[i].from < from->to)
+      return corot_fail(COROT_EINVAL,
+                        "motion %d: group '%s' is already moving from t = %g to t = %g", k,
+                        from->group, to->span[i].from, to->span[i].to);
+  *span = (motion_span){.rate = from->rate, .from = from->from, .to = from->to};
+  for (int c = 0; c < 3; c++) span->velocity[c] = from->velocity[c];
+  to->nspan++;
   return COROT_OK;
 }
 
 corot_status motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]) {
   m->motion = calloc(def->nmotion + 1, sizeof *m->motion);
   if (!m->motion) return corot_fail(COROT_ENOMEM, "no memory for %d motions", def->nmotion);
-  m->nmotion = def->nmotion;
-  for (int k = 0; k < def->nmotion; k++)
-    COROT_TRY(create(m, &def->motion[k], k, held, &m->motion[k]));
+  for (int k = 0; k < def->nmotion; k++) {
+    const corot_motion *from = &def->motion[k];
+    COROT_TRY(check(from, k));
+    motion *to = from->group ? continued(m, from) : NULL;
+    if (!to) {
+      COROT_TRY(start(m, from, k, def->nmotion, held));
+      to = &m->motion[m->nmotion - 1];
+    }
+    COROT_TRY(add_span(to, from, k));
+  }
   return COROT_OK;
 }
 
 void motions_destroy(corot_model *m) {
-  for (int k = 0; k < m->nmotion; k++) free(m->motion[k].node);
+  for (int k = 0; k < m->nmotion; k++) {
+    free(m->motion[k].group);
+    free(m->motion[k].node);
+    free(m->motion[k].span);
+  }
   free(m->motion);
 }
 
-/* How long the motion has lasted at t, and whether it goes on, by the law in force at `phase`. */
-static double lasted(const motion *a, double phase, double t, bool *moving) {
-  *moving = phase >= a->from && phase < a->to;
-  if (*moving) return t - a->from;
-  return phase < a->from ? 0 : a->to - a->from;
+/* Where a motion stands at t, and how fast it goes, by the law in force at `phase`. */
+typedef struct progress {
+  double angle, rate, shift[3], velocity[3];
+} progress;
+
+static progress progress_at(const motion *a, double phase, double t) {
+  progress p = {0};
+  if (isnan(phase)) phase = t;
+  for (int k = 0; k < a->nspan; k++) {
+    const motion_span *s = &a->span[k];
+    if (phase < s->from) continue;
+    bool moving = phase < s->to;
+    double lasted = moving ? t - s->from : s->to - s->from;
+    p.angle += s->rate * lasted;
+    p.rate += moving ? s->rate : 0;
+    for (int c = 0; c < 3; c++) {
+      p.shift[c] += s->velocity[c] * lasted;
+      p.velocity[c] += moving ? s->velocity[c] : 0;
+    }
+  }
+  return p;
 }
 
 /* w = axis x (X - center); d = its part along the axis is none, so Rodrigues' formula reads
@@ -96,15 +161,14 @@ void model_displacement(const corot_model *m, double phase, double t, const doub
   model_spread(m, u, nodal, stride);
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
-    bool moving;
-    double s = lasted(a, isnan(phase) ? t : phase, t, &moving);
-    double sine = sin(a->rate * s), half = sin(a->rate * s / 2), versine = 2 * half * half;
+    progress p = progress_at(a, phase, t);
+    double sine = sin(p.angle), half = sin(p.angle / 2), versine = 2 * half * half;
     for (int i = 0; i < a->nnode; i++) {
       double w[3], d[3];
       spin_arms(a, m->mesh->x[a->node[i]], w, d);
       for (int c = 0; c < 3; c++)
         nodal[a->node[i] * stride + c] =
-            a->kind == COROT_ROTATE ? sine * w[c] + versine * d[c] : a->velocity[c] * s;
+            a->kind == COROT_ROTATE ? sine * w[c] + versine * d[c] : p.shift[c];
     }
   }
 }
@@ -114,16 +178,14 @@ void model_velocity(const corot_model *m, double phase, double t, const double *
   model_spread(m, v, nodal, stride);
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
-    bool moving;
-    double s = lasted(a, isnan(phase) ? t : phase, t, &moving);
-    double cosine = cos(a->rate * s), sine = sin(a->rate * s);
-    if (!moving) continue; /* at rest: spread has set zero */
+    progress p = progress_at(a, phase, t);
+    double cosine = cos(p.angle), sine = sin(p.angle);
     for (int i = 0; i < a->nnode; i++) {
       double w[3], d[3];
       spin_arms(a, m->mesh->x[a->node[i]], w, d);
       for (int c = 0; c < 3; c++)
         nodal[a->node[i] * stride + c] =
-            a->kind == COROT_ROTATE ? a->rate * (cosine * w[c] + sine * d[c]) : a->velocity[c];
+            a->kind == COROT_ROTATE ? p.rate * (cosine * w[c] + sine * d[c]) : p.velocity[c];
     }
   }
 }

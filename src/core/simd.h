@@ -19,8 +19,15 @@ typedef long long vi __attribute__((vector_size(64))); /* a comparison's mask: 0
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__linux__)
 #define COROT_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+
+/* The one whose clones are taken. */
+static inline const char *simd_instruction_set(void) {
+  if (__builtin_cpu_supports("x86-64-v4")) return "x86-64-v4";
+  return __builtin_cpu_supports("x86-64-v3") ? "x86-64-v3" : "x86-64";
+}
 #else
 #define COROT_CLONES
+static inline const char *simd_instruction_set(void) { return "as built"; }
 #endif
 
 COROT_INLINE vd vd_all(double x) { return (vd){x, x, x, x, x, x, x, x}; }
