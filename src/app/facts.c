@@ -88,17 +88,25 @@ static double probe_distance(const probe_def *p, const double x[3]) {
 
 /* --- Text --- */
 
+static bool is_named(const char *name, const char *group) {
+  return name && strcmp(name, group) == 0;
+}
+
 static void print_uses(const scenario *s, const char *group, FILE *out) {
   for (int i = 0; i < s->nfix; i++) {
-    if (strcmp(s->fix[i].group, group) != 0) continue;
+    if (!is_named(s->fix[i].group, group)) continue;
     fputs("; fixed", out);
     for (int k = 0; k < 3; k++)
       if (s->fix[i].component[k]) fprintf(out, " %c", "xyz"[k]);
   }
+  for (int i = 0; i < s->nmotion; i++)
+    if (is_named(s->motion[i].group, group))
+      fputs(s->motion[i].kind == COROT_ROTATE ? "; rotated" : "; translated", out);
   for (int i = 0; i < s->nload; i++)
-    if (s->load[i].group && strcmp(s->load[i].group, group) == 0) fputs("; traction", out);
+    if (is_named(s->load[i].group, group))
+      fprintf(out, "; %s", scenario_load_words[s->load[i].kind]);
   for (int i = 0; i < s->nmaterial; i++)
-    if (s->material[i].group && strcmp(s->material[i].group, group) == 0) fputs("; material", out);
+    if (is_named(s->material[i].group, group)) fputs("; material", out);
 }
 
 static void print_mesh(const scenario *s, const facts *f, FILE *out) {
@@ -118,33 +126,51 @@ static void print_mesh(const scenario *s, const facts *f, FILE *out) {
   }
 }
 
+static void print_frames(const scenario *s, FILE *out) {
+  const corot_frame_policy *p = &s->frames;
+  fprintf(out, "strain         %s, frames: %s", s->strain, s->frame_policy);
+  if (p->interval > 0) fprintf(out, ", every %g s", p->interval);
+  if (p->max_angle > 0) fprintf(out, ", beyond %g rad", p->max_angle);
+  fputc('\n', out);
+}
+
 static void print_model(const scenario *s, const facts *f, FILE *out) {
   int ndof = corot_model_ndof(f->model), all = 3 * f->mesh->nnode;
   for (int i = 0; i < s->nmaterial; i++) {
     const corot_material *m = &s->material[i];
-    fprintf(out, "material       %s%slambda %g, mu %g Pa; %g kg/m^3; damping %g, %g Pa s\n",
+    fprintf(out, "material       %s%slambda %g, mu %g Pa; %g kg/m^3; damping %g, %g Pa s",
             m->group ? m->group : "", m->group ? ": " : "", m->lambda, m->mu, m->density,
             m->damping_lambda, m->damping_mu);
+    if (m->damping_mass > 0) fprintf(out, ", %g 1/s", m->damping_mass);
+    fputc('\n', out);
   }
   fprintf(out, "mass           %.6g kg\n", f->mass);
   fprintf(out, "freedom        %d of %d components%s\n", ndof, all,
           ndof == all ? ": a free body" : "");
   fprintf(out, "loads          %d\n", s->nload);
-  fprintf(out, "strain         %s, frames ", s->strain);
-  if (s->frame_policy == FRAMES_HOLD)
-    fprintf(out, "held for %g s\n", s->frame_interval);
-  else
-    fputs("exact\n", out);
+  print_frames(s, out);
   fprintf(out, "memory         %.3g MB, %.0f bytes a tet\n", 1e-6 * (double)f->bytes,
           (double)f->bytes / f->mesh->ntet);
 }
 
+static void print_integrator(const scenario *s, const corot_integrator_choice *c, FILE *out) {
+  const corot_integrator_def *d = &s->integrator;
+  fprintf(out, "integrator     %s, ", c->method);
+  if (d->step > 0)
+    fprintf(out, "steps of %g s, %s", d->step,
+            d->solution == COROT_SOLUTION_LINEAR ? "one linear solve each" : "Newton");
+  else
+    fprintf(out, "order up to %d", c->max_order);
+  fprintf(out, ", linear solver %s\n", c->linear_solver);
+  if (d->step > 0)
+    fprintf(out, "tolerances     Newton %g\n", d->newton_tolerance);
+  else
+    fprintf(out, "tolerances     relative %g; absolute %g m, %g m/s\n", d->rtol,
+            c->atol_displacement, c->atol_velocity);
+}
+
 static void print_run(const scenario *s, const facts *f, FILE *out) {
-  const corot_integrator_choice *c = &f->chosen;
-  fprintf(out, "integrator     %s, order up to %d, linear solver %s\n", c->method, c->max_order,
-          c->linear_solver);
-  fprintf(out, "tolerances     relative %g; absolute %g m, %g m/s\n", s->integrator.rtol,
-          c->atol_displacement, c->atol_velocity);
+  print_integrator(s, &f->chosen, out);
   fprintf(out, "time           0 to %g s, output every %g s\n", s->t_end, s->output_step);
   for (int i = 0; i < s->nprobe; i++) {
     int node = probe_node(&s->probe[i], f->mesh);
@@ -202,13 +228,14 @@ static json_t *mesh_json(const scenario *s, const facts *f) {
 }
 
 static json_t *integrator_json(const scenario *s, const corot_integrator_choice *c) {
-  return json_pack("{s:s, s:s, s:i, s:f, s:f, s:f}", "method", c->method, "linear_solver",
+  double step = s->integrator.step;
+  return json_pack("{s:s, s:s, s:i, s:f, s:f, s:f, s:o}", "method", c->method, "linear_solver",
                    c->linear_solver, "max_order", c->max_order, "rtol", s->integrator.rtol,
-                   "atol_displacement", c->atol_displacement, "atol_velocity", c->atol_velocity);
+                   "atol_displacement", c->atol_displacement, "atol_velocity", c->atol_velocity,
+                   "step", step > 0 ? json_real(step) : json_null());
 }
 
 json_t *facts_json(const scenario *s, const facts *f) {
-  const char *frames = s->frame_policy == FRAMES_HOLD ? "hold" : "exact";
   json_t *j = json_object();
   j = json_text_with(j, "scenario", json_text_string(s->path));
   j = json_text_with(j, "title", json_string(s->title));
@@ -218,7 +245,7 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "dofs", json_integer(corot_model_ndof(f->model)));
   j = json_text_with(j, "loads", json_integer(s->nload));
   j = json_text_with(j, "strain", json_string(s->strain));
-  j = json_text_with(j, "frames", json_string(frames));
+  j = json_text_with(j, "frames", json_string(s->frame_policy));
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compare.h"
 #include "folder.h"
 #include "write_vtu.h"
 
@@ -10,6 +11,7 @@ struct outputs {
   const scenario *scenario;
   const corot_model *model;
   table *probes, *energy, *steps;
+  comparison *comparison;  /* NULL: none is asked for */
   vtu *fields;             /* NULL: none are asked for */
   int *node;               /* [nprobe] */
   const char **probe_name; /* [nprobe] */
@@ -22,13 +24,15 @@ struct outputs {
 
 corot_status outputs_close(outputs *o) {
   corot_status probes = table_close(o->probes), energy = table_close(o->energy);
-  corot_status steps = table_close(o->steps);
+  corot_status steps = table_close(o->steps), compared = comparison_close(o->comparison);
   corot_status fields = o->fields ? vtu_finish(o->fields) : COROT_OK;
   o->probes = o->energy = o->steps = NULL;
-  return probes != COROT_OK   ? probes
-         : energy != COROT_OK ? energy
-         : steps != COROT_OK  ? steps
-                              : fields;
+  o->comparison = NULL;
+  return probes != COROT_OK     ? probes
+         : energy != COROT_OK   ? energy
+         : steps != COROT_OK    ? steps
+         : compared != COROT_OK ? compared
+                                : fields;
 }
 
 void outputs_destroy(outputs *o) {
@@ -98,6 +102,9 @@ static corot_status open_all(outputs *o, const char *dir) {
   COROT_TRY(probes_open(dir, o->scenario->nprobe, o->probe_name, &o->probes));
   COROT_TRY(energy_open(dir, &o->energy));
   COROT_TRY(steps_open(dir, &o->steps));
+  if (o->scenario->ncompare > 0)
+    COROT_TRY(comparison_open(dir, o->model, o->scenario->ncompare, o->scenario->compare,
+                              &o->comparison));
   return o->scenario->write_fields ? open_fields(o, dir) : open_nodal(o);
 }
 
@@ -159,6 +166,7 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
   COROT_TRY(probes_row(o->probes, now->t, o->scenario->nprobe, o->node,
                        (const double(*)[3])o->value.displacement));
   COROT_TRY(energy_row(o->energy, &row));
+  if (o->comparison) COROT_TRY(comparison_row(o->comparison, state, now->t, now->u));
   return frame ? vtu_write(o->fields, now->t) : COROT_OK;
 }
 

@@ -1,4 +1,4 @@
-/* The files of a run that grow with it: probes.csv, energy.csv, steps.csv, fields. */
+/* The files of a run that grow with it: probes.csv, energy.csv, steps.csv, compare.csv, fields. */
 #ifndef COROT_APP_OUTPUTS_H
 #define COROT_APP_OUTPUTS_H
 
@@ -20,9 +20,9 @@ typedef struct instant {
 corot_status outputs_open(const scenario *s, const corot_model *model, const char *dir,
                           outputs **out);
 
-/* Adds a row to probes.csv and energy.csv, and a frame to the fields if it is their turn (every
-   scenario.field_every times, and the `last`). Where an evaluation fails nothing is written. The
-   energy balance is taken against the first instant. */
+/* Adds a row to probes.csv, energy.csv and compare.csv, and a frame to the fields if it is their
+   turn (every scenario.field_every times, and the `last`). Where an evaluation fails nothing is
+   written. The energy balance is taken against the first instant. */
 corot_status outputs_write(outputs *o, corot_state *state, const instant *now, bool last);
 
 /* Adds a row to steps.csv. */

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include "folder.h"
+#include "json_text.h"
 
 #if defined(__clang__)
 #define COMPILER "clang " __clang_version__
@@ -17,6 +18,9 @@
 
 /* JSON has no word for what is not finite. */
 static json_t *real(double x) { return isfinite(x) ? json_real(x) : json_null(); }
+
+/* Zero stands for what was not asked for. */
+static json_t *positive(double x) { return x > 0 ? real(x) : json_null(); }
 
 static json_t *integer(long i) { return json_integer(i); }
 
@@ -50,18 +54,27 @@ static json_t *frames_part(const scenario *s, const run_summary *run) {
       [COROT_HISTORY_KEEP] = "keep",
       [COROT_HISTORY_RESTART] = "restart",
   };
-  bool held = s->frame_policy == FRAMES_HOLD;
-  return json_pack("{s:s, s:o, s:s?, s:o, s:o, s:o}", "policy", held ? "hold" : "exact", "interval",
-                   held ? real(s->frame_interval) : json_null(), "history",
-                   held ? history[s->frame_history] : NULL, "updates", integer(run->nframes),
-                   "angle_max", real(run->angle_max), "energy", real(run->frame_energy));
+  const corot_frame_policy *p = &s->frames;
+  bool exact = p->frames == COROT_FRAMES_EXACT;
+  json_t *by = json_object();
+  for (int i = COROT_FRAMES_KEPT + 1; i < FRAME_REASONS; i++)
+    by = json_text_with(by, frame_reason_words[i], integer(run->frames.by[i]));
+  return json_pack("{s:s, s:o, s:o, s:s?, s:o, s:o, s:o, s:o, s:o}", "policy", s->frame_policy,
+                   "interval", positive(p->interval), "max_angle", positive(p->max_angle),
+                   "history", exact ? NULL : history[p->history], "updates",
+                   integer(run->frames.count), "updates_by", by, "angle_max",
+                   real(run->frames.angle_max), "angle_mean", real(run->frames.angle_mean),
+                   "energy", real(run->frames.energy));
 }
 
 static json_t *integrator_part(const scenario *s, const corot_integrator_choice *c) {
-  return json_pack("{s:s?, s:s?, s:o, s:o, s:o, s:i}", "method", c->method, "linear_solver",
-                   c->linear_solver, "rtol", real(s->integrator.rtol), "atol_displacement",
+  const corot_integrator_def *d = &s->integrator;
+  const char *solution = d->solution == COROT_SOLUTION_LINEAR ? "linear" : "newton";
+  return json_pack("{s:s?, s:s?, s:o, s:o, s:o, s:i, s:o, s:s?}", "method", c->method,
+                   "linear_solver", c->linear_solver, "rtol", real(d->rtol), "atol_displacement",
                    real(c->atol_displacement), "atol_velocity", real(c->atol_velocity), "max_order",
-                   c->max_order);
+                   c->max_order, "step", positive(d->step), "solution",
+                   d->step > 0 ? solution : NULL);
 }
 
 static json_t *statistics_part(const run_summary *run) {
@@ -74,7 +87,7 @@ static json_t *statistics_part(const run_summary *run) {
   json_t *more = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor", integer(n->nfactor),
                            "nsolve", integer(n->nsolve), "nfresh", integer(n->nfresh),
                            "nindefinite", integer(n->nindefinite), "nfeQ", integer(n->nfeQ),
-                           "nrestart", integer(n->nrestart), "nframes", integer(run->nframes));
+                           "nrestart", integer(n->nrestart), "nframes", integer(run->frames.count));
   bool complete = part && more && json_object_update(part, more) == 0;
   json_decref(more);
   if (complete) return part;

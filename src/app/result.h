@@ -5,6 +5,13 @@
 #include "hash.h"
 #include "outputs.h"
 
+/* All updates of held or extrapolated frames. */
+typedef struct frame_totals {
+  long count, by[FRAME_REASONS];
+  double angle_max, angle_mean; /* the largest and the mean turn of a frame [rad] */
+  double energy;                /* put in [J] */
+} frame_totals;
+
 /* What a run has to say when it is over. */
 typedef struct run_summary {
   const char *status; /* "ok", "failed", "interrupted" */
@@ -15,9 +22,7 @@ typedef struct run_summary {
   size_t state_bytes;
   corot_statistics statistics;
   corot_integrator_choice chosen;
-  long nframes;        /* updates of held frames */
-  double angle_max;    /* the largest turn of any frame in any update [rad] */
-  double frame_energy; /* put in by all updates [J] */
+  frame_totals frames;
   double setup_s, frames_s, output_s, wall_s, cpu_s; /* [s] */
   hashes hashes;
 } run_summary;

@@ -1,6 +1,7 @@
 #include "run.h"
 
 #include <locale.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,14 +23,14 @@ typedef struct run {
   corot_model *model;
   corot_state *state;
   corot_integrator *integrator;
+  corot_frame_clock *clock;
   schedule *schedule;
   outputs *outputs;
   progress progress;
   double *u, *v; /* [n] scratch */
-  double t;      /* reached [s] */
+  double t;      /* reached [s]; at a constant step, it may pass the end */
   double shown;  /* time of the last row of the tables [s]; -1: there is none */
-  long nframes;  /* updates of held frames: how many, their largest turn, their energy so far */
-  double angle_max, frame_energy;
+  frame_totals frames;
   double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
 } run;
 
@@ -46,12 +47,13 @@ static corot_status start_integrator(run *r) {
   r->v = calloc(n + 1, sizeof *r->v);
   if (!r->u || !r->v) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
 
-  bool held = s->frame_policy == FRAMES_HOLD;
   COROT_TRY(corot_state_create(r->model, &r->state));
-  corot_state_use(r->state, held ? COROT_FRAMES_HELD : COROT_FRAMES_EXACT);
-  COROT_TRY(schedule_create(r->model, s->t_end, s->output_step, held ? s->frame_interval : 0,
-                            &r->schedule));
-  return corot_integrator_create(&s->integrator, r->model, r->state, 0, r->u, r->v, &r->integrator);
+  corot_state_enter(r->state, 0);
+  COROT_TRY(schedule_create(r->model, s->t_end, s->output_step, &r->schedule));
+  COROT_TRY(
+      corot_integrator_create(&s->integrator, r->model, r->state, 0, r->u, r->v, &r->integrator));
+  return corot_frame_clock_create(&s->frames, r->model, r->state, r->integrator, 0, r->u, r->v,
+                                  &r->clock);
 }
 
 static corot_status prepare(run *r) {
@@ -63,6 +65,7 @@ static corot_status prepare(run *r) {
 
 static void release(run *r) {
   outputs_destroy(r->outputs);
+  corot_frame_clock_destroy(r->clock);
   corot_integrator_destroy(r->integrator);
   schedule_destroy(r->schedule);
   corot_state_destroy(r->state);
@@ -74,12 +77,13 @@ static void release(run *r) {
 
 /* Step by step. */
 
-/* Writes the moment t, which is 0 or within the last step. */
+/* Writes the moment t, which is 0 or, but for rounding, within the last step. */
 static corot_status write_moment(run *r, double t, bool last) {
-  instant now = {.t = t, .u = r->u, .v = r->v, .frame_energy = r->frame_energy};
+  instant now = {.t = t, .u = r->u, .v = r->v, .frame_energy = r->frames.energy};
   if (t > 0) {
-    COROT_TRY(corot_integrator_at(r->integrator, t, r->u, r->v));
-    COROT_TRY(corot_integrator_work(r->integrator, t, &now.dissipated, &now.external_work));
+    double within = fmin(t, r->t);
+    COROT_TRY(corot_integrator_at(r->integrator, within, r->u, r->v));
+    COROT_TRY(corot_integrator_work(r->integrator, within, &now.dissipated, &now.external_work));
   }
   corot_status status = outputs_write(r->outputs, r->state, &now, last);
   if (status > 0) return corot_fail(status, "output at t = %g s: %s", t, corot_error());
@@ -104,31 +108,63 @@ static corot_status write_step(run *r, const step_row *row) {
   return status;
 }
 
-static corot_status update_frames(run *r, step_row *row) {
-  corot_frames_change change;
-  COROT_TRY(corot_integrator_at(r->integrator, row->t, r->u, NULL));
-  double started = wall_clock();
-  corot_status status = corot_frames_update(r->model, r->state, row->t, r->u, &change);
-  r->frames_s += wall_clock() - started;
-  COROT_TRY(status);
-  row->events |= EVENT_FRAMES;
-  row->angle_max = change.angle_max;
-  row->angle_mean = change.angle_mean;
-  row->frame_energy = change.energy;
-  r->nframes++;
-  r->frame_energy += change.energy;
-  if (change.angle_max > r->angle_max) r->angle_max = change.angle_max;
+static bool is_constant_step(const run *r) { return r->scenario->integrator.step > 0; }
 
+/* A constant step may cross a kink: in that one each motion follows its law at every time. */
+static void prepare_step(run *r) {
+  double h = r->scenario->integrator.step;
+  if (is_constant_step(r) && schedule_kink_before(r->schedule, r->t + h))
+    corot_state_enter(r->state, NAN);
+}
+
+/* Whether the velocity of a support jumps at a kink. */
+static bool is_jump(const scenario *s, double kink) {
+  for (int i = 0; i < s->nmotion; i++)
+    if (s->motion[i].from == kink || s->motion[i].to == kink) return true;
+  return false;
+}
+
+/* Kinks of the loads are mild: the integrator has stopped there, and keeps its history. At constant
+   step it keeps it in any case, with its factor, in which no velocity stands. */
+static corot_status pass_kinks(run *r, step_row *row) {
   long before = corot_integrator_statistics(r->integrator).nrestart;
-  COROT_TRY(corot_integrator_changed(r->integrator, r->scenario->frame_history));
+  for (double kink; schedule_take_kink(r->schedule, row->t, &kink);) {
+    row->events |= EVENT_KINK;
+    corot_state_enter(r->state, fmax(kink, row->t));
+    if (is_jump(r->scenario, kink) && !is_constant_step(r))
+      COROT_TRY(corot_integrator_changed(r->integrator, COROT_HISTORY_AUTO));
+  }
   if (corot_integrator_statistics(r->integrator).nrestart > before) row->events |= EVENT_RESTART;
   return COROT_OK;
 }
 
+static void add_update(frame_totals *total, const corot_frame_event *event) {
+  total->count++;
+  total->by[event->reason]++;
+  total->angle_max = fmax(total->angle_max, event->change.angle_max);
+  total->angle_mean += (event->change.angle_mean - total->angle_mean) / (double)total->count;
+  total->energy += event->change.energy;
+}
+
+static corot_status update_frames(run *r, step_row *row) {
+  corot_frame_event event;
+  double started = wall_clock(), force_s = corot_integrator_statistics(r->integrator).force_s;
+  corot_status status = corot_frame_clock_tick(r->clock, row->t, &event);
+  r->frames_s += wall_clock() - started;
+  r->frames_s -= corot_integrator_statistics(r->integrator).force_s - force_s;
+  COROT_TRY(status);
+  if (event.restarted) row->events |= EVENT_RESTART;
+  if (!event.reason) return COROT_OK;
+  row->events |= EVENT_FRAMES;
+  row->update = event;
+  add_update(&r->frames, &event);
+  return COROT_OK;
+}
+
+/* At the end an update would have no effect. */
 static corot_status handle_events(run *r, step_row *row) {
-  if (schedule_take_kink(r->schedule, row->t)) row->events |= EVENT_KINK;
-  if (!schedule_take_frames(r->schedule, row->t)) return COROT_OK;
-  corot_status status = update_frames(r, row);
+  corot_status status = pass_kinks(r, row);
+  if (status == COROT_OK && !schedule_over(r->schedule, row->t)) status = update_frames(r, row);
   if (status == COROT_OK) return COROT_OK;
   row->events |= EVENT_FAILED;
   return corot_fail(status, "update of the frames at t = %g s: %s", row->t, corot_error());
@@ -136,13 +172,16 @@ static corot_status handle_events(run *r, step_row *row) {
 
 static corot_status integrate(run *r) {
   COROT_TRY(write_outputs(r, 0));
-  while (r->t < r->scenario->t_end && !stop_signal) {
+  while (!schedule_over(r->schedule, r->t) && !stop_signal) {
     corot_step step;
-    COROT_TRY(corot_integrator_step(r->integrator, schedule_stop(r->schedule), &step));
+    double stop = schedule_stop(r->schedule, corot_frame_clock_stop(r->clock));
+    prepare_step(r);
+    COROT_TRY(corot_integrator_step(r->integrator, stop, &step));
     r->t = step.t;
     COROT_TRY(write_outputs(r, step.t));
 
-    step_row row = {step.t, step.h, step.order, step.error, step.newton, 0, 0, 0, 0};
+    step_row row = {
+        .t = step.t, .h = step.h, .order = step.order, .error = step.error, .newton = step.newton};
     corot_status handled = handle_events(r, &row);
     COROT_TRY(write_step(r, &row));
     COROT_TRY(handled);
@@ -160,6 +199,9 @@ static int exit_code(corot_status status) {
   return EXIT_INTEGRATOR;
 }
 
+/* How far the answer goes. */
+static double reached(const run *r) { return fmin(r->t, r->scenario->t_end); }
+
 static corot_status summarize(const run *r, const char *reason, int code, run_summary *summary) {
   bool interrupted = code > EXIT_SIGNAL;
   *summary = (run_summary){
@@ -168,14 +210,12 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
                               : "failed",
       .reason = code == 0 ? NULL : reason,
       .exit_code = code,
-      .t_reached = r->t,
+      .t_reached = reached(r),
       .model = r->model,
       .state_bytes = corot_state_bytes(r->state),
       .statistics = corot_integrator_statistics(r->integrator),
       .chosen = corot_integrator_chosen(r->integrator),
-      .nframes = r->nframes,
-      .angle_max = r->angle_max,
-      .frame_energy = r->frame_energy,
+      .frames = r->frames,
       .setup_s = r->setup_s,
       .frames_s = r->frames_s,
       .output_s = r->output_s,
@@ -202,12 +242,12 @@ static corot_status write_result(const run *r, const run_summary *summary) {
 static void tell(const run *r, const run_summary *summary) {
   const char *path = r->scenario->path, *dir = r->options->dir;
   if (summary->reason)
-    fprintf(stderr, "%s: stopped at t = %.6g s of %g s: %s\n", path, r->t, r->scenario->t_end,
-            summary->reason);
+    fprintf(stderr, "%s: stopped at t = %.6g s of %g s: %s\n", path, summary->t_reached,
+            r->scenario->t_end, summary->reason);
   if (r->options->quiet) return;
   fprintf(stderr, "%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n",
-          path, r->t, summary->statistics.nst, summary->statistics.nfactor, summary->wall_s,
-          r->t / summary->wall_s, dir);
+          path, summary->t_reached, summary->statistics.nst, summary->statistics.nfactor,
+          summary->wall_s, summary->t_reached / summary->wall_s, dir);
 }
 
 /* Closes the books after a run that ended with `status`; returns the exit code. */
@@ -216,7 +256,7 @@ static int conclude(run *r, corot_status status) {
   int code = exit_code(status);
   if (code != 0) {
     snprintf(reason, sizeof reason, "%s", corot_error());
-  } else if (stop_signal && r->t < r->scenario->t_end) {
+  } else if (stop_signal && !schedule_over(r->schedule, r->t)) {
     snprintf(reason, sizeof reason, "interrupted by signal %d", (int)stop_signal);
     code = EXIT_SIGNAL + stop_signal;
   }
@@ -225,7 +265,7 @@ static int conclude(run *r, corot_status status) {
 
   /* What could be written before can be written now; if it cannot, the first reason stands. */
   corot_status late = COROT_OK;
-  if (r->shown < r->t && code != EXIT_SYSTEM) late = write_moment(r, r->t, true);
+  if (r->shown < reached(r) && code != EXIT_SYSTEM) late = write_moment(r, reached(r), true);
   corot_status closed = outputs_close(r->outputs);
   if (late == COROT_OK) late = closed;
   if (code == 0 && late != COROT_OK) {

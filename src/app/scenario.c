@@ -3,31 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "config.h"
+#include "scenario_parts.h"
 #include "schema.h"
-
-/* After schema_apply every key has its type, its range and, where there is one, its default: what
-   is left to check is how keys go together. */
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
-
-static double number_at(config_node *node, const char *path) {
-  return config_find(node, path)->number;
-}
-
-static const char *text_at(config_node *node, const char *path) {
-  const config_node *found = config_find(node, path);
-  return found ? found->text : NULL;
-}
-
-static bool text_is(config_node *node, const char *path, const char *text) {
-  return strcmp(text_at(node, path), text) == 0;
-}
-
-static void vector_at(config_node *node, const char *path, double vector[3]) {
-  const config_node *c = config_find(node, path)->child;
-  for (int i = 0; i < 3; i++, c = c->next) vector[i] = c->number;
-}
 
 /* --- Mesh and groups --- */
 
@@ -131,6 +108,7 @@ static corot_status read_material(config *tree, config_node *node, corot_materia
       .density = number_at(node, "density"),
       .damping_lambda = number_at(node, "damping.lambda"),
       .damping_mu = number_at(node, "damping.mu"),
+      .damping_mass = number_at(node, "damping.mass"),
   };
   if (!(3 * material->lambda + 2 * material->mu > 0))
     return config_fail(config_find(node, "lambda"),
@@ -159,74 +137,7 @@ static corot_status read_materials(scenario *s) {
   return COROT_OK;
 }
 
-/* --- Frames, boundary, loads --- */
-
-static corot_status read_frames(scenario *s) {
-  static const char *const history[] = {"auto", "keep", "restart"};
-  config_node *frames = config_find(s->source->root, "frames");
-  config_node *policy = config_find(frames, "policy");
-  config_node *interval = config_find(frames, "interval");
-  s->strain = text_at(s->source->root, "strain");
-  s->frame_policy = text_is(frames, "policy", "hold") ? FRAMES_HOLD : FRAMES_EXACT;
-  if (s->frame_policy == FRAMES_HOLD && !interval)
-    return config_fail(policy, "hold needs frames.interval");
-  if (s->frame_policy == FRAMES_EXACT && interval && !policy->source)
-    return config_fail_key(interval, "has an effect with policy: hold only, and none is given");
-  if (interval) s->frame_interval = interval->number;
-  for (int i = 0; i < 3; i++)
-    if (text_is(frames, "history", history[i])) s->frame_history = (corot_history)i;
-  return COROT_OK;
-}
-
-static corot_status read_boundary(scenario *s) {
-  config_node *list = config_find(s->source->root, "boundary");
-  corot_fix *fix = config_alloc(s->source, (size_t)list->nchild, sizeof *fix);
-  if (!fix) return no_memory();
-  s->fix = fix;
-  for (config_node *c = list->child; c; c = c->next) {
-    corot_fix *f = &fix[s->nfix++];
-    f->group = text_at(c, "group");
-    for (const config_node *axis = config_find(c, "fix")->child; axis; axis = axis->next)
-      f->component[axis->text[0] - 'x'] = true;
-  }
-  return COROT_OK;
-}
-
-static corot_status read_amplitude(config *tree, const config_node *list, corot_amplitude *a) {
-  double *time = config_alloc(tree, 2 * (size_t)list->nchild, sizeof *time);
-  if (!time) return no_memory();
-  double *value = time + list->nchild;
-  const config_node *pair = list->child;
-  for (int i = 0; i < list->nchild; i++, pair = pair->next) {
-    time[i] = pair->child->number;
-    value[i] = pair->child->next->number;
-  }
-  *a = (corot_amplitude){.n = list->nchild, .time = time, .value = value};
-  return COROT_OK;
-}
-
-static corot_status read_load(config *tree, config_node *node, corot_load *load) {
-  config_node *group = config_find(node, "group"), *gravity = config_find(node, "gravity");
-  config_node *amplitude = config_find(node, "amplitude");
-  if (gravity && group) return config_fail_key(group, "gravity acts on the whole body: no group");
-  if (!gravity && !group) return config_fail(node, "group is missing, on which the traction acts");
-  load->kind = gravity ? COROT_GRAVITY : COROT_TRACTION;
-  load->group = group ? group->text : NULL;
-  vector_at(node, gravity ? "gravity" : "traction", load->value);
-  return amplitude ? read_amplitude(tree, amplitude, &load->amplitude) : COROT_OK;
-}
-
-static corot_status read_loads(scenario *s) {
-  config_node *list = config_find(s->source->root, "loads");
-  corot_load *load = config_alloc(s->source, (size_t)list->nchild, sizeof *load);
-  if (!load) return no_memory();
-  s->load = load;
-  for (config_node *c = list->child; c; c = c->next)
-    COROT_TRY(read_load(s->source, c, &load[s->nload++]));
-  return COROT_OK;
-}
-
-/* --- Time, integrator, output --- */
+/* --- Time and output --- */
 
 static corot_status read_time(scenario *s) {
   config_node *time = config_find(s->source->root, "time");
@@ -235,33 +146,6 @@ static corot_status read_time(scenario *s) {
     COROT_TRY(config_add_number(s->source, time, "output", s->t_end / 100));
   s->output_step = number_at(time, "output");
   if (!(s->output_step > 0)) return config_fail(config_find(time, "end"), "too small");
-  return COROT_OK;
-}
-
-static corot_status read_integrator(scenario *s) {
-  config_node *root = s->source->root, *node = config_find(root, "integrator");
-  bool exact = text_is(node, "jacobian.tangent", "exact");
-  corot_integrator_def def = corot_integrator_defaults();
-  def.method = text_at(node, "method");
-  def.linear_solver = text_at(root, "linear_solver");
-  def.rtol = number_at(node, "rtol");
-  def.atol_displacement = number_at(node, "atol.displacement");
-  def.atol_velocity = number_at(node, "atol.velocity");
-  def.max_order = (int)number_at(node, "max_order");
-  def.max_steps = (long)number_at(node, "max_steps");
-  def.first_step = number_at(node, "first_step");
-  def.min_step = number_at(node, "min_step");
-  def.max_step = number_at(node, "max_step");
-  def.tangent = exact ? COROT_TANGENT_EXACT : COROT_TANGENT_HELD;
-  def.reassembly = (int)number_at(node, "jacobian.reassembly");
-  def.refactorisation = (int)number_at(node, "jacobian.refactorisation");
-  def.gamma_change = number_at(node, "jacobian.gamma_change");
-  s->integrator = def;
-
-  if (def.max_step > 0 && def.min_step > def.max_step)
-    return config_fail(config_find(node, "min_step"), "larger than max_step");
-  if (def.max_step > 0 && def.first_step > def.max_step)
-    return config_fail(config_find(node, "first_step"), "larger than max_step");
   return COROT_OK;
 }
 
@@ -288,6 +172,22 @@ static corot_status read_probes(scenario *s) {
   return COROT_OK;
 }
 
+/* The measure of the run itself is compared in any case, but for green, the reference. */
+static corot_status read_compare(scenario *s) {
+  const config_node *list = config_find(s->source->root, "compare");
+  if (!list) return COROT_OK;
+  const char **measure = config_alloc(s->source, (size_t)list->nchild + 1, sizeof *measure);
+  if (!measure) return no_memory();
+  s->compare = measure;
+  bool listed = strcmp(s->strain, "green") == 0;
+  for (const config_node *c = list->child; c; c = c->next) {
+    measure[s->ncompare++] = c->text;
+    listed |= strcmp(c->text, s->strain) == 0;
+  }
+  if (!listed) measure[s->ncompare++] = s->strain;
+  return COROT_OK;
+}
+
 static void read_output(scenario *s) {
   config_node *root = s->source->root;
   s->title = text_at(root, "title");
@@ -305,11 +205,11 @@ static corot_status read_all(scenario *s, const char *path, int noverride, char 
   COROT_TRY(read_mesh(s));
   COROT_TRY(read_groups(s));
   COROT_TRY(read_materials(s));
-  COROT_TRY(read_frames(s));
-  COROT_TRY(read_boundary(s));
-  COROT_TRY(read_loads(s));
+  s->strain = text_at(s->source->root, "strain");
+  COROT_TRY(scenario_read_conditions(s));
   COROT_TRY(read_time(s));
-  COROT_TRY(read_integrator(s));
+  COROT_TRY(scenario_read_method(s));
+  COROT_TRY(read_compare(s));
   COROT_TRY(read_probes(s));
   read_output(s);
   s->resolved = schema_resolve(s->source);

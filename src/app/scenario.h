@@ -25,8 +25,6 @@ typedef struct probe_def {
   double point[3];
 } probe_def;
 
-typedef enum frame_policy { FRAMES_EXACT, FRAMES_HOLD } frame_policy;
-
 /* Everything it points to lives as long as it does. */
 typedef struct scenario {
   const char *path; /* of the file, as given */
@@ -41,18 +39,24 @@ typedef struct scenario {
   const corot_material *material;
   const char *strain;
 
-  frame_policy frame_policy;
-  double frame_interval; /* [s] */
-  corot_history frame_history;
+  corot_viscosity viscosity;
+
+  const char *frame_policy; /* its name */
+  corot_frame_policy frames;
 
   int nfix;
   const corot_fix *fix;
+  int nmotion;
+  const corot_motion *motion;
   int nload;
   const corot_load *load;
 
   double t_end;       /* [s] */
   double output_step; /* [s] */
   corot_integrator_def integrator;
+
+  int ncompare;
+  const char *const *compare; /* measures whose forces are held against those of green */
 
   int nprobe;
   const probe_def *probe;
@@ -71,6 +75,9 @@ corot_status scenario_read(const char *path, int noverride, char *const *overrid
 /* The same from memory; `path` stands for the file in messages and for its folder. */
 corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
                                 char *const *override, scenario **out);
+
+/* The key of each kind of load. */
+extern const char *const scenario_load_words[];
 
 /* Takes NULL. */
 void scenario_destroy(scenario *s);

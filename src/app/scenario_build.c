@@ -1,5 +1,6 @@
 /* From scenario to mesh and model. What can be wrong here is how the scenario and the mesh fit. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "config.h"
@@ -95,9 +96,14 @@ static corot_status check_group(config_node *map, const corot_mesh *mesh) {
   const config_node *node = config_find(map, "group");
   if (config_find(map, "fix") && group->nnode == 0)
     return config_fail(node, "%s has no nodes to fix", node->text);
-  if (config_find(map, "traction") && group->ntri == 0)
-    return config_fail(node, "%s has no faces for a traction to act on (%d nodes, %d tets)",
-                       node->text, group->nnode, group->ntet);
+  if ((config_find(map, "rotate") || config_find(map, "translate")) && group->nnode == 0)
+    return config_fail(node, "%s has no nodes to move", node->text);
+  if (config_find(map, "force") && group->nnode == 0)
+    return config_fail(node, "%s has no nodes for a force to act on", node->text);
+  if ((config_find(map, "traction") || config_find(map, "pressure")) && group->ntri == 0)
+    return config_fail(node, "%s has no faces for a %s to act on (%d nodes, %d tets)", node->text,
+                       config_find(map, "traction") ? "traction" : "pressure", group->nnode,
+                       group->ntet);
   if (config_find(map, "density") && group && group->ntet == 0)
     return config_fail(node, "%s has no tets for a material to fill (%d nodes, %d faces)",
                        node->text, group->nnode, group->ntri);
@@ -109,6 +115,56 @@ static corot_status check_section(const scenario *s, const char *section, const 
   if (node->kind == CONFIG_MAP) return check_group(node, mesh);
   for (config_node *c = node->child; c; c = c->next) COROT_TRY(check_group(c, mesh));
   return COROT_OK;
+}
+
+/* What holds a node. */
+typedef struct holder {
+  config_node *entry; /* the condition that moves it, or else one that fixes it; NULL: none */
+  bool component[3];
+} holder;
+
+static const char *group_of(config_node *entry) { return config_find(entry, "group")->text; }
+
+/* A node that moves is held in all its components and by that alone; but motions of one group may
+   follow one another. */
+static corot_status check_holder(config_node *entry, const corot_mesh *mesh, holder *held) {
+  const config_node *fix = config_find(entry, "fix");
+  const corot_group *group = corot_mesh_find_group(mesh, group_of(entry));
+  for (int i = 0; i < group->nnode; i++) {
+    holder *h = &held[group->node[i]];
+    bool moved = h->entry && !config_find(h->entry, "fix");
+    bool follows = moved && !fix && strcmp(group_of(h->entry), group_of(entry)) == 0;
+    if (h->entry && (moved || !fix) && !follows) {
+      char path[64];
+      config_path(h->entry, sizeof path, path);
+      return config_fail(config_find(entry, "group"),
+                         "node %d of %s cannot be %s: it is in %s, too, which %s %s",
+                         group->node[i], group_of(entry), fix ? "fixed" : "moved",
+                         group_of(h->entry), path, moved ? "moves" : "fixes");
+    }
+    h->entry = entry;
+    for (int k = 0; k < 3; k++) h->component[k] |= !fix;
+    for (const config_node *c = fix ? fix->child : NULL; c; c = c->next)
+      h->component[c->text[0] - 'x'] = true;
+  }
+  return COROT_OK;
+}
+
+static corot_status check_holders(const scenario *s, const corot_mesh *mesh) {
+  config_node *list = place(s, "boundary");
+  holder *held = calloc((size_t)mesh->nnode, sizeof *held);
+  if (!held) return corot_fail(COROT_ENOMEM, "%d nodes: out of memory", mesh->nnode);
+  corot_status status = COROT_OK;
+  for (config_node *c = list->child; c && status == COROT_OK; c = c->next)
+    status = check_holder(c, mesh, held);
+  bool free_somewhere = false;
+  for (int n = 0; n < mesh->nnode; n++)
+    for (int k = 0; k < 3; k++) free_somewhere |= !held[n].component[k];
+  free(held);
+  if (status == COROT_OK && !free_somewhere)
+    return config_fail_key(list, "all components of all %d nodes are held: nothing can move",
+                           mesh->nnode);
+  return status;
 }
 
 static corot_status check_probes(const scenario *s, const corot_mesh *mesh) {
@@ -125,6 +181,7 @@ static corot_status check_probes(const scenario *s, const corot_mesh *mesh) {
 static corot_status build_model(const scenario *s, const corot_mesh *mesh, corot_model **model) {
   COROT_TRY(check_section(s, "material", mesh));
   COROT_TRY(check_section(s, "boundary", mesh));
+  COROT_TRY(check_holders(s, mesh));
   COROT_TRY(check_section(s, "loads", mesh));
   COROT_TRY(check_probes(s, mesh));
   corot_model_def def = corot_model_defaults();
@@ -134,8 +191,11 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh, corot
   def.material = s->material;
   def.nfix = s->nfix;
   def.fix = s->fix;
+  def.nmotion = s->nmotion;
+  def.motion = s->motion;
   def.nload = s->nload;
   def.load = s->load;
+  def.viscosity = s->viscosity;
   corot_status status = corot_model_create(&def, model);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   /* names and coefficients are checked above: what is left is which tet has which material */

@@ -10,21 +10,19 @@ void schedule_destroy(schedule *s) {
 }
 
 corot_status schedule_create(const corot_model *model, double end, double output_step,
-                             double frame_interval, schedule **out) {
+                             schedule **out) {
   schedule *s = malloc(sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "the times of the run: out of memory");
   *s = (schedule){
       .end = end,
       .output_step = output_step,
-      .frame_interval = frame_interval,
       .nkink = corot_model_kinks(model, 0, end, 0, NULL),
       .near = 1e-12 * end,
-      .next_frames = 1,
   };
   s->kink = malloc(((size_t)s->nkink + 1) * sizeof *s->kink);
   if (!s->kink) {
     schedule_destroy(s);
-    return corot_fail(COROT_ENOMEM, "the kinks of the loads: out of memory");
+    return corot_fail(COROT_ENOMEM, "the kinks of loads and motions: out of memory");
   }
   corot_model_kinks(model, 0, end, s->nkink, s->kink);
   *out = s;
@@ -35,28 +33,19 @@ static double kink_time(const schedule *s) {
   return s->next_kink < s->nkink ? s->kink[s->next_kink] : INFINITY;
 }
 
-/* An update at the end would have no effect. */
-static double frames_time(const schedule *s) {
-  if (!(s->frame_interval > 0)) return INFINITY;
-  double t = (double)s->next_frames * s->frame_interval;
-  return t < s->end - s->near ? t : INFINITY;
-}
-
-double schedule_stop(const schedule *s) {
-  double t = fmin(kink_time(s), frames_time(s));
+double schedule_stop(const schedule *s, double other) {
+  double t = fmin(kink_time(s), other);
   return t < s->end - s->near ? t : s->end;
 }
 
-bool schedule_take_kink(schedule *s, double t) {
-  bool due = false;
-  for (; kink_time(s) <= t + s->near; s->next_kink++) due = true;
-  return due;
-}
+bool schedule_over(const schedule *s, double t) { return t >= s->end - s->near; }
 
-bool schedule_take_frames(schedule *s, double t) {
-  bool due = false;
-  for (; frames_time(s) <= t + s->near; s->next_frames++) due = true;
-  return due;
+bool schedule_kink_before(const schedule *s, double t) { return kink_time(s) < t - s->near; }
+
+bool schedule_take_kink(schedule *s, double t, double *kink) {
+  if (!(kink_time(s) <= t + s->near)) return false;
+  *kink = s->kink[s->next_kink++];
+  return true;
 }
 
 bool schedule_take_output(schedule *s, double t, double *output) {
@@ -65,7 +54,7 @@ bool schedule_take_output(schedule *s, double t, double *output) {
   if (s->next_output == 0) next = 0;
   bool last = !(next < s->end - s->near);
   if (last) next = s->end;
-  if (next > t) return false;
+  if (next > t + s->near) return false;
   s->next_output = last ? -1 : s->next_output + 1;
   *output = next;
   return true;

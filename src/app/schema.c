@@ -12,7 +12,6 @@
 #define OPTIONAL SCHEMA_OPTIONAL
 #define REQUIRED SCHEMA_REQUIRED
 #define ONE_OF SCHEMA_ONE_OF
-#define NOT_YET SCHEMA_NOT_YET
 #define ANY SCHEMA_ANY
 #define POSITIVE SCHEMA_POSITIVE
 #define NOT_NEGATIVE SCHEMA_NOT_NEGATIVE
@@ -50,27 +49,36 @@ const schema_key schema_keys[] = {
   {"material.damping",        MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "viscous stress, the same law on the strain rate"},
   {"material.damping.lambda", NUMBER,          OPTIONAL, NOT_NEGATIVE, "Pa s",    "0.0", 0, 0, "first viscosity"},
   {"material.damping.mu",     NUMBER,          OPTIONAL, NOT_NEGATIVE, "Pa s",    "0.0", 0, 0, "second viscosity"},
-  {"material.damping.mass",   NUMBER,          OPTIONAL, SCHEMA_ZERO_FOR_NOW, "1/s", "0.0", 0, 0, "Rayleigh coefficient of the mass"},
+  {"material.damping.mass",   NUMBER,          OPTIONAL, NOT_NEGATIVE, "1/s",     "0.0", 0, 0, "Rayleigh's: a force against the velocity, this times the mass"},
 
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", 0, "strain measure"},
+  {"viscosity",               CHOICE,          OPTIONAL, ANY,          "",        "corotated", "corotated|objective", 0, "strain rate of the damping: sym(R' dF/dt), or dS/dt of F = R S, zero in any rigid motion (polar, hybrid)"},
   {"frames",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "the rotations of the elements, as part of the model"},
-  {"frames.policy",           CHOICE,          OPTIONAL, ANY,          "",        "exact", "exact|hold", "step|extrapolate", "exact: found in every evaluation; hold: kept for an interval"},
-  {"frames.interval",         NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "time between updates; required by policy hold"},
-  {"frames.max_angle",        NUMBER,          NOT_YET,  POSITIVE,     "rad",     0, 0, 0, "update where an element has turned further"},
+  {"frames.policy",           CHOICE,          OPTIONAL, ANY,          "",        "exact", "exact|step|hold|extrapolate", 0, "exact: found in every evaluation; step: after every step; hold: kept between updates; extrapolate: turned on at their spin"},
+  {"frames.interval",         NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "update at multiples of it; hold and extrapolate need this or max_angle"},
+  {"frames.max_angle",        NUMBER,          OPTIONAL, POSITIVE,     "rad",     0, 0, 0, "update after a step that leaves an element's frame off by more"},
   {"frames.history",          CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|keep|restart", 0, "the integrator's memory after an update"},
 
   {"boundary",                SCHEMA_LIST,     OPTIONAL, ANY,          "",        "[]", 0, 0, "prescribed motion; without: a free body"},
   {"boundary[].group",        TEXT,            REQUIRED, ANY,          "",        0, 0, 0, "the nodes it concerns"},
-  {"boundary[].fix",          SCHEMA_AXES,     ONE_OF,   ANY,          "",        0, "x|y|z", 0, "displacement components held at zero"},
-  {"boundary[].rotate",       MAP,             NOT_YET,  ANY,          "",        0, 0, 0, "rotation about an axis"},
-  {"boundary[].translate",    MAP,             NOT_YET,  ANY,          "",        0, 0, 0, "translation"},
+  {"boundary[].fix",          SCHEMA_WORDS,    ONE_OF,   ANY,          "",        0, "x|y|z", 0, "displacement components held at zero"},
+  {"boundary[].rotate",       MAP,             ONE_OF,   ANY,          "",        0, 0, 0, "turned about an axis at a constant rate, at rest before and after; holds x, y and z"},
+  {"boundary[].rotate.axis",  VECTOR,          REQUIRED, ANY,          "",        0, 0, 0, "direction of the axis, of any length but 0; right-handed"},
+  {"boundary[].rotate.center", VECTOR,         OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, 0, "a point of the axis"},
+  {"boundary[].rotate.rate",  NUMBER,          REQUIRED, ANY,          "rad/s",   0, 0, 0, "angle per time"},
+  {"boundary[].rotate.from",  NUMBER,          OPTIONAL, NOT_NEGATIVE, "s",       "0.0", 0, 0, "when it begins"},
+  {"boundary[].rotate.to",    NUMBER,          OPTIONAL, POSITIVE,     "s",       "end", "end", 0, "when it stops; end: not at all"},
+  {"boundary[].translate",    MAP,             ONE_OF,   ANY,          "",        0, 0, 0, "moved at a constant velocity, at rest before and after; holds x, y and z"},
+  {"boundary[].translate.velocity", VECTOR,    REQUIRED, ANY,          "m/s",     0, 0, 0, "displacement per time"},
+  {"boundary[].translate.from", NUMBER,        OPTIONAL, NOT_NEGATIVE, "s",       "0.0", 0, 0, "when it begins"},
+  {"boundary[].translate.to", NUMBER,          OPTIONAL, POSITIVE,     "s",       "end", "end", 0, "when it stops; end: not at all"},
 
   {"loads",                   SCHEMA_LIST,     OPTIONAL, ANY,          "",        "[]", 0, 0, "external forces"},
-  {"loads[].group",           TEXT,            OPTIONAL, ANY,          "",        0, 0, 0, "where it acts; required by traction, not for gravity"},
+  {"loads[].group",           TEXT,            OPTIONAL, ANY,          "",        0, 0, 0, "where it acts; required but by gravity"},
   {"loads[].traction",        VECTOR,          ONE_OF,   ANY,          "Pa",      0, 0, 0, "force per rest area on the group's faces, of fixed direction"},
   {"loads[].gravity",         VECTOR,          ONE_OF,   ANY,          "m/s^2",   0, 0, 0, "acceleration of the whole body"},
-  {"loads[].pressure",        NUMBER,          NOT_YET,  ANY,          "Pa",      0, 0, 0, "normal force per area that follows the surface"},
-  {"loads[].force",           VECTOR,          NOT_YET,  ANY,          "N",       0, 0, 0, "total force, spread over the group's nodes"},
+  {"loads[].pressure",        NUMBER,          ONE_OF,   ANY,          "Pa",      0, 0, 0, "force per deformed area on the group's faces, against their outward normal: it follows the surface"},
+  {"loads[].force",           VECTOR,          ONE_OF,   ANY,          "N",       0, 0, 0, "total force, spread evenly over the group's nodes, of fixed direction"},
   {"loads[].amplitude",       SCHEMA_CURVE,    OPTIONAL, ANY,          "s, 1",    0, 0, 0, "factor as [[time, value], ...], linear between, constant beyond"},
 
   {"time",                    MAP,             REQUIRED, ANY,          "",        0, 0, 0, "the span of the run, from t = 0"},
@@ -78,8 +86,13 @@ const schema_key schema_keys[] = {
   {"time.output",             NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "time between outputs; default: end / 100"},
 
   {"integrator",              MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "how the equations are integrated"},
-  {"integrator.method",       CHOICE,          OPTIONAL, ANY,          "",        "cvode", "cvode", "ida|arkode|backward-euler|bdf3|newmark", "cvode: BDF with variable step and order"},
-  {"integrator.step",         NUMBER,          NOT_YET,  POSITIVE,     "s",       0, 0, 0, "length of the step of a fixed-step method"},
+  {"integrator.method",       CHOICE,          OPTIONAL, ANY,          "",        "cvode", "cvode|backward-euler|bdf2|bdf3|midpoint|newmark|hht|generalized-alpha", "ida|arkode", "cvode: BDF with variable step and order, of which the error is controlled; the others: constant step, no error control"},
+  {"integrator.step",         NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "length of the step; required by the methods of constant step, refused with cvode"},
+  {"integrator.solution",     CHOICE,          OPTIONAL, ANY,          "",        "newton", "newton|linear", 0, "constant step: Newton's method, or one linear solve a step, which suffices where frames are held"},
+  {"integrator.newton",       MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "constant step: Newton's method with backtracking"},
+  {"integrator.newton.tolerance", NUMBER,      OPTIONAL, POSITIVE,     "",        "1.0e-9", 0, 0, "of the last correction, in lengths of the model"},
+  {"integrator.newton.iterations", INTEGER,    OPTIONAL, POSITIVE,     "",        "50", 0, 0, "give up after so many in a step"},
+  {"integrator.spectral_radius", NUMBER,       OPTIONAL, SCHEMA_UNIT,  "",        "0.8", 0, 0, "hht (from 1/2) and generalized-alpha: of the fastest modes; 1: none is damped"},
   {"integrator.rtol",         NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-4", 0, 0, "relative tolerance of the local error"},
   {"integrator.atol",         MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "absolute tolerances"},
   {"integrator.atol.displacement", NUMBER,     OPTIONAL, POSITIVE,     "m",       "auto", "auto", 0, "auto: rtol / 100 of the length of the model"},
@@ -94,7 +107,11 @@ const schema_key schema_keys[] = {
   {"integrator.jacobian.reassembly", INTEGER,  OPTIONAL, POSITIVE,     "",        "20", 0, 0, "stiffness and damping anew at least every so many steps"},
   {"integrator.jacobian.refactorisation", INTEGER, OPTIONAL, POSITIVE, "",        "20", 0, 0, "factor anew at least every so many steps"},
   {"integrator.jacobian.gamma_change", NUMBER, OPTIONAL, POSITIVE,     "",        "0.3", 0, 0, "factor anew when step times leading coefficient changes by this fraction"},
-  {"linear_solver",           CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod", "pcg", "sparse direct solver"},
+  {"linear_solver",           SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "auto", 0, 0, "how a step's linear system is solved; the name alone will do"},
+  {"linear_solver.name",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod|pcg", 0, "auto, klu, cholmod: sparse direct; pcg: conjugate gradients with block-diagonal preconditioner"},
+  {"linear_solver.tolerance", NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-10", 0, 0, "pcg: residual to reach, relative to the right-hand side"},
+
+  {"compare",                 SCHEMA_WORDS,    OPTIONAL, ANY,          "",        0, "cauchy|warp|polar|hybrid", 0, "strain measures whose forces are compared with those of green on the states of the run"},
 
   {"probes",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, 0, "nodes whose motion is recorded; names are letters, digits, _ and -"},
   {"probes.NAME.point",       VECTOR,          ONE_OF,   ANY,          "m",       0, 0, 0, "the node nearest to it at rest"},
@@ -143,6 +160,8 @@ const char *schema_range_words(schema_range range) {
       return "> 0, < 1";
     case SCHEMA_ORDER:
       return "1 to 5";
+    case SCHEMA_UNIT:
+      return "0 to 1";
     case SCHEMA_POISSON:
       return "> -1, < 0.5";
     case SCHEMA_ZERO_FOR_NOW:

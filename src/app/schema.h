@@ -12,6 +12,7 @@ typedef enum schema_type {
   SCHEMA_NAMED, /* keys are names given by the user, "groups.NAME" */
   SCHEMA_LIST,  /* entries are maps, "loads[]" */
   SCHEMA_MAPS,  /* one map, or a list of such */
+  SCHEMA_SHORT, /* a map, or the value of its first key alone */
   SCHEMA_TEXT,
   SCHEMA_CHOICE,   /* one of `words` */
   SCHEMA_NUMBER,   /* or the one of `words`, which stands for 0 */
@@ -19,15 +20,14 @@ typedef enum schema_type {
   SCHEMA_VECTOR,   /* three numbers */
   SCHEMA_COUNTS,   /* three integers */
   SCHEMA_INTEGERS, /* any number of integers */
-  SCHEMA_AXES,     /* some of x, y, z */
+  SCHEMA_WORDS,    /* some of `words`, each once */
   SCHEMA_CURVE,    /* pairs of time and value, the times increasing */
 } schema_type;
 
 typedef enum schema_status {
   SCHEMA_OPTIONAL,
   SCHEMA_REQUIRED,
-  SCHEMA_ONE_OF,  /* exactly one of the keys so marked in a map is given */
-  SCHEMA_NOT_YET, /* known, but refused for now */
+  SCHEMA_ONE_OF, /* exactly one of the keys so marked in a map is given */
 } schema_status;
 
 typedef enum schema_range {
@@ -35,6 +35,7 @@ typedef enum schema_range {
   SCHEMA_POSITIVE,     /* > 0 */
   SCHEMA_NOT_NEGATIVE, /* >= 0 */
   SCHEMA_FRACTION,     /* > 0 and < 1 */
+  SCHEMA_UNIT,         /* 0 to 1 */
   SCHEMA_ORDER,        /* 1 to 5 */
   SCHEMA_POISSON,      /* > -1 and < 0.5 */
   SCHEMA_ZERO_FOR_NOW, /* 0; anything else is not yet supported */

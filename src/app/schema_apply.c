@@ -89,6 +89,8 @@ static bool in_range(double x, schema_range range) {
       return x >= 0;
     case SCHEMA_FRACTION:
       return x > 0 && x < 1;
+    case SCHEMA_UNIT:
+      return x >= 0 && x <= 1;
     case SCHEMA_ORDER:
       return x >= 1 && x <= 5;
     case SCHEMA_POISSON:
@@ -172,14 +174,17 @@ static corot_status check_integers(config_node *node, schema_range range) {
   return check_entries(node, range, check_integer);
 }
 
-static corot_status check_axes(const config_node *node) {
-  if (node->kind != CONFIG_LIST || node->nchild == 0)
-    return expected(node, "a list of axes, such as [x, y, z]");
-  bool seen[3] = {false};
+static corot_status check_words(const config_node *node, const schema_key *key) {
+  if (node->kind != CONFIG_LIST || node->nchild == 0) {
+    char list[LIST], what[LIST + 32];
+    comma_list(key->words, sizeof list, list);
+    snprintf(what, sizeof what, "a list of words, such as [%s]", list);
+    return expected(node, what);
+  }
   for (const config_node *c = node->child; c; c = c->next) {
-    if (c->kind != CONFIG_SCALAR || !among(c->text, "x|y|z")) return expected(c, "x, y or z");
-    if (seen[c->text[0] - 'x']) return config_fail(c, "%s is given twice", c->text);
-    seen[c->text[0] - 'x'] = true;
+    COROT_TRY(check_choice(c, key));
+    for (const config_node *before = node->child; before != c; before = before->next)
+      if (strcmp(before->text, c->text) == 0) return config_fail(c, "%s is given twice", c->text);
   }
   return COROT_OK;
 }
@@ -223,6 +228,19 @@ static corot_status apply_maps(config *tree, config_node *node, const char *path
   return apply_list(tree, node, path);
 }
 
+/* A single value becomes a map of its own with that value under the first key. */
+static corot_status apply_short(config *tree, config_node *node, const char *path) {
+  if (node->kind == CONFIG_SCALAR) {
+    config_node *value = config_node_create(tree, CONFIG_SCALAR);
+    if (!value) return corot_fail(COROT_ENOMEM, "out of memory");
+    *value = *node;
+    value->key = last_segment(schema_child(path, NULL)->path);
+    node->kind = CONFIG_MAP;
+    config_append(node, value);
+  }
+  return apply_map(tree, node, path);
+}
+
 static corot_status apply_value(config *tree, config_node *node, const schema_key *key) {
   char inside[PATH];
   schema_inside(key, sizeof inside, inside);
@@ -235,6 +253,8 @@ static corot_status apply_value(config *tree, config_node *node, const schema_ke
       return apply_list(tree, node, inside);
     case SCHEMA_MAPS:
       return apply_maps(tree, node, inside);
+    case SCHEMA_SHORT:
+      return apply_short(tree, node, inside);
     case SCHEMA_TEXT:
       return check_text(node);
     case SCHEMA_CHOICE:
@@ -249,8 +269,8 @@ static corot_status apply_value(config *tree, config_node *node, const schema_ke
       return check_three(node, key, check_integer);
     case SCHEMA_INTEGERS:
       return check_integers(node, key->range);
-    case SCHEMA_AXES:
-      return check_axes(node);
+    case SCHEMA_WORDS:
+      return check_words(node, key);
     case SCHEMA_CURVE:
       return check_curve(node);
   }
@@ -266,8 +286,6 @@ static corot_status apply_given(config *tree, config_node *map, const char *path
     if (!key) return unknown_key(c, path);
     if (config_is_null(c))
       config_remove(c);
-    else if (key->status == SCHEMA_NOT_YET)
-      return config_fail_key(c, "not yet supported");
     else
       COROT_TRY(apply_value(tree, c, key));
   }

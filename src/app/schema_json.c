@@ -18,6 +18,9 @@ static json_t *ranged(const char *type, schema_range range) {
     case SCHEMA_FRACTION:
       return json_text_with(json_text_with(s, "exclusiveMinimum", json_integer(0)),
                             "exclusiveMaximum", json_integer(1));
+    case SCHEMA_UNIT:
+      return json_text_with(json_text_with(s, "minimum", json_integer(0)), "maximum",
+                            json_integer(1));
     case SCHEMA_ORDER:
       return json_text_with(json_text_with(s, "minimum", json_integer(1)), "maximum",
                             json_integer(5));
@@ -69,6 +72,9 @@ static json_t *value_schema(const schema_key *key) {
     case SCHEMA_MAPS:
       return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
                        list_schema(map_schema(inside), 1, 0));
+    case SCHEMA_SHORT:
+      return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
+                       value_schema(schema_child(inside, NULL)));
     case SCHEMA_TEXT:
       return of_type("string");
     case SCHEMA_CHOICE:
@@ -83,8 +89,8 @@ static json_t *value_schema(const schema_key *key) {
       return list_schema(ranged("integer", key->range), 3, 3);
     case SCHEMA_INTEGERS:
       return list_schema(ranged("integer", key->range), 1, 0);
-    case SCHEMA_AXES:
-      return json_text_with(list_schema(json_pack("{s:o}", "enum", words_list(key->words)), 1, 3),
+    case SCHEMA_WORDS:
+      return json_text_with(list_schema(json_pack("{s:o}", "enum", words_list(key->words)), 1, 0),
                             "uniqueItems", json_true());
     case SCHEMA_CURVE:
       return list_schema(list_schema(of_type("number"), 2, 2), 1, 0);
@@ -100,12 +106,7 @@ static json_t *default_value(const char *text) {
 }
 
 static json_t *key_schema(const schema_key *key) {
-  bool refused = key->status == SCHEMA_NOT_YET;
-  json_t *s = refused ? json_pack("{s:{}}", "not") : value_schema(key);
-  if (refused)
-    s = json_text_with(s, "description", json_sprintf("%s (not yet supported)", key->doc));
-  else
-    s = json_text_with(s, "description", json_string(key->doc));
+  json_t *s = json_text_with(value_schema(key), "description", json_string(key->doc));
   if (*key->unit) s = json_text_with(s, "unit", json_string(key->unit));
   if (key->fallback) s = json_text_with(s, "default", default_value(key->fallback));
   return s;

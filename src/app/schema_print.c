@@ -14,6 +14,8 @@ static const char *type_words(schema_type type) {
       return "list of maps";
     case SCHEMA_MAPS:
       return "map or list";
+    case SCHEMA_SHORT:
+      return "map or value";
     case SCHEMA_TEXT:
       return "text";
     case SCHEMA_CHOICE:
@@ -28,8 +30,8 @@ static const char *type_words(schema_type type) {
       return "3 integers";
     case SCHEMA_INTEGERS:
       return "integers";
-    case SCHEMA_AXES:
-      return "list of axes";
+    case SCHEMA_WORDS:
+      return "list of words";
     case SCHEMA_CURVE:
       return "list of pairs";
   }
@@ -42,8 +44,6 @@ static const char *default_words(const schema_key *key) {
       return "required";
     case SCHEMA_ONE_OF:
       return "one of";
-    case SCHEMA_NOT_YET:
-      return "not yet";
     default:
       return key->fallback && key->type != SCHEMA_MAP ? key->fallback : "-";
   }

@@ -63,6 +63,7 @@ static json_t *resolve_value(const config_node *node, const schema_key *key) {
       key->type == SCHEMA_INTEGER || key->type == SCHEMA_INTEGERS || key->type == SCHEMA_COUNTS;
   switch (key->type) {
     case SCHEMA_MAP:
+    case SCHEMA_SHORT:
       return resolve_map(node, inside);
     case SCHEMA_NAMED:
       return named(node, inside);
@@ -72,7 +73,7 @@ static json_t *resolve_value(const config_node *node, const schema_key *key) {
     case SCHEMA_TEXT:
     case SCHEMA_CHOICE:
       return json_string(node->text);
-    case SCHEMA_AXES:
+    case SCHEMA_WORDS:
       return texts(node);
     case SCHEMA_NUMBER:
     case SCHEMA_INTEGER:

@@ -78,8 +78,9 @@ static corot_status end_row(table *t) {
   return status;
 }
 
-/* NAME.ux as a cell: in quotes, with quotes doubled, where the name would break the table. */
-static void add_probe_title(table *t, const char *name, const char *component) {
+/* NAME.COMPONENT as a cell: in quotes, with quotes doubled, where the name would break the table.
+ */
+static void add_title(table *t, const char *name, const char *component) {
   bool quote = strpbrk(name, ",\"\r\n") != NULL;
   char *c = t->row + t->length;
   if (quote) *c++ = '"';
@@ -93,17 +94,22 @@ static void add_probe_title(table *t, const char *name, const char *component) {
   t->length = (size_t)(c - t->row);
 }
 
-corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **out) {
-  size_t capacity = CELL + 3 * CELL * (size_t)nprobe;
-  for (int i = 0; i < nprobe; i++) capacity += 3 * 2 * strlen(name[i]);
+/* For t and three cells a name, be they numbers or titles. */
+static size_t room_for(int n, const char *const *name) {
+  size_t capacity = CELL + 3 * CELL * (size_t)n;
+  for (int i = 0; i < n; i++) capacity += 3 * 2 * strlen(name[i]);
+  return capacity;
+}
+
+/* Opens a table of t and three columns for each name. */
+static corot_status open_with_names(const char *dir, const char *file, int n,
+                                    const char *const *name, const char *const component[3],
+                                    table **out) {
   table *t = NULL;
-  COROT_TRY(table_open(dir, "probes.csv", capacity, &t));
+  COROT_TRY(table_open(dir, file, room_for(n, name), &t));
   add_text(t, "t");
-  for (int i = 0; i < nprobe; i++) {
-    add_probe_title(t, name[i], "ux");
-    add_probe_title(t, name[i], "uy");
-    add_probe_title(t, name[i], "uz");
-  }
+  for (int i = 0; i < n; i++)
+    for (int c = 0; c < 3; c++) add_title(t, name[i], component[c]);
   corot_status status = end_row(t);
   if (status != COROT_OK) {
     table_close(t);
@@ -113,12 +119,40 @@ corot_status probes_open(const char *dir, int nprobe, const char *const *name, t
   return COROT_OK;
 }
 
+corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **probes) {
+  static const char *const component[] = {"ux", "uy", "uz"};
+  return open_with_names(dir, "probes.csv", nprobe, name, component, probes);
+}
+
 corot_status probes_row(table *probes, double t, int nprobe, const int *node,
                         const double (*displacement)[3]) {
   add_number(probes, t);
   for (int i = 0; i < nprobe; i++)
     for (int c = 0; c < 3; c++) add_number(probes, displacement[node[i]][c]);
   return end_row(probes);
+}
+
+corot_status compare_open(const char *dir, int nmeasure, const char *const *measure,
+                          table **compare) {
+  static const char *const part[] = {"total", "pressure", "shear"};
+  return open_with_names(dir, "compare.csv", nmeasure, measure, part, compare);
+}
+
+static void add_if_number(table *t, double x) {
+  if (x == x)
+    add_number(t, x);
+  else
+    add_text(t, "");
+}
+
+corot_status compare_row(table *compare, double t, int nmeasure, const force_error *error) {
+  add_number(compare, t);
+  for (int i = 0; i < nmeasure; i++) {
+    add_if_number(compare, error[i].total);
+    add_if_number(compare, error[i].pressure);
+    add_if_number(compare, error[i].shear);
+  }
+  return end_row(compare);
 }
 
 /* Opens a table whose header is known beforehand. */
@@ -158,8 +192,15 @@ corot_status energy_row(table *energy, const ledger *row) {
 
 corot_status steps_open(const char *dir, table **steps) {
   return open_with_header(dir, "steps.csv",
-                          "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy", steps);
+                          "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy,reason",
+                          steps);
 }
+
+const char *const frame_reason_words[FRAME_REASONS] = {
+    [COROT_FRAMES_BY_STEP] = "step",   [COROT_FRAMES_BY_INTERVAL] = "interval",
+    [COROT_FRAMES_BY_ANGLE] = "angle", [COROT_FRAMES_BY_CAP] = "cap",
+    [COROT_FRAMES_BY_HOOK] = "hook",
+};
 
 static void add_events(table *t, unsigned events) {
   static const char *const word[] = {"kink", "frames", "restart", "failed"};
@@ -180,11 +221,12 @@ corot_status steps_add(table *steps, const step_row *row) {
   add_integer(steps, row->newton);
   add_events(steps, row->events);
   if (row->events & EVENT_FRAMES) {
-    add_number(steps, row->angle_max);
-    add_number(steps, row->angle_mean);
-    add_number(steps, row->frame_energy);
+    add_number(steps, row->update.change.angle_max);
+    add_number(steps, row->update.change.angle_mean);
+    add_number(steps, row->update.change.energy);
+    add_text(steps, frame_reason_words[row->update.reason]);
   } else {
-    for (int i = 0; i < 3; i++) add_text(steps, "");
+    for (int i = 0; i < 4; i++) add_text(steps, "");
   }
   return end_row(steps);
 }

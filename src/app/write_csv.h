@@ -7,7 +7,7 @@
 #ifndef COROT_APP_WRITE_CSV_H
 #define COROT_APP_WRITE_CSV_H
 
-#include <corot/base.h>
+#include <corot/integrate.h>
 
 typedef struct table table;
 
@@ -51,12 +51,15 @@ corot_status energy_row(table *energy, const ledger *row);
      error          estimated local error over the tolerance
      newton         nonlinear iterations
      event          what happened at t, after the step: nothing (empty), or words joined by '+':
-                      kink      an amplitude has a corner there
-                      frames    the held frames were updated
+                      kink      an amplitude has a corner there, or a motion begins or stops
+                                (there, or within a step of constant length)
+                      frames    the held or extrapolated frames were updated
                       restart   the integrator dropped its history
                       failed    the update failed, and the run ended
      angle_max, angle_mean       largest and mean turn of a frame in that update [rad]
-     frame_energy   elastic energy that update put in [J]; the last three are empty without one */
+     frame_energy   elastic energy that update put in [J]
+     reason         of the update: step, interval, angle, cap (as far as an extrapolation may
+                    go) or hook; the last four are empty without one */
 
 enum { EVENT_KINK = 1, EVENT_FRAMES = 2, EVENT_RESTART = 4, EVENT_FAILED = 8 };
 
@@ -65,12 +68,34 @@ typedef struct step_row {
   int order;
   double error;
   int newton;
-  unsigned events;                            /* a sum of EVENT_s */
-  double angle_max, angle_mean, frame_energy; /* read where events has EVENT_FRAMES */
+  unsigned events;          /* a sum of EVENT_s */
+  corot_frame_event update; /* read where events has EVENT_FRAMES */
 } step_row;
+
+/* The word for each reason, by its number; NULL for none. */
+extern const char *const frame_reason_words[];
+enum { FRAME_REASONS = COROT_FRAMES_BY_HOOK + 1 };
 
 corot_status steps_open(const char *dir, table **steps);
 corot_status steps_add(table *steps, const step_row *row);
+
+/* compare.csv: internal forces of strain measures against those of green, one row an output time
+
+     t           [s]
+     M.total, M.pressure, M.shear   for each measure M, with frames of its own found at t:
+                 |f_M - f_green| / |f_green|, Euclidean norm over all nodes, of the whole force, of
+                 its lambda term and of its mu term; empty where green's is zero, as at rest, or
+                 where an element is inverted */
+
+typedef struct force_error {
+  double total, pressure, shear;
+} force_error;
+
+corot_status compare_open(const char *dir, int nmeasure, const char *const *measure,
+                          table **compare);
+
+/* error: [nmeasure] */
+corot_status compare_row(table *compare, double t, int nmeasure, const force_error *error);
 
 /* Reports an error that shows up on closing. Takes NULL; the table is gone either way. */
 corot_status table_close(table *table);

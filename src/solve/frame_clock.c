@@ -31,7 +31,8 @@ static corot_status check(const corot_frame_policy *p) {
 
 /* Multiples of the interval up to t, counting one that t misses by rounding. */
 static long ticks_until(double t, double interval) {
-  return (long)floor(t / interval * (1 + 1e-12));
+  double x = t / interval;
+  return (long)floor(x + 1e-12 * fmax(1, fabs(x)));
 }
 
 /* Spin of newly found frames, and how long it may be trusted. */
@@ -49,12 +50,14 @@ static corot_status start(corot_frame_clock *c, double t, const double *u, const
   c->u = malloc(n * sizeof *c->u);
   c->v = malloc(n * sizeof *c->v);
   if (!c->u || !c->v) return corot_fail(COROT_ENOMEM, "no memory for a frame clock");
+  if (c->policy.frames != COROT_FRAMES_EXACT) {
+    for (size_t i = 0; i < n; i++) c->u[i] = u[i], c->v[i] = v[i];
+    if (c->policy.interval > 0) c->ticks = ticks_until(t, c->policy.interval);
+    COROT_TRY(corot_frames_update(c->model, c->state, t, u, NULL));
+    COROT_TRY(spin_up(c, t));
+  }
   corot_state_use(c->state, c->policy.frames);
-  if (c->policy.frames == COROT_FRAMES_EXACT) return COROT_OK;
-  for (size_t i = 0; i < n; i++) c->u[i] = u[i], c->v[i] = v[i];
-  if (c->policy.interval > 0) c->ticks = ticks_until(t, c->policy.interval);
-  COROT_TRY(corot_frames_update(c->model, c->state, t, u, NULL));
-  return spin_up(c, t);
+  return COROT_OK;
 }
 
 corot_status corot_frame_clock_create(const corot_frame_policy *policy, const corot_model *model,

@@ -17,10 +17,11 @@ typedef struct node_block {
 
 typedef struct pcg {
   const corot_csc *A;
-  const double *value;
-  double tolerance; /* of the residual, relative to the right-hand side */
+  const double *value; /* NULL: none was accepted */
+  double tolerance;    /* of the residual, relative to the right-hand side */
   long iterations;
-  double *rhs; /* [n] */
+  double curvature; /* p' A p of the last direction */
+  double *rhs;      /* [n] */
   int nblock;
   node_block *block;
   SUNContext ctx;
@@ -28,17 +29,20 @@ typedef struct pcg {
   SUNLinearSolver cg;
 } pcg;
 
+/* y = A x, and whether x is a direction in which A is positive. */
 static int multiply(void *data, N_Vector x, N_Vector y) {
-  const pcg *p = data;
+  pcg *p = data;
   const corot_csc *A = p->A;
   const double *in = N_VGetArrayPointer(x);
-  double *out = N_VGetArrayPointer(y);
+  double *out = N_VGetArrayPointer(y), curvature = 0;
   for (int j = 0; j < A->n; j++) { /* symmetric: columns are rows */
     double sum = 0;
     for (int k = A->colptr[j]; k < A->colptr[j + 1]; k++) sum += p->value[k] * in[A->row[k]];
     out[j] = sum;
+    curvature += in[j] * sum;
   }
-  return 0;
+  p->curvature = curvature;
+  return curvature > 0 ? 0 : 1;
 }
 
 static int precondition(void *data, N_Vector r, N_Vector z, sunrealtype tol, int side) {
@@ -128,22 +132,25 @@ static bool invert(int n, double a[9], double inverse[9]) {
 
 static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
   pcg *p = solver;
-  p->value = value;
+  p->value = value; /* for entry() */
   *fresh = true;
   for (int k = 0; k < p->nblock; k++) {
     node_block *b = &p->block[k];
     double a[9] = {0};
     for (int i = 0; i < b->n; i++)
       for (int j = 0; j < b->n; j++) a[3 * i + j] = entry(p, b->dof[i], b->dof[j]);
-    if (!invert(b->n, a, b->inverse))
+    if (!invert(b->n, a, b->inverse)) {
+      p->value = NULL;
       return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (unknown %d)",
                         b->dof[0]);
+    }
   }
   return COROT_OK;
 }
 
 static corot_status pcg_solve(void *solver, double *x) {
   pcg *p = solver;
+  if (!p->value) return corot_fail(COROT_EINVAL, "pcg: solve: there is no factor");
   int n = p->A->n;
   double square = 0;
   for (int i = 0; i < n; i++) square += x[i] * x[i];
@@ -156,6 +163,9 @@ static corot_status pcg_solve(void *solver, double *x) {
   int status = SUNLinSolSolve(p->cg, NULL, p->x, p->b, p->tolerance * sqrt(square));
   p->iterations += SUNLinSolNumIters(p->cg);
   if (status == 0) return COROT_OK;
+  if (!(p->curvature > 0))
+    return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (p'Sp = %.3g)",
+                      p->curvature);
   return corot_fail(COROT_RETRY, "pcg: not converged to %g in %d iterations", p->tolerance,
                     SUNLinSolNumIters(p->cg));
 }

@@ -22,7 +22,7 @@ const char *machine_cpu(void) {
   return name;
 }
 
-COROT_CLONES void triad(size_t n, vd *a, const vd *b, const vd *c, double s) {
+static COROT_CLONES void triad(size_t n, vd *a, const vd *b, const vd *c, double s) {
   for (size_t i = 0; i < n; i++) a[i] = b[i] + s * c[i];
 }
 
@@ -56,9 +56,9 @@ COROT_INLINE double chains(int n, double factor) {
   return vd_sum(sum);
 }
 
-COROT_CLONES double three_chains(double factor) { return chains(3, factor); }
-COROT_CLONES double six_chains(double factor) { return chains(6, factor); }
-COROT_CLONES double twelve_chains(double factor) { return chains(MOST_CHAINS, factor); }
+static COROT_CLONES double three_chains(double factor) { return chains(3, factor); }
+static COROT_CLONES double six_chains(double factor) { return chains(6, factor); }
+static COROT_CLONES double twelve_chains(double factor) { return chains(MOST_CHAINS, factor); }
 
 double machine_peak(void) {
   static const struct {

@@ -17,8 +17,7 @@ static void deform(solid *s) {
   for (int n = 0; n < mesh->nnode; n++) {
     const double *x = mesh->x[n];
     double angle = 0.5 * x[2], c = cos(angle), sn = sin(angle);
-    double u[3] = {c * x[0] + sn * x[2] - x[0], 1e-3 * sin(40 * x[2]),
-                   c * x[2] - sn * x[0] - x[2]};
+    double u[3] = {c * x[0] + sn * x[2] - x[0], 1e-3 * sin(40 * x[2]), c * x[2] - sn * x[0] - x[2]};
     for (int k = 0; k < 3; k++) {
       int i = dof[n][k];
       if (i < 0) continue;

@@ -8,10 +8,10 @@
 typedef struct solid {
   corot_model *model;
   corot_state *state;
-  int ntet, n;            /* tets, degrees of freedom */
-  double *y, *u, *v;      /* y = (u, v) [2n] */
-  double *ydot;           /* [2n] */
-  double *r, *du, *dv;    /* [n] */
+  int ntet, n;             /* tets, degrees of freedom */
+  double *y, *u, *v;       /* y = (u, v) [2n] */
+  double *ydot;            /* [2n] */
+  double *r, *du, *dv;     /* [n] */
   double (*K)[9], (*D)[9]; /* [corot_model_nblock()] */
 } solid;
 

@@ -15,7 +15,7 @@ json 'd["mesh"]["tets"] == 12 and d["dofs"] == 24 and abs(d["mass"] - 2) < 1e-12
 json 'd["probes"][0]["node"] == 11 and d["integrator"]["method"] == "cvode"'
 
 expect 0 check model.yaml --set integrator.rtol=1e-6 --set strain=green --resolved; no_err
-json 'd["integrator"]["rtol"] == 1e-6 and d["strain"] == "green" and d["linear_solver"] == "auto"'
+json 'd["integrator"]["rtol"] == 1e-6 and d["strain"] == "green" and d["linear_solver"]["name"] == "auto"'
 out '"rtol": 1.0e-06'
 cp stdout resolved.yaml
 expect 0 check resolved.yaml --resolved

@@ -20,9 +20,10 @@ typedef struct solid {
 
 static void zero(const solid *s, double (*a)[3]) { memset(a, 0, s->nnode * sizeof *a); }
 
-static solid make(int measure) {
+static solid make_viscous(int measure, corot_viscosity viscosity) {
   corot_model_def def = corot_model_defaults();
   def.strain = measures[measure], def.nmaterial = 1, def.material = &thick;
+  def.viscosity = viscosity;
   solid s = {.b = make_body(crooked_box(3, 3, 3), def)};
   s.nnode = s.b.mesh->nnode;
   assert_int_equal(s.b.n, 3 * s.nnode);
@@ -30,6 +31,8 @@ static solid make(int measure) {
   s.v = s.u + s.nnode, s.r = s.v + s.nnode, s.s = s.r + s.nnode;
   return s;
 }
+
+static solid make(int measure) { return make_viscous(measure, COROT_COROTATED); }
 
 static void drop(solid *s) {
   free(s->u);
@@ -276,6 +279,31 @@ static void viscous_forces_have_no_resultant(void **state) {
   }
 }
 
+/* The rate of the stretch itself is blind to rotations, and its stress has no moment. */
+static void the_objective_law_does_not_feel_rotation(void **state) {
+  (void)state;
+  static const int objective[] = {POLAR, HYBRID};
+  for (int k = 0; k < 2; k++) {
+    solid s = make_viscous(objective[k], COROT_OBJECTIVE);
+    double w[3] = {0.5, -1, 2}, force, moment;
+    corot_energies e, spinning;
+    deform(&s);
+    viscous(&s, s.r);
+    assert_above(largest(&s, s.r), 1e4);
+    resultant(&s, s.r, &force, &moment);
+    assert_below(force, 64 * rounding(2));
+    assert_below(moment, 2 * 64 * rounding(2));
+    assert_ok(corot_energy(s.b.model, s.b.state, 0, s.u[0], s.v[0], &e));
+    assert_close(e.power_dissipated, -inner(s.b.n, s.r[0], s.v[0]), 1e-12, 0);
+    spin(&s, w);
+    viscous(&s, s.r);
+    assert_below(largest(&s, s.r), 8 * rounding(2));
+    assert_ok(corot_energy(s.b.model, s.b.state, 0, s.u[0], s.v[0], &spinning));
+    assert_below(fabs(spinning.power_dissipated), 1e-14 * e.power_dissipated);
+    drop(&s);
+  }
+}
+
 /* Dissipation never supplies energy, and is the work of the viscous forces. */
 static void viscous_power_is_that_of_the_forces(void **state) {
   (void)state;
@@ -465,6 +493,7 @@ int main(void) {
       cmocka_unit_test(held_frames_leave_a_couple),
       cmocka_unit_test(viscous_forces_under_rigid_velocity),
       cmocka_unit_test(viscous_forces_have_no_resultant),
+      cmocka_unit_test(the_objective_law_does_not_feel_rotation),
       cmocka_unit_test(viscous_power_is_that_of_the_forces),
       cmocka_unit_test(an_affine_motion_is_in_equilibrium),
       cmocka_unit_test(the_derivative_of_the_elastic_force_is_symmetric),

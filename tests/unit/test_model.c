@@ -46,6 +46,8 @@ static void refuses_a_definition_without_sense(void **state) {
   refuses(&def, "no strain measure 'gren': cauchy, warp, polar, hybrid or green");
   def = plain(mesh), def.strain = NULL;
   refuses(&def, "no strain measure");
+  def = plain(mesh), def.viscosity = COROT_OBJECTIVE, def.strain = "green";
+  refuses(&def, "the objective viscous law needs a polar frame, not strain green");
   def = plain(mesh), def.nmaterial = 0;
   refuses(&def, "tet 0 has no material");
 
@@ -84,6 +86,8 @@ static void refuses_a_material_out_of_range(void **state) {
       {&m.damping_lambda, NAN, "damping_lambda"},
       {&m.damping_mu, -1e-9, "damping_mu = -1e-09"},
       {&m.damping_mu, INFINITY, "damping_mu"},
+      {&m.damping_mass, -0.5, "damping_mass = -0.5"},
+      {&m.damping_mass, NAN, "damping_mass"},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     m = soft;
@@ -404,9 +408,12 @@ static corot_status make_all(void *context) {
   double time[] = {0, 1}, value[] = {0, 1};
   corot_fix fix = {"zmin", {true, true, true}};
   corot_load load[] = {{COROT_TRACTION, "zmax", {1, 0, 0}, {2, time, value}},
-                       {COROT_GRAVITY, NULL, {0, 0, -1}, {0, NULL, NULL}}};
+                       {COROT_GRAVITY, NULL, {0, 0, -1}, {0, NULL, NULL}},
+                       {COROT_PRESSURE, "xmin", {5}, {0, NULL, NULL}}};
+  corot_motion motion = {COROT_ROTATE, "zmax", {0, 0, 1}, {0, 0, 0}, 1, {0, 0, 0}, 0, INFINITY};
   corot_model_def def = plain(mesh);
-  def.strain = "warp", def.nfix = 1, def.fix = &fix, def.nload = 2, def.load = load;
+  def.strain = "warp", def.nfix = 1, def.fix = &fix, def.nload = 3, def.load = load;
+  def.nmotion = 1, def.motion = &motion;
   corot_model *model = NULL;
   corot_state *s = NULL;
   corot_csc *full = NULL, *lower = NULL;

@@ -27,12 +27,20 @@ static void defaults(void **state) {
   assert_int_equal(i->reassembly, d.reassembly);
   assert_int_equal(i->refactorisation, d.refactorisation);
   assert_close(i->gamma_change, d.gamma_change, 0, 0);
+  assert_close(i->linear_tolerance, d.linear_tolerance, 0, 0);
+  assert_close(i->step, d.step, 0, 0);
+  assert_int_equal(i->solution, d.solution);
+  assert_close(i->newton_tolerance, d.newton_tolerance, 0, 0);
+  assert_int_equal(i->newton_iterations, d.newton_iterations);
+  assert_close(i->spectral_radius, d.spectral_radius, 0, 0);
 
   assert_string_equal(s->title, "");
   assert_string_equal(s->strain, "polar");
-  assert_int_equal(s->frame_policy, FRAMES_EXACT);
-  assert_int_equal(s->frame_history, COROT_HISTORY_AUTO);
-  assert_int_equal(s->nfix + s->nload + s->nprobe + s->ngroup, 0);
+  assert_int_equal(s->viscosity, COROT_COROTATED);
+  assert_string_equal(s->frame_policy, "exact");
+  assert_int_equal(s->frames.frames, COROT_FRAMES_EXACT);
+  assert_int_equal(s->frames.history, COROT_HISTORY_AUTO);
+  assert_int_equal(s->nfix + s->nmotion + s->nload + s->nprobe + s->ngroup + s->ncompare, 0);
   assert_close(s->t_end, 2, 0, 0);
   assert_close(s->output_step, 0.02, 0, 0);
   assert_true(s->write_fields);
@@ -51,19 +59,26 @@ static const char everything[] =
     "  base: {plane: {axis: z, at: 0.1}}\n"
     "  tip:  {box: {min: [-1, 0, 2], max: [1, 1, 3]}}\n"
     "  some: {nodes: [3, 5]}\n"
-    "material: {lambda: 1.0e+5, mu: 1e4, density: 5.E2, damping: {lambda: 3, mu: 4, mass: 0}}\n"
-    "strain: green\n"
-    "frames: {policy: hold, interval: 0.25, history: restart}\n"
+    "material: {lambda: 1.0e+5, mu: 1e4, density: 5.E2, damping: {lambda: 3, mu: 4, mass: 5}}\n"
+    "strain: hybrid\n"
+    "viscosity: objective\n"
+    "frames: {policy: hold, interval: 0.25, max_angle: 0.125, history: restart}\n"
     "boundary:\n"
     "  - {group: base, fix: [x, z]}\n"
+    "  - {group: tip, rotate: {axis: [0, 2, 0], center: [1, 2, 3], rate: -4, from: 1, to: 2}}\n"
+    "  - {group: some, translate: {velocity: [5, 6, 7], from: 3}}\n"
     "loads:\n"
     "  - {group: tip, traction: [1, 2, 3], amplitude: [[0, 0], [10, 1]]}\n"
     "  - {gravity: [0, 0, -9.81]}\n"
+    "  - {group: tip, pressure: 50}\n"
+    "  - {group: some, force: [7, 8, 9], amplitude: [[1, 2]]}\n"
     "time: {end: 4, output: 0.5}\n"
     "integrator: {method: cvode, rtol: 1e-6, atol: {displacement: 1e-7, velocity: 1e-5},\n"
     "  max_order: 5, max_steps: 1e6, first_step: 1e-3, min_step: 1e-9, max_step: 0.1,\n"
-    "  jacobian: {tangent: exact, reassembly: 3, refactorisation: 4, gamma_change: 0.5}}\n"
-    "linear_solver: klu\n"
+    "  jacobian: {tangent: exact, reassembly: 3, refactorisation: 4, gamma_change: 0.5},\n"
+    "  solution: linear, newton: {tolerance: 1e-7, iterations: 9}, spectral_radius: 0.25}\n"
+    "linear_solver: {name: pcg, tolerance: 1e-3}\n"
+    "compare: [polar, cauchy]\n"
     "probes:\n"
     "  corner: {point: [1, 2, 3]}\n"
     "  n-17_b: {node: 17}\n"
@@ -90,18 +105,47 @@ static void all_keys(void **state) {
   assert_close(s->material[0].density, 500, 0, 0);
   assert_close(s->material[0].damping_lambda, 3, 0, 0);
   assert_close(s->material[0].damping_mu, 4, 0, 0);
+  assert_close(s->material[0].damping_mass, 5, 0, 0);
   assert_null(s->material[0].group);
-  assert_int_equal(s->frame_policy, FRAMES_HOLD);
-  assert_close(s->frame_interval, 0.25, 0, 0);
-  assert_int_equal(s->frame_history, COROT_HISTORY_RESTART);
+  assert_int_equal(s->viscosity, COROT_OBJECTIVE);
+  assert_string_equal(s->frame_policy, "hold");
+  assert_int_equal(s->frames.frames, COROT_FRAMES_HELD);
+  assert_close(s->frames.interval, 0.25, 0, 0);
+  assert_close(s->frames.max_angle, 0.125, 0, 0);
+  assert_int_equal(s->frames.history, COROT_HISTORY_RESTART);
+  assert_int_equal(s->ncompare, 3);
+  assert_string_equal(s->compare[0], "polar");
+  assert_string_equal(s->compare[1], "cauchy");
+  assert_string_equal(s->compare[2], "hybrid"); /* the run's own */
+  scenario_destroy(s);
+}
+
+static void all_keys_of_boundary(void **state) {
+  (void)state;
+  scenario *s = accept(everything);
+  assert_int_equal(s->nfix, 1);
+  assert_true(s->fix[0].component[0] && !s->fix[0].component[1] && s->fix[0].component[2]);
+  assert_int_equal(s->nmotion, 2);
+  const corot_motion *m = s->motion;
+  assert_int_equal(m[0].kind, COROT_ROTATE);
+  assert_string_equal(m[0].group, "tip");
+  assert_close(m[0].axis[1], 2, 0, 0);
+  assert_close(m[0].center[2], 3, 0, 0);
+  assert_close(m[0].rate, -4, 0, 0);
+  assert_close(m[0].from, 1, 0, 0);
+  assert_close(m[0].to, 2, 0, 0);
+  assert_int_equal(m[1].kind, COROT_TRANSLATE);
+  assert_string_equal(m[1].group, "some");
+  assert_close(m[1].velocity[1], 6, 0, 0);
+  assert_close(m[1].from, 3, 0, 0);
+  assert_true(m[1].to == INFINITY);
   scenario_destroy(s);
 }
 
 static void all_keys_of_loads_and_run(void **state) {
   (void)state;
   scenario *s = accept(everything);
-  assert_true(s->fix[0].component[0] && !s->fix[0].component[1] && s->fix[0].component[2]);
-  assert_int_equal(s->nload, 2);
+  assert_int_equal(s->nload, 4);
   assert_int_equal(s->load[0].kind, COROT_TRACTION);
   assert_string_equal(s->load[0].group, "tip");
   assert_close(s->load[0].value[1], 2, 0, 0);
@@ -112,6 +156,12 @@ static void all_keys_of_loads_and_run(void **state) {
   assert_null(s->load[1].group);
   assert_close(s->load[1].value[2], -9.81, 0, 0);
   assert_int_equal(s->load[1].amplitude.n, 0);
+  assert_int_equal(s->load[2].kind, COROT_PRESSURE);
+  assert_close(s->load[2].value[0], 50, 0, 0);
+  assert_int_equal(s->load[3].kind, COROT_FORCE);
+  assert_string_equal(s->load[3].group, "some");
+  assert_close(s->load[3].value[2], 9, 0, 0);
+  assert_close(s->load[3].amplitude.value[0], 2, 0, 0);
   corot_integrator_def *i = &s->integrator;
   assert_close(i->rtol, 1e-6, 0, 0);
   assert_close(i->atol_displacement, 1e-7, 0, 0);
@@ -121,13 +171,57 @@ static void all_keys_of_loads_and_run(void **state) {
   assert_close(i->min_step, 1e-9, 0, 0);
   assert_int_equal(i->tangent, COROT_TANGENT_EXACT);
   assert_int_equal(i->refactorisation, 4);
-  assert_string_equal(i->linear_solver, "klu");
+  assert_int_equal(i->solution, COROT_SOLUTION_LINEAR);
+  assert_close(i->newton_tolerance, 1e-7, 0, 0);
+  assert_int_equal(i->newton_iterations, 9);
+  assert_close(i->spectral_radius, 0.25, 0, 0);
+  assert_string_equal(i->linear_solver, "pcg");
+  assert_close(i->linear_tolerance, 1e-3, 0, 0);
   assert_int_equal(s->probe[0].node, -1);
   assert_close(s->probe[0].point[1], 2, 0, 0);
   assert_string_equal(s->probe[1].name, "n-17_b");
   assert_int_equal(s->probe[1].node, 17);
   assert_false(s->write_fields);
   assert_int_equal(s->field_every, 7);
+  scenario_destroy(s);
+}
+
+static void frame_policies(void **state) {
+  (void)state;
+  scenario *s = accept(MINIMAL "frames: {policy: step, history: keep}\n");
+  assert_int_equal(s->frames.frames, COROT_FRAMES_HELD);
+  assert_true(s->frames.every_step);
+  assert_int_equal(s->frames.history, COROT_HISTORY_KEEP);
+  scenario_destroy(s);
+  s = accept(MINIMAL "frames: {policy: extrapolate, max_angle: 0.5}\n");
+  assert_int_equal(s->frames.frames, COROT_FRAMES_EXTRAPOLATED);
+  assert_close(s->frames.max_angle, 0.5, 0, 0);
+  assert_close(s->frames.interval, 0, 0, 0);
+  assert_false(s->frames.every_step);
+  scenario_destroy(s);
+}
+
+static void methods_of_constant_step(void **state) {
+  (void)state;
+  static const char *const method[] = {
+      "backward-euler", "bdf2", "bdf3", "midpoint", "newmark", "hht", "generalized-alpha"};
+  for (int k = 0; k < 7; k++) {
+    char text[512];
+    snprintf(text, sizeof text, MINIMAL "integrator: {method: %s, step: 0.25}\n", method[k]);
+    scenario *s = accept(text);
+    assert_string_equal(s->integrator.method, method[k]);
+    assert_close(s->integrator.step, 0.25, 0, 0);
+    scenario_destroy(s);
+  }
+}
+
+static void comparisons(void **state) {
+  (void)state;
+  scenario *s = accept(MINIMAL "compare: [polar, warp]\n");
+  assert_int_equal(s->ncompare, 2); /* the run's own is there already */
+  scenario_destroy(s);
+  s = accept(MINIMAL "compare: [cauchy]\nstrain: green\n");
+  assert_int_equal(s->ncompare, 1); /* green is what the others are compared with */
   scenario_destroy(s);
 }
 
@@ -239,10 +333,15 @@ static void overrides(void **state) {
   assert_string_equal(s->title, "");
   scenario_destroy(s);
   assert_ok(override(everything, "frames=null", &s));
-  assert_int_equal(s->frame_policy, FRAMES_EXACT);
+  assert_string_equal(s->frame_policy, "exact");
   scenario_destroy(s);
   assert_ok(override(everything, "frames.policy=exact", &s)); /* an interval may be left there */
-  assert_int_equal(s->frame_policy, FRAMES_EXACT);
+  assert_string_equal(s->frame_policy, "exact");
+  assert_close(s->frames.interval, 0, 0, 0);
+  scenario_destroy(s);
+  assert_ok(override(everything, "linear_solver=klu", &s));
+  assert_string_equal(s->integrator.linear_solver, "klu");
+  assert_close(s->integrator.linear_tolerance, 1e-10, 0, 0);
   scenario_destroy(s);
 }
 
@@ -267,8 +366,8 @@ static void bad_overrides(void **state) {
       {"integrator.rtol", "--set integrator.rtol: expected KEY=VALUE"},
       {"=1", "--set =1: expected KEY=VALUE"},
       {"a..b=1", "--set a..b=1: a key is empty"},
-      {"loads.2.traction=[1, 0, 0]",
-       "loads is a list of 2; \"2\" is no entry of it, they are numbered"},
+      {"loads.4.traction=[1, 0, 0]",
+       "loads is a list of 4; \"4\" is no entry of it, they are numbered"},
       {"loads.-1.traction=1", "\"-1\" is no entry"},
       {"loads.x=1", "\"x\" is no entry"},
       {"strain.x=1", "--set strain.x=1: strain is a single value, not a map"},
@@ -321,12 +420,16 @@ static void resolved_values(void **state) {
       "{\"title\":\"\",\"mesh\":{\"box\":{\"size\":[1.0,1.0,2.0],\"cells\":[1,1,2],\"origin\":[0.0,"
       "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0},\"groups\":{},\"material\":{\"lambda\":100000.0,"
       "\"mu\":10000.0,\"density\":1000.0,\"damping\":{\"lambda\":0.0,\"mu\":0.0,\"mass\":0.0}},"
-      "\"strain\":\"polar\",\"frames\":{\"policy\":\"exact\",\"history\":\"auto\"},\"boundary\":[],"
+      "\"strain\":\"polar\",\"viscosity\":\"corotated\",\"frames\":{\"policy\":\"exact\","
+      "\"history\":\"auto\"},\"boundary\":[],"
       "\"loads\":[],\"time\":{\"end\":2.0,\"output\":0.02},\"integrator\":{\"method\":\"cvode\","
+      "\"solution\":\"newton\",\"newton\":{\"tolerance\":1e-9,\"iterations\":50},"
+      "\"spectral_radius\":0.8,"
       "\"rtol\":0.0001,\"atol\":{\"displacement\":\"auto\",\"velocity\":\"auto\"},\"max_order\":"
       "\"auto\",\"max_steps\":\"none\",\"first_step\":\"auto\",\"min_step\":\"none\",\"max_step\":"
       "\"none\",\"jacobian\":{\"tangent\":\"held\",\"reassembly\":20,\"refactorisation\":20,"
-      "\"gamma_change\":0.3}},\"linear_solver\":\"auto\",\"probes\":{},\"output\":{\"fields\":"
+      "\"gamma_change\":0.3}},\"linear_solver\":{\"name\":\"auto\",\"tolerance\":1e-10},"
+      "\"probes\":{},\"output\":{\"fields\":"
       "\"vtu\",\"every\":1}}");
   free(text);
   json_decref(r);
@@ -385,6 +488,26 @@ static void builds(void **state) {
   corot_mesh_destroy(mesh);
 }
 
+static void builds_motions_and_loads(void **state) {
+  (void)state;
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL;
+  build(MINIMAL
+        "boundary:\n"
+        "- {group: zmin, rotate: {axis: [0, 0, 1], rate: 1, to: 0.5}}\n"
+        "- {group: zmin, rotate: {axis: [0, 0, 2], rate: -1, from: 0.5}}\n"
+        "- {group: zmax, fix: [z]}\n"
+        "loads: [{group: zmax, pressure: 1}, {group: xmin, force: [0, 0, 1]}]\n"
+        "viscosity: objective\n",
+        &mesh, &model);
+  double kink[4];
+  assert_int_equal(corot_model_ndof(model), 36 - 12 - 4);
+  assert_int_equal(corot_model_kinks(model, 0, 2, 4, kink), 1);
+  assert_close(kink[0], 0.5, 0, 0);
+  corot_model_destroy(model);
+  corot_mesh_destroy(mesh);
+}
+
 static void build_refusals(void **state) {
   (void)state;
   write_file(BINARY_DIR "/garbage.msh", "garbage\n", 8);
@@ -407,6 +530,23 @@ static void build_refusals(void **state) {
       {MESH TIME "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 1]}}}\n"
                  "material: [{group: a, mu: 1, nu: 0, density: 1}]",
        "4:1: material: "},
+      {MINIMAL "groups: {a: {nodes: [1]}}\nloads: [{group: a, pressure: 1}]",
+       "5:17: loads[0].group: a has no faces for a pressure to act on (1 nodes, 0 tets)"},
+      {MINIMAL "boundary:\n- {group: zmin, fix: [x]}\n- {group: xmin, rotate: {axis: [0, 0, 1], "
+               "rate: 1}}",
+       "6:11: boundary[1].group: node 0 of xmin cannot be moved: it is in zmin, too, which "
+       "boundary[0] fixes"},
+      {MINIMAL "boundary:\n- {group: zmin, translate: {velocity: [0, 0, 1]}}\n"
+               "- {group: zmin, fix: [y]}",
+       "6:11: boundary[1].group: node 0 of zmin cannot be fixed: it is in zmin, too, which "
+       "boundary[0] moves"},
+      {MINIMAL "boundary:\n- {group: zmin, translate: {velocity: [0, 0, 1]}}\n"
+               "- {group: xmax, translate: {velocity: [0, 0, 1]}}",
+       "6:11: boundary[1].group: node 1 of xmax cannot be moved: it is in zmin, too, which "
+       "boundary[0] moves"},
+      {MINIMAL "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 2]}}}\n"
+               "boundary: [{group: a, fix: [x, y]}, {group: a, fix: [z]}]",
+       "5:1: boundary: all components of all 12 nodes are held: nothing can move"},
       {MINIMAL "probes: {a: {node: 12}}", "4:20: probes.a.node: the mesh has 12 nodes"},
   };
   for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
@@ -502,6 +642,10 @@ int main(void) {
       cmocka_unit_test(defaults),
       cmocka_unit_test(all_keys),
       cmocka_unit_test(all_keys_of_loads_and_run),
+      cmocka_unit_test(all_keys_of_boundary),
+      cmocka_unit_test(frame_policies),
+      cmocka_unit_test(methods_of_constant_step),
+      cmocka_unit_test(comparisons),
       cmocka_unit_test(material_forms),
       cmocka_unit_test(yaml_features),
       cmocka_unit_test(json_files),
@@ -513,6 +657,7 @@ int main(void) {
       cmocka_unit_test(resolved_values),
       cmocka_unit_test(numbers_as_text),
       cmocka_unit_test(builds),
+      cmocka_unit_test(builds_motions_and_loads),
       cmocka_unit_test(build_refusals),
       cmocka_unit_test(failed_allocations),
       cmocka_unit_test(schema_is_sound),

@@ -59,8 +59,10 @@ static void wrong_types(void **state) {
       {MINIMAL "groups: {a: {nodes: []}}",
        "4:21: groups.a.nodes: expected a list of whole numbers"},
       {MINIMAL "groups: {a: {nodes: [-1]}}", "4:22: groups.a.nodes[0]: must be >= 0, found -1"},
-      {MINIMAL "boundary: [{group: a, fix: x}]", "4:28: boundary[0].fix: expected a list of axes"},
-      {MINIMAL "boundary: [{group: a, fix: [w]}]", "4:29: boundary[0].fix[0]: expected x, y or z"},
+      {MINIMAL "boundary: [{group: a, fix: x}]",
+       "4:28: boundary[0].fix: expected a list of words, such as [x, y, z], found x"},
+      {MINIMAL "boundary: [{group: a, fix: [w]}]",
+       "4:29: boundary[0].fix[0]: expected one of x, y, z; found w"},
       {MINIMAL "boundary: [{group: a, fix: [x, x]}]", "4:32: boundary[0].fix[1]: x is given twice"},
       {MINIMAL "strain: [polar]",
        "4:9: strain: expected cauchy, green, polar, warp, hybrid, found"},
@@ -84,6 +86,31 @@ static void out_of_range(void **state) {
       {MINIMAL "integrator: {max_steps: 0}", "4:25: integrator.max_steps: must be > 0"},
       {MINIMAL "integrator: {min_step: 2, max_step: 1}",
        "4:24: integrator.min_step: larger than max_step"},
+      {MINIMAL "integrator: {method: bdf2, step: 0}", "4:34: integrator.step: must be > 0, found"},
+      {MINIMAL "integrator: {method: newmark, step: -1}", "4:37: integrator.step: must be > 0"},
+      {MINIMAL "integrator: {newton: {tolerance: 0}}",
+       "4:34: integrator.newton.tolerance: must be > 0"},
+      {MINIMAL "integrator: {spectral_radius: 1.5}",
+       "4:31: integrator.spectral_radius: must be 0 to 1, found 1.5"},
+      {MINIMAL "linear_solver: {tolerance: 1}",
+       "4:28: linear_solver.tolerance: must be > 0, < 1, found 1"},
+      {MINIMAL "frames: {policy: hold, interval: 0}",
+       "4:34: frames.interval: must be > 0, found 0"},
+      {MINIMAL "frames: {policy: hold, interval: -0.5}",
+       "4:34: frames.interval: must be > 0, found -0.5"},
+      {MINIMAL "frames: {policy: hold, max_angle: 0}", "4:35: frames.max_angle: must be > 0"},
+      {MINIMAL "frames: {policy: extrapolate, max_angle: -1}",
+       "4:42: frames.max_angle: must be > 0, found -1"},
+      {MINIMAL "boundary: [{group: a, rotate: {axis: [0, 0, 0], rate: 1}}]",
+       "4:38: boundary[0].rotate.axis: [0, 0, 0] has no direction"},
+      {MINIMAL "boundary: [{group: a, rotate: {axis: [0, 0, 1], rate: 1, from: -1}}]",
+       "4:64: boundary[0].rotate.from: must be >= 0"},
+      {MINIMAL "boundary: [{group: a, rotate: {axis: [0, 0, 1], rate: 1, to: never}}]",
+       "4:62: boundary[0].rotate.to: expected a number or end, found never"},
+      {MINIMAL "boundary: [{group: a, translate: {velocity: [0, 0, 1], from: 2, to: 2}}]",
+       "4:69: boundary[0].translate.to: must be later than from, 2 s"},
+      {MESH TIME "material: {mu: 1, nu: 0, density: 1, damping: {mass: -1}}",
+       "3:54: material.damping.mass: must be >= 0"},
       {MINIMAL "integrator: {first_step: 2, max_step: 1}",
        "4:26: integrator.first_step: larger than max_step"},
       {MESH MATERIAL "time: {end: 0}", "3:13: time.end: must be > 0, found 0"},
@@ -115,7 +142,8 @@ static void out_of_range(void **state) {
   };
   for (size_t i = 0; i + 1 < sizeof r / sizeof *r; i++) refuse(r[i].text, r[i].message);
   scenario *s = NULL;
-  assert_fails(read_as(FILE_NAME, r[24].text, &s), COROT_EFORMAT, r[24].message);
+  const refusal *last = &r[sizeof r / sizeof *r - 1];
+  assert_fails(read_as(FILE_NAME, last->text, &s), COROT_EFORMAT, last->message);
 }
 
 static void keys_together(void **state) {
@@ -140,13 +168,49 @@ static void keys_together(void **state) {
       {MESH TIME
        "material:\n- {group: a, mu: 1, nu: 0, density: 1}\n- {group: a, mu: 1, nu: 0, density: 1}",
        "5:11: material[1].group: a has a material already"},
-      {MINIMAL "frames: {policy: hold}", "4:18: frames.policy: hold needs frames.interval"},
+      {MINIMAL "frames: {policy: hold}",
+       "4:18: frames.policy: hold needs frames.interval or frames.max_angle"},
+      {MINIMAL "frames: {policy: extrapolate}",
+       "4:18: frames.policy: extrapolate needs frames.interval or frames.max_angle"},
+      {MINIMAL "frames: {policy: step, interval: 1}",
+       "4:24: frames.interval: has no effect with policy: step"},
+      {MINIMAL "frames: {policy: step, max_angle: 1}",
+       "4:24: frames.max_angle: has no effect with policy: step"},
       {MINIMAL "frames: {interval: 1}",
-       "4:10: frames.interval: has an effect with policy: hold only"},
+       "4:10: frames.interval: has an effect with policy: hold or extrapolate only"},
+      {MINIMAL "frames: {max_angle: 0.1}",
+       "4:10: frames.max_angle: has an effect with policy: hold or extrapolate only"},
+      {MINIMAL "viscosity: objective\nstrain: green",
+       "4:12: viscosity: objective needs strain: polar or hybrid, not green"},
+      {MINIMAL "integrator: {method: newmark}",
+       "4:22: integrator.method: newmark needs integrator.step"},
+      {MINIMAL "integrator: {step: 0.1}", "4:14: integrator.step: cvode chooses its own steps"},
+      {MINIMAL "integrator: {method: hht, step: 0.1, spectral_radius: 0.4}",
+       "4:55: integrator.spectral_radius: must be 0.5 to 1 for hht, found 0.4"},
+      {MINIMAL "linear_solver: klo", "4:16: linear_solver.name: unknown: klo; did you mean klu?"},
+      {MINIMAL "linear_solver: [klu]", "4:16: linear_solver: expected a map, found a list of 1"},
+      {MINIMAL "compare: [green]",
+       "4:11: compare[0]: expected one of cauchy, warp, polar, hybrid; found green"},
+      {MINIMAL "compare: [warp, warp]", "4:17: compare[1]: warp is given twice"},
+      {MINIMAL "compare: warp", "4:10: compare: expected a list of words, such as [cauchy, warp,"},
+      {MINIMAL "boundary: [{group: a, rotate: {rate: 1}}]",
+       "4:23: boundary[0].rotate: axis is missing"},
+      {MINIMAL "boundary: [{group: a, rotate: {axis: [0, 0, 1]}}]",
+       "4:23: boundary[0].rotate: rate is missing"},
+      {MINIMAL "boundary: [{group: a, translate: {}}]",
+       "4:23: boundary[0].translate: velocity is missing"},
+      {MINIMAL "boundary: [{group: a, fix: [x], translate: {velocity: [0, 0, 1]}}]",
+       "4:33: boundary[0].translate: fix and translate exclude each other"},
       {MINIMAL "boundary: [{fix: [x]}]", "4:12: boundary[0]: group is missing"},
-      {MINIMAL "boundary: [{group: a}]", "4:12: boundary[0]: fix is missing"},
-      {MINIMAL "loads: [{group: a}]", "4:9: loads[0]: traction or gravity is missing"},
+      {MINIMAL "boundary: [{group: a}]",
+       "4:12: boundary[0]: fix or rotate or translate is missing"},
+      {MINIMAL "loads: [{group: a}]",
+       "4:9: loads[0]: traction or gravity or pressure or force is missing"},
       {MINIMAL "loads: [{traction: [0, 0, 1]}]", "4:9: loads[0]: group is missing"},
+      {MINIMAL "loads: [{pressure: 1}]",
+       "4:9: loads[0]: group is missing, on which the pressure acts"},
+      {MINIMAL "loads: [{force: [0, 0, 1]}]",
+       "4:9: loads[0]: group is missing, on which the force acts"},
       {MINIMAL "loads: [{group: a, gravity: [0, 0, 1]}]", "4:10: loads[0].group: gravity acts on"},
       {MINIMAL "loads: [{traction: [0, 0, 1], gravity: [0, 0, 1]}]",
        "4:31: loads[0].gravity: traction and gravity exclude each other"},
@@ -158,26 +222,36 @@ static void keys_together(void **state) {
   refuse_all(sizeof r / sizeof *r, r);
 }
 
+/* Motions of one group follow one another. */
+static void motions_together(void **state) {
+  (void)state;
+#define FIRST \
+  MINIMAL "boundary:\n- {group: a, rotate: {axis: [0, 0, 1], rate: 1, from: 1, to: 2}}\n"
+  static const refusal r[] = {
+      {FIRST "- {group: a, rotate: {axis: [0, 0, 1], rate: 1, from: 1.5}}",
+       "6:22: boundary[1].rotate: a is moving already, from t = 1 s to t = 2 s"},
+      {FIRST "- {group: a, rotate: {axis: [0, 0, 1], rate: 1, to: 1.5}}",
+       "6:22: boundary[1].rotate: a is moving already, from t = 1 s to t = 2 s"},
+      {FIRST "- {group: a, rotate: {axis: [0, 1, 0], rate: 1, from: 2}}",
+       "6:22: boundary[1].rotate: does not continue the other motion of a: it has to turn about"},
+      {FIRST "- {group: a, rotate: {axis: [0, 0, 1], center: [1, 0, 0], rate: 1, from: 2}}",
+       "6:22: boundary[1].rotate: does not continue the other motion of a"},
+      {FIRST "- {group: a, translate: {velocity: [0, 1, 0], from: 2}}",
+       "6:25: boundary[1].translate: does not continue the other motion of a: it has to turn"},
+  };
+#undef FIRST
+  refuse_all(sizeof r / sizeof *r, r);
+}
+
 static void not_yet(void **state) {
   (void)state;
   static const refusal r[] = {
       {"mesh: {file: a.msh, refine: 1}\n" MATERIAL TIME,
        "1:29: mesh.refine: 1 is not yet supported; only 0 is"},
-      {MINIMAL "boundary: [{group: a, rotate: {rate: 1}}]",
-       "4:23: boundary[0].rotate: not yet supported"},
-      {MINIMAL "boundary: [{group: a, translate: {}}]", "boundary[0].translate: not yet supported"},
-      {MINIMAL "loads: [{group: a, pressure: 50}]", "4:20: loads[0].pressure: not yet supported"},
-      {MINIMAL "loads: [{group: a, force: [0, 0, 1]}]", "4:20: loads[0].force: not yet supported"},
-      {MINIMAL "frames: {policy: step}",
-       "4:18: frames.policy: step is not yet supported; for now: exact, hold"},
-      {MINIMAL "frames: {policy: extrapolate}", "4:18: frames.policy: extrapolate is not yet"},
-      {MINIMAL "frames: {max_angle: 0.1}", "4:10: frames.max_angle: not yet supported"},
-      {MESH TIME "material: {mu: 1, nu: 0, density: 1, damping: {mass: 0.5}}",
-       "3:54: material.damping.mass: 0.5 is not yet supported; only 0 is"},
       {MINIMAL "integrator: {method: ida}", "4:22: integrator.method: ida is not yet supported"},
-      {MINIMAL "integrator: {method: newmark}", "4:22: integrator.method: newmark is not yet"},
-      {MINIMAL "integrator: {step: 0.1}", "4:14: integrator.step: not yet supported"},
-      {MINIMAL "linear_solver: pcg", "4:16: linear_solver: pcg is not yet supported"},
+      {MINIMAL "integrator: {method: arkode}",
+       "4:22: integrator.method: arkode is not yet supported; for now: cvode, backward-euler, "
+       "bdf2, bdf3, midpoint, newmark, hht, generalized-alpha"},
   };
   for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
     scenario *s = NULL;
@@ -268,10 +342,11 @@ static void excerpts(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(unknown_keys), cmocka_unit_test(wrong_types),
-      cmocka_unit_test(out_of_range), cmocka_unit_test(keys_together),
-      cmocka_unit_test(not_yet),      cmocka_unit_test(malformed),
-      cmocka_unit_test(hostile),      cmocka_unit_test(excerpts),
+      cmocka_unit_test(unknown_keys),     cmocka_unit_test(wrong_types),
+      cmocka_unit_test(out_of_range),     cmocka_unit_test(keys_together),
+      cmocka_unit_test(motions_together), cmocka_unit_test(not_yet),
+      cmocka_unit_test(malformed),        cmocka_unit_test(hostile),
+      cmocka_unit_test(excerpts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,17 +121,29 @@ static void steps_name_what_happened(void **state) {
                    .order = 1,
                    .error = 0.5,
                    .newton = 1,
-                   .angle_max = 0.5,
-                   .angle_mean = 0.125,
-                   .frame_energy = -1,
+                   .update = {.reason = COROT_FRAMES_BY_CAP,
+                              .change = {.angle_max = 0.5, .angle_mean = 0.125, .energy = -1}},
                    .events = EVENT_KINK | EVENT_FRAMES | EVENT_RESTART};
   assert_ok(steps_add(t, &row));
   assert_ok(table_close(t));
   assert_file(in(dir, "steps.csv"),
-              "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy\n"
-              "1,0.5,2,0.25,3,,,,\n"
-              "1,0.5,2,0.25,3,kink,,,\n"
-              "2,1,1,0.5,1,kink+frames+restart,0.5,0.125,-1\n");
+              "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy,reason\n"
+              "1,0.5,2,0.25,3,,,,,\n"
+              "1,0.5,2,0.25,3,kink,,,,\n"
+              "2,1,1,0.5,1,kink+frames+restart,0.5,0.125,-1,cap\n");
+  remove_folder(dir);
+}
+
+static void comparisons_have_three_columns_a_measure(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  table *t = NULL;
+  assert_ok(compare_open(dir, 2, (const char *const[]){"warp", "polar"}, &t));
+  assert_ok(compare_row(t, 0, 2, (const force_error[]){{NAN, NAN, NAN}, {0, 0.5, -NAN}}));
+  assert_ok(table_close(t));
+  assert_file(in(dir, "compare.csv"),
+              "t,warp.total,warp.pressure,warp.shear,polar.total,polar.pressure,polar.shear\n"
+              "0,,,,0,0.5,\n");
   remove_folder(dir);
 }
 
@@ -277,39 +289,39 @@ static void outputs_are_due_once_each(void **state) {
   assert_int_equal(n, 2);
 }
 
-static void stops_are_kinks_updates_and_the_end(void **state) {
+static void stops_are_kinks_and_the_end(void **state) {
   (void)state;
-  double kink[] = {0.25, 0.3};
-  schedule s = {.end = 0.4,
-                .frame_interval = 0.1,
-                .nkink = 2,
-                .kink = kink,
-                .near = 0.4e-12,
-                .next_frames = 1};
-  const struct {
-    double t;
-    bool kink, frames;
-  } expected[] = {{0.1, false, true},
-                  {0.2, false, true},
-                  {0.25, true, false},
-                  {0.3, true, true},
-                  {0.4, false, false}};
-  for (int i = 0; i < 5; i++) {
-    double t = schedule_stop(&s);
-    assert_close(t, expected[i].t, 1e-15, 0);
-    assert_int_equal(schedule_take_kink(&s, t), expected[i].kink);
-    assert_int_equal(schedule_take_frames(&s, t), expected[i].frames);
-    assert_false(schedule_take_kink(&s, t) || schedule_take_frames(&s, t));
-  }
-  assert_close(schedule_stop(&s), 0.4, 0, 0);
+  double kink[] = {0.25, 0.3}, t;
+  schedule s = {.end = 0.4, .nkink = 2, .kink = kink, .near = 0.4e-12};
+  assert_close(schedule_stop(&s, 0.1), 0.1, 0, 0);
+  assert_close(schedule_stop(&s, INFINITY), 0.25, 0, 0);
+  assert_false(schedule_take_kink(&s, 0.2499, &t));
+  assert_true(schedule_kink_before(&s, 0.26));
+  assert_false(schedule_kink_before(&s, nextafter(0.25, 1))); /* that is the kink itself */
+  assert_true(schedule_take_kink(&s, nextafter(0.25, 0), &t));
+  assert_close(t, 0.25, 0, 0);
+  assert_false(schedule_take_kink(&s, 0.25, &t));
+  assert_close(schedule_stop(&s, INFINITY), 0.3, 0, 0);
+  assert_true(schedule_take_kink(&s, 0.35, &t));
+  assert_close(t, 0.3, 0, 0);
+  assert_false(schedule_kink_before(&s, 1));
 
-  /* The k-th update is at k * interval to the last bit. */
-  s = (schedule){.end = 1000, .frame_interval = 0.1, .near = 1e-9, .next_frames = 1};
-  for (int k = 1; k < 9999; k++) {
-    double t = schedule_stop(&s);
-    assert_close(t, k * 0.1, 0, 0);
-    assert_true(schedule_take_frames(&s, t));
-  }
+  assert_close(schedule_stop(&s, INFINITY), 0.4, 0, 0);
+  assert_close(schedule_stop(&s, nextafter(0.4, 0)), 0.4, 0, 0); /* no step of a rounding */
+  assert_false(schedule_over(&s, 0.3999));
+  assert_true(schedule_over(&s, nextafter(0.4, 0)));
+  assert_true(schedule_over(&s, 0.42));
+}
+
+/* A clock that adds up its steps misses the output times by rounding. */
+static void an_output_is_due_but_for_rounding(void **state) {
+  (void)state;
+  schedule s = {.end = 1.0, .output_step = 0.3, .near = 1e-12};
+  double t;
+  assert_true(schedule_take_output(&s, 0, &t));
+  assert_true(schedule_take_output(&s, nextafter(0.3, 0), &t));
+  assert_close(t, 0.3, 0, 0);
+  assert_false(schedule_take_output(&s, 0.3, &t));
 }
 
 /* A scenario made by hand, and what the objects under test are made from. */
@@ -322,7 +334,7 @@ typedef struct maker {
 static corot_status make_schedule(void *context) {
   maker *m = context;
   schedule *s = NULL;
-  corot_status status = schedule_create(m->model, 2, 0.1, 0.05, &s);
+  corot_status status = schedule_create(m->model, 2, 0.1, &s);
   if (status == COROT_OK) assert_int_equal(s->nkink, 1);
   schedule_destroy(s);
   return status;
@@ -364,6 +376,9 @@ static void failed_allocations_are_survived(void **state) {
   assert_true(assert_survives_failed_allocations(make_outputs, &m) >= 10);
   m.scenario.write_fields = false;
   assert_true(assert_survives_failed_allocations(make_outputs, &m) >= 10);
+  m.scenario.ncompare = 1;
+  m.scenario.compare = (const char *const[]){"polar"};
+  assert_true(assert_survives_failed_allocations(make_outputs, &m) >= 13);
 
   probe.node = 8;
   outputs *o = NULL;
@@ -382,11 +397,13 @@ int main(void) {
       cmocka_unit_test(probes_have_a_column_a_component),
       cmocka_unit_test(rows_reach_the_disk_as_they_are_made),
       cmocka_unit_test(steps_name_what_happened),
+      cmocka_unit_test(comparisons_have_three_columns_a_measure),
       cmocka_unit_test(a_full_disk_is_named),
       cmocka_unit_test(fields_read_back),
       cmocka_unit_test(the_list_of_frames_is_whole_at_any_time),
       cmocka_unit_test(outputs_are_due_once_each),
-      cmocka_unit_test(stops_are_kinks_updates_and_the_end),
+      cmocka_unit_test(stops_are_kinks_and_the_end),
+      cmocka_unit_test(an_output_is_due_but_for_rounding),
       cmocka_unit_test(failed_allocations_are_survived),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

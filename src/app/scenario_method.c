@@ -1,0 +1,109 @@
+/* How the body is taken through time: frames, viscous law, integrator. */
+#include "scenario_parts.h"
+
+static const struct {
+  const char *name;
+  corot_frames frames;
+  bool every_step;
+  bool conditions; /* updates at an interval or an angle */
+} policies[] = {
+    {"exact", COROT_FRAMES_EXACT, false, false},
+    {"step", COROT_FRAMES_HELD, true, false},
+    {"hold", COROT_FRAMES_HELD, false, true},
+    {"extrapolate", COROT_FRAMES_EXTRAPOLATED, false, true},
+};
+
+static corot_status read_frames(scenario *s) {
+  config_node *frames = config_find(s->source->root, "frames");
+  const config_node *policy = config_find(frames, "policy");
+  const config_node *interval = config_find(frames, "interval");
+  const config_node *angle = config_find(frames, "max_angle"), *given = interval ? interval : angle;
+  int p = 0;
+  while (strcmp(policies[p].name, policy->text) != 0) p++;
+  if (policies[p].conditions && !given)
+    return config_fail(policy, "%s needs frames.interval or frames.max_angle", policy->text);
+  if (policies[p].every_step && given)
+    return config_fail_key(given, "has no effect with policy: step, which updates at every step");
+  if (!policies[p].conditions && given && !policy->source)
+    return config_fail_key(given,
+                           "has an effect with policy: hold or extrapolate only, and none "
+                           "is given");
+
+  static const char *const history[] = {"auto", "keep", "restart"};
+  s->frame_policy = policies[p].name;
+  s->frames = corot_frame_policy_defaults();
+  s->frames.frames = policies[p].frames;
+  s->frames.every_step = policies[p].every_step;
+  if (policies[p].conditions && interval) s->frames.interval = interval->number;
+  if (policies[p].conditions && angle) s->frames.max_angle = angle->number;
+  for (int i = 0; i < 3; i++)
+    if (text_is(frames, "history", history[i])) s->frames.history = (corot_history)i;
+  return COROT_OK;
+}
+
+static corot_status read_viscosity(scenario *s) {
+  config_node *root = s->source->root;
+  s->viscosity = text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE : COROT_COROTATED;
+  bool polar = strcmp(s->strain, "polar") == 0 || strcmp(s->strain, "hybrid") == 0;
+  if (s->viscosity == COROT_OBJECTIVE && !polar)
+    return config_fail(config_find(root, "viscosity"),
+                       "objective needs strain: polar or hybrid, not %s", s->strain);
+  return COROT_OK;
+}
+
+static corot_status read_constant_step(config_node *node, corot_integrator_def *def) {
+  const config_node *step = config_find(node, "step"), *method = config_find(node, "method");
+  const config_node *radius = config_find(node, "spectral_radius");
+  if (step && strcmp(def->method, "cvode") == 0)
+    return config_fail_key(step, "cvode chooses its own steps; see first_step, max_step");
+  if (!step && strcmp(def->method, "cvode") != 0)
+    return config_fail(method, "%s needs integrator.step", def->method);
+  if (strcmp(def->method, "hht") == 0 && radius->number < 0.5)
+    return config_fail(radius, "must be 0.5 to 1 for hht, found %s", radius->text);
+  if (step) def->step = step->number;
+  bool linear = text_is(node, "solution", "linear");
+  def->solution = linear ? COROT_SOLUTION_LINEAR : COROT_SOLUTION_NEWTON;
+  def->newton_tolerance = number_at(node, "newton.tolerance");
+  def->newton_iterations = (int)number_at(node, "newton.iterations");
+  def->spectral_radius = radius->number;
+  return COROT_OK;
+}
+
+static corot_status read_controlled_step(config_node *node, corot_integrator_def *def) {
+  def->rtol = number_at(node, "rtol");
+  def->atol_displacement = number_at(node, "atol.displacement");
+  def->atol_velocity = number_at(node, "atol.velocity");
+  def->max_order = (int)number_at(node, "max_order");
+  def->first_step = number_at(node, "first_step");
+  def->min_step = number_at(node, "min_step");
+  def->max_step = number_at(node, "max_step");
+  if (def->max_step > 0 && def->min_step > def->max_step)
+    return config_fail(config_find(node, "min_step"), "larger than max_step");
+  if (def->max_step > 0 && def->first_step > def->max_step)
+    return config_fail(config_find(node, "first_step"), "larger than max_step");
+  return COROT_OK;
+}
+
+static corot_status read_integrator(scenario *s) {
+  config_node *root = s->source->root, *node = config_find(root, "integrator");
+  corot_integrator_def def = corot_integrator_defaults();
+  bool exact = text_is(node, "jacobian.tangent", "exact");
+  def.method = text_at(node, "method");
+  def.max_steps = (long)number_at(node, "max_steps");
+  def.tangent = exact ? COROT_TANGENT_EXACT : COROT_TANGENT_HELD;
+  def.reassembly = (int)number_at(node, "jacobian.reassembly");
+  def.refactorisation = (int)number_at(node, "jacobian.refactorisation");
+  def.gamma_change = number_at(node, "jacobian.gamma_change");
+  def.linear_solver = text_at(root, "linear_solver.name");
+  def.linear_tolerance = number_at(root, "linear_solver.tolerance");
+  COROT_TRY(read_controlled_step(node, &def));
+  COROT_TRY(read_constant_step(node, &def));
+  s->integrator = def;
+  return COROT_OK;
+}
+
+corot_status scenario_read_method(scenario *s) {
+  COROT_TRY(read_viscosity(s));
+  COROT_TRY(read_frames(s));
+  return read_integrator(s);
+}

@@ -1,0 +1,38 @@
+/* Inside of reading a scenario: the parts that have a file of their own, and how values are taken
+   from the tree. After schema_apply every key has its type, its range and, where there is one, its
+   default: what is left to check is how keys go together. */
+#ifndef COROT_APP_SCENARIO_PARTS_H
+#define COROT_APP_SCENARIO_PARTS_H
+
+#include <string.h>
+
+#include "config.h"
+#include "scenario.h"
+
+/* boundary and loads */
+corot_status scenario_read_conditions(scenario *s);
+
+/* viscosity, frames, integrator and linear_solver */
+corot_status scenario_read_method(scenario *s);
+
+static inline corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
+
+static inline double number_at(config_node *node, const char *path) {
+  return config_find(node, path)->number;
+}
+
+static inline const char *text_at(config_node *node, const char *path) {
+  const config_node *found = config_find(node, path);
+  return found ? found->text : NULL;
+}
+
+static inline bool text_is(config_node *node, const char *path, const char *text) {
+  return strcmp(text_at(node, path), text) == 0;
+}
+
+static inline void vector_at(config_node *node, const char *path, double vector[3]) {
+  const config_node *c = config_find(node, path)->child;
+  for (int i = 0; i < 3; i++, c = c->next) vector[i] = c->number;
+}
+
+#endif

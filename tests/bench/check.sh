@@ -1,0 +1,39 @@
+# The benchmark program answers, in JSON that can be read. Its times are nobody's business here.
+# Runs as: sh check.sh COROT_BENCH
+set -u
+bench=$1
+failed=0
+
+# lines PYTHON ARGUMENTS...: each line of the output is an object; PYTHON is true of their list d.
+lines() {
+  what=$1
+  shift
+  "$bench" "$@" | python3 -c "
+import json, sys
+d = [json.loads(line) for line in sys.stdin]
+assert ($what), d" || { echo "FAILED: corot-bench $*: not $what"; failed=1; }
+}
+
+# usage ARGUMENTS...: refused with a message and exit code 2.
+usage() {
+  message=$("$bench" "$@" 2>&1 >/dev/null)
+  [ $? = 2 ] && [ -n "$message" ] || { echo "FAILED: corot-bench $*: not refused"; failed=1; }
+}
+
+strains='{"cauchy", "warp", "polar", "hybrid", "green"}'
+per_tet='r["ns_per_tet"] > 0 and r["floor_ns_per_tet"] > 0 and r["tets"] == 6'
+lines "all($per_tet for r in d[1:])
+  and {r['strain'] for r in d if r['bench'] == 'force'} == $strains
+  and {r['strain'] for r in d if r['bench'] == 'jacobian'} == $strains
+  and {'force-held', 'jvp', 'combine', 'factor', 'solve'} <= {r['bench'] for r in d}" \
+  kernels --json --tets 6
+lines "len(d) == 1 and d[0]['tets'] == 6 and d[0]['nst'] > 0 and 'force' in d[0]['phases_s']" \
+  run --json --cells 1,1,1 --rtol 1e-2 --repeat 1
+lines "len(d) == 5 and all(0 < r['bytes_per_tet'] for r in d)" memory --json --tets 6
+"$bench" --help | grep -q kernels || { echo "FAILED: corot-bench --help"; failed=1; }
+usage
+usage kernel
+usage kernels --tets 0
+usage run --rtol -1
+usage memory extra
+exit $failed

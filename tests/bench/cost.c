@@ -1,0 +1,187 @@
+#include "cost.h"
+
+#include <suitesparse/klu.h>
+
+#include "core/kernel.h"
+
+/* Operations of the pieces, each on one tet. */
+enum {
+  MUL = 27 + 18, /* product of two matrices */
+  APPLY = 9 + 6, /* matrix times vector */
+  ADD = 9,
+  SCALE = 9,
+  SCALE_SYMMETRIC = 6,
+  DOT = 9 + 8,
+  GRAM = 6 * 5,           /* A' A */
+  SYM_TMUL = MUL + 3 + 3, /* sym(A' B) */
+  COFACTOR = 9 * 3,
+  DET = 5,                 /* with the cofactors at hand */
+  DET_ALONE = 3 * 3 + DET, /* with one row of them */
+  GRADIENT = 9 + 27 + 18,  /* differences along three edges, times their gradients */
+  DEFORMATION = GRADIENT + 3,
+  POLAR_STEP = COFACTOR + DET + DOT + 6 /* tests */ + 2 /* factor */ + 27 /* mean */,
+  GRAM_SCHMIDT = 5 + 6 + 2 * (5 + 1 + 3) + 9,
+  WARP_FRAME = MUL + GRAM_SCHMIDT + MUL + DET_ALONE,
+  NODAL_FORCES = 3 + 9 * 5 + 9, /* scale of the coefficients, three nodes, the fourth */
+  COLLECT = 12,                 /* sums at the nodes */
+};
+
+static const strain_measure *measure(const solid *s) { return &strain_measures[s->model->strain]; }
+
+static double frame_flops(const strain_measure *s, bool held, double steps) {
+  if (s->frame == FRAME_IDENTITY) return s->shear == BY_FRAME ? 0 : DET_ALONE;
+  if (held) return DET_ALONE;
+  return s->frame == FRAME_POLAR ? steps * POLAR_STEP : WARP_FRAME;
+}
+
+static double strain_flops(basis b) {
+  return b == BY_FRAME ? SYM_TMUL + 3 : GRAM + 3 + SCALE_SYMMETRIC;
+}
+
+/* tr(e): of the strain at hand, or of the other basis. */
+static double dilatation_flops(const strain_measure *s) {
+  return s->pressure == s->shear ? 2 : DOT + 2;
+}
+
+static double stress_flops(const strain_measure *s) {
+  double common = strain_flops(s->shear) + 1 + SCALE_SYMMETRIC + 1 + dilatation_flops(s) + MUL;
+  return common + (s->pressure == s->shear ? 3 : SCALE + ADD);
+}
+
+static double viscous_flops(void) { return DOT + 1 + SYM_TMUL + MUL + 1 + 27; }
+
+/* --- bytes of arrays --- */
+
+static double vector(const solid *s) { return 8.0 * s->n; }
+static double matrix(const solid *s) { return 72.0 * s->model->pattern.nblock; }
+static double blocks(const solid *s) { return s->model->tets.nblock * (double)sizeof(tet_block); }
+static double frames(const solid *s) { return s->model->tets.nblock * (double)sizeof(mat3); }
+static double dofs(const solid *s) { return 12.0 * s->model->pattern.nnode; }
+
+static double slots(const solid *s) {
+  const pattern *p = &s->model->pattern;
+  return 4.0 * (p->nnode + p->first[p->nnode]);
+}
+
+/* What the frame in use is read from. */
+static double frame_bytes(const solid *s, bool held) {
+  if (measure(s)->frame == FRAME_IDENTITY) return 0;
+  return held || measure(s)->frame == FRAME_WARP ? frames(s) : 0;
+}
+
+/* --- kernels --- */
+
+cost cost_force(const solid *s, bool held, double steps) {
+  bool damped = s->model->damped;
+  double flops = DEFORMATION + frame_flops(measure(s), held, steps) + stress_flops(measure(s)) +
+                 (damped ? GRADIENT + viscous_flops() + ADD : 0) + NODAL_FORCES + COLLECT;
+  return (cost){
+      .bytes = blocks(s) + frame_bytes(s, held) + slots(s) + dofs(s) + (damped ? 3 : 2) * vector(s),
+      .flops = flops * s->ntet};
+}
+
+cost cost_rhs(const solid *s, double steps) {
+  cost c = cost_force(s, false, steps);
+  c.bytes += 2 * vector(s); /* M^-1, du/dt */
+  c.flops += s->n;
+  return c;
+}
+
+cost cost_jacobian(const solid *s, bool exact, double steps) {
+  const strain_measure *m = measure(s);
+  const pattern *p = &s->model->pattern;
+  bool damped = s->model->damped, exact_polar = exact && m->frame == FRAME_POLAR;
+  double terms = 4 + dilatation_flops(m) + 1; /* coefficients, pressure */
+  if (m->shear == BY_GRADIENT) terms += GRAM + strain_flops(BY_GRADIENT) + 2 * SCALE_SYMMETRIC;
+  if (exact_polar) terms += MUL + 2 + COFACTOR + DET + SCALE + SCALE + 3 + 2 * MUL;
+  double vectors = 3 * APPLY * (m->pressure == m->shear ? 1 : 2) + 3 * 9;
+  double bases = 3 + 3 + 1 + SCALE_SYMMETRIC + 9 * 4; /* constant_bases */
+  double pair = 5 + bases + 9;                        /* g_a . g_b, the block, its addition */
+  if (m->pressure == BY_GRADIENT) pair += APPLY + 5 + 3;
+  if (exact_polar) pair += 27 + 9 * 4;
+  if (damped) pair += bases + 9;
+  double tet = DEFORMATION + frame_flops(m, false, steps) + terms + vectors + NPAIR * pair;
+  double diagonal = (p->nblock - p->nnode) * 18.0 * (damped ? 2 : 1);
+  return (cost){.bytes = blocks(s) + frame_bytes(s, false) + 24.0 * W * s->model->tets.nblock +
+                         4.0 * p->nblock + dofs(s) + vector(s) + (damped ? 2 : 1) * matrix(s),
+                .flops = tet * s->ntet + diagonal};
+}
+
+cost cost_jvp(const solid *s, double steps) {
+  const strain_measure *m = measure(s);
+  double frame = 0; /* its change; that of a product of two factors takes two products */
+  if (m->frame == FRAME_POLAR) frame = 2 * MUL + 2 + COFACTOR + DET + SCALE + 3 + APPLY + MUL;
+  if (m->frame == FRAME_WARP) frame = 5 * MUL + 6 + MUL;
+  double by_frame = m->shear == BY_FRAME ? 1 : 0;
+  double elastic = viscous_flops() + strain_flops(m->shear) + dilatation_flops(m) + 1 + MUL + 27 +
+                   ADD + by_frame * (DOT + 1 + SCALE + ADD + SYM_TMUL + MUL + SCALE + ADD);
+  double viscous = 2 * GRADIENT + viscous_flops() + 2 * (DOT + 1) + 27 + ADD + 2 * SYM_TMUL +
+                   2 * MUL + 2 * ADD + SCALE;
+  double tet = DEFORMATION + GRADIENT + frame_flops(m, false, steps) + frame + elastic +
+               (s->model->damped ? viscous + ADD : 0) + NODAL_FORCES + COLLECT;
+  return (cost){.bytes = blocks(s) + frame_bytes(s, false) + slots(s) + dofs(s) + 5 * vector(s),
+                .flops = tet * s->ntet};
+}
+
+cost cost_frames(const solid *s, double steps) {
+  return (cost){.bytes = blocks(s) + dofs(s) + vector(s) + frames(s) + frame_bytes(s, false),
+                .flops = (DEFORMATION + frame_flops(measure(s), false, steps)) * s->ntet};
+}
+
+cost cost_energy(const solid *s, double steps) {
+  const strain_measure *m = measure(s);
+  double tet = DEFORMATION + frame_flops(m, false, steps) + strain_flops(m->shear) +
+               dilatation_flops(m) + DOT + 7;
+  if (s->model->damped) tet += GRADIENT + viscous_flops() + DOT + 2;
+  return (cost){.bytes = blocks(s) + frame_bytes(s, false) + dofs(s) + 3 * vector(s) +
+                         24.0 * s->model->pattern.nnode,
+                .flops = tet * s->ntet + 5.0 * s->n};
+}
+
+cost cost_combine(const solid *s, const corot_csc *csc) {
+  return (cost){.bytes = 12.0 * csc->nnz + 2 * matrix(s) + 12.0 * csc->n,
+                .flops = 3.0 * csc->nnz + 2.0 * csc->n};
+}
+
+double cost_polar_steps(const solid *s) {
+  const tets *t = &s->model->tets;
+  corot_element_fields none = {0};
+  if (corot_elements(s->model, s->state, 0, s->u, &none) != COROT_OK) return 0; /* sets state->u */
+  double sum = 0;
+  for (int b = 0; b < t->nblock; b++) {
+    mat3 X = deformation(&t->block[b], (const double(*)[4])s->state->u);
+    for (int k = 0;; k++) { /* as in core/polar.h, strains this small being left unscaled */
+      mat3 C = mat3_cofactor(X);
+      vi rough = ~(mat3_dot(X, X) - 3 < 1e-8);
+      X = mat3_sum(vd_all(0.5), X, 0.5 / mat3_det(X, C), C);
+      sum++;
+      if (k > 0 && !vi_any(rough)) break;
+    }
+  }
+  return sum / t->nblock;
+}
+
+corot_status cost_direct(const corot_csc *full, bool cholesky, solver_cost *out) {
+  klu_common common;
+  klu_defaults(&common);
+  common.btf = 0;
+  klu_symbolic *symbolic = klu_analyze(full->n, full->colptr, full->row, &common);
+  if (!symbolic) return corot_fail(COROT_ENOMEM, "no memory for an analysis by klu");
+  double lnz = symbolic->lnz, flops = symbolic->est_flops, share = cholesky ? 0.5 : 1;
+  klu_free_symbolic(&symbolic, &common);
+  double index = cholesky ? 0 : 4; /* dense blocks need none to speak of */
+  out->factor =
+      (cost){.bytes = share * (12.0 * full->nnz + 2 * lnz * (8 + index)), .flops = share * flops};
+  out->solve = (cost){.bytes = 2 * lnz * (8 + index) + 16.0 * full->n, .flops = 4 * lnz};
+  return COROT_OK;
+}
+
+solver_cost cost_pcg(const corot_csc *full, double iterations) {
+  double n = full->n, nnz = full->nnz;
+  /* an iteration: a product, the blocks, two dot products and three updates of vectors */
+  return (solver_cost){
+      .factor = {.bytes = 2 * 24.0 * n, .flops = 30 * n},
+      .solve = {.bytes = iterations * (12 * nnz + 24 * n + 13 * 8 * n),
+                .flops = iterations * (2 * nnz + 6 * n + 10 * n)},
+  };
+}

@@ -1,0 +1,55 @@
+/* corot-bench: how long the parts of corot take, and how long they would have to take. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+
+static const char help[] =
+    "usage: corot-bench kernels [--json] [--tets N]... [--large]\n"
+    "       corot-bench solvers [--json]\n"
+    "       corot-bench run [--json] [OPTIONS]\n"
+    "       corot-bench memory [--json] [--tets N]\n"
+    "\n"
+    "kernels   forces, Jacobians and the rest, per tet, beside the floor set by memory and\n"
+    "          arithmetic of this machine\n"
+    "solvers   the linear solvers at several sizes\n"
+    "run       CPU time of a whole simulation and of its phases\n"
+    "memory    bytes per tet\n"
+    "\n"
+    "'corot-bench COMMAND --help' says more.\n"
+    "\n"
+    "example: corot-bench kernels\n";
+
+bool parse_count(const char *text, int most, int *number) {
+  char *end;
+  long x = strtol(text, &end, 10);
+  if (end == text || *end || x < 1 || x > most) return false;
+  *number = (int)x;
+  return true;
+}
+
+int only_json(const char *program, const char *text, int argc, char **argv, bool *json) {
+  static const struct option known[] = {
+      {"json", no_argument, NULL, 'j'}, {"help", no_argument, NULL, 'h'}, {0}};
+  *json = false;
+  opterr = 0;
+  for (int answer; (answer = getopt_long(argc, argv, ":h", known, NULL)) != -1;) {
+    if (answer == 'h') {
+      fputs(text, stdout);
+      return EXIT_OK;
+    }
+    if (answer != 'j') return option_error(program, answer, argv, known);
+    *json = true;
+  }
+  if (optind < argc) return usage_error(program, "unexpected: %s", argv[optind]);
+  return -1;
+}
+
+int main(int argc, char **argv) {
+  static const command table[] = {{"kernels", command_kernels},
+                                  {"solvers", command_solvers},
+                                  {"run", command_example},
+                                  {"memory", command_memory},
+                                  {0}};
+  return dispatch("corot-bench", help, table, argc, argv);
+}
