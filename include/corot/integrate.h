@@ -67,12 +67,14 @@ typedef struct corot_step {
 } corot_step;
 
 /* Advances by one step. With error control it does not go past t_stop and lands on it if it comes
-   near; a fixed-step method keeps to its own grid, whatever t_stop.
+   near; where t_stop is t up to rounding it is reached without a step. A fixed-step method keeps to
+   its own grid, whatever t_stop.
    COROT_EINTEGRATE: the integrator gave up; the message names its reason and the element, if one
    was inverted. The state last reached remains readable. */
 corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, corot_step *step);
 
-/* u and v [n] at any t within the last step, by the method's own interpolant; NULL skips one. */
+/* u and v [n] at any t within the last step, by the method's own interpolant; NULL skips one. After
+   a restart only the end of that step is left. */
 corot_status corot_integrator_at(corot_integrator *integrator, double t, double *u, double *v);
 
 /* Work integrals from the start to t, t within the last step: dissipated and external work [J]. */

@@ -117,13 +117,13 @@ const int (*corot_model_dof(const corot_model *model))[3];
 /* [n] lumped mass (row sums) of each degree of freedom [kg]; positive. */
 const double *corot_model_mass(const corot_model *model);
 
-/* The times strictly between t0 and t1 where a load or a motion has a kink, ascending; at most `max` are
-   written to `time` (which may be NULL if max is 0). Returns how many there are. */
+/* The times strictly between t0 and t1 where a load or a motion has a kink, ascending; at most `max`
+   are written to `time` (which may be NULL if max is 0). Returns how many there are. */
 int corot_model_kinks(const corot_model *model, double t0, double t1, int max, double *time);
 
-/* Scales for tolerances: the diagonal of the bounding box [m]; the smallest shear wave speed
-   sqrt(mu/density) over that diagonal [1/s]; and the smallest ratio of damping to stiffness over
-   all materials and both coefficients [s]. */
+/* Scales for tolerances, the same however the body is turned: its length, twice the largest
+   distance from its centroid [m]; the smallest shear wave speed sqrt(mu/density) over it [1/s]; and
+   the smallest ratio of damping to stiffness over all materials and both coefficients [s]. */
 double corot_model_length(const corot_model *model);
 double corot_model_frequency(const corot_model *model);
 double corot_model_damping_time(const corot_model *model);

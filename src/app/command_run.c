@@ -9,8 +9,9 @@
 static const char help[] =
     "usage: corot run MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--quiet] [--json]\n"
     "\n"
-    "Integrates a scenario (YAML, or JSON) and writes probes.csv, energy.csv, steps.csv, fields\n"
-    "for ParaView (fields.pvd) and result.json to a folder.\n"
+    "Integrates a scenario (YAML, or JSON) and writes probes.csv, energy.csv, steps.csv,\n"
+    "compare.csv (if the scenario compares strain measures), fields for ParaView (fields.pvd) and\n"
+    "result.json to a folder.\n"
     "\n"
     "  -o, --output DIR     the folder, made if need be; default: out/MODEL in this folder\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"

@@ -10,7 +10,7 @@ static const char help[] =
     "\n"
     "Every key a scenario may have, or those under KEY: type and range, unit, default, meaning.\n"
     "NAME stands for a name of your own, [] for each entry of a list; \"one of\": exactly one of\n"
-    "the keys so marked is given; \"not yet\": known, but not supported yet.\n"
+    "the keys so marked is given; words after \"not yet\" are known, but not supported yet.\n"
     "\n"
     "      --json           all of it as a JSON Schema, such as editors use\n"
     "\n"

@@ -167,11 +167,29 @@ static corot_status list_kinks(corot_model *m) {
   return COROT_OK;
 }
 
+/* Twice the largest distance from the centroid: unlike the bounding box's diagonal, of which it is
+   the value for a box, it does not change when the body is turned, and so neither do the steps. */
+static double body_length(const corot_model *m) {
+  const double(*x)[3] = (const double(*)[3])m->mesh->x;
+  double moment[3] = {0, 0, 0}, volume = 0, square = 0;
+  for (int b = 0; b < m->tets.nblock; b++) {
+    const tet_block *block = &m->tets.block[b];
+    for (int l = 0; l < block->ntet; l++) {
+      volume += block->volume[l];
+      for (int a = 0; a < 4; a++)
+        for (int c = 0; c < 3; c++) moment[c] += block->volume[l] / 4 * x[block->node[a][l]][c];
+    }
+  }
+  for (int n = 0; n < m->mesh->nnode; n++) {
+    double d[3];
+    for (int c = 0; c < 3; c++) d[c] = x[n][c] - moment[c] / volume;
+    square = fmax(square, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  }
+  return 2 * sqrt(square);
+}
+
 static void find_scales(corot_model *m) {
-  corot_mesh_quality q = corot_mesh_measure(m->mesh);
-  double diagonal2 = 0;
-  for (int c = 0; c < 3; c++) diagonal2 += (q.max[c] - q.min[c]) * (q.max[c] - q.min[c]);
-  m->length = sqrt(diagonal2);
+  m->length = body_length(m);
   m->frequency = m->damping_time = INFINITY;
   for (int k = 0; k < m->nmaterial; k++) {
     const material *a = &m->material[k];

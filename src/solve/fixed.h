@@ -7,8 +7,8 @@
    and a formula that makes the new state of it:
 
      BDF             w = v_1:  u = U + g v_1, v = v_1; s = 1, k = p = g, q = 1
-     midpoint        w = v at t + h/2: backward Euler over h/2, then the state is mirrored in its
-   end Newmark family  w = a_1:  p = (1 - af) beta h^2, q = (1 - af) gamma h, s = 1 - am, k = 1
+     midpoint        w = v at t + h/2: backward Euler over h/2, then the state is mirrored in it
+     Newmark family  w = a_1:  p = (1 - af) beta h^2, q = (1 - af) gamma h, s = 1 - am, k = 1
 
    (Newmark 1959; Hilber, Hughes & Taylor 1977; Chung & Hulbert 1993.) */
 #ifndef COROT_SOLVE_FIXED_H
@@ -29,7 +29,7 @@ typedef struct scheme {
   bool needs_acceleration;
   /* Coefficients, U, V, W and the predictor w of the next step. */
   void (*prepare)(fixed *f, stage *g);
-  /* The new u, v (and a) in u[0], v[0], a from w, the old ones having moved to u[1], v[1]. */
+  /* The new u, v in u[0], v[0] from w, the old ones having moved to u[1], v[1]. */
   void (*finish)(fixed *f);
 } scheme;
 

@@ -63,7 +63,6 @@ static void newmark_finish(fixed *f) {
     double a0 = f->a[i], a1 = f->w[i];
     f->u[0][i] = f->u[1][i] + h * f->v[1][i] + h * h * ((0.5 - f->beta) * a0 + f->beta * a1);
     f->v[0][i] = f->v[1][i] + h * ((1 - f->gamma) * a0 + f->gamma * a1);
-    f->a[i] = a1;
   }
 }
 

@@ -55,11 +55,20 @@ static double correction(const corot_integrator *self, const stage *g) {
   return largest * g->p / corot_model_length(self->model);
 }
 
+/* G at the predictor or, where that cannot be evaluated, at the w that leaves the body where it is. */
+static corot_status predict(corot_integrator *self, const stage *g, double *norm) {
+  fixed *f = self->method;
+  memcpy(f->trial, f->w, f->n * sizeof *f->w);
+  corot_status status = evaluate(self, g, norm);
+  if (status <= 0) return status;
+  for (int i = 0; i < f->n; i++) f->trial[i] = f->w[i] = (f->u[0][i] - f->U[i]) / g->p;
+  return evaluate(self, g, norm);
+}
+
 static corot_status solve_linear(corot_integrator *self, const stage *g) {
   fixed *f = self->method;
   double norm;
-  memcpy(f->trial, f->w, f->n * sizeof *f->w);
-  COROT_TRY(evaluate(self, g, &norm));
+  COROT_TRY(predict(self, g, &norm));
   COROT_TRY(ensure_factor(self, g, false));
   COROT_TRY(corot_pencil_solve(self->pencil, f->G, f->d));
   for (int i = 0; i < f->n; i++) f->w[i] -= f->d[i];
@@ -85,38 +94,36 @@ static corot_status backtrack(corot_integrator *self, const stage *g, double *no
   return evaluate(self, g, norm);
 }
 
+/* The matrix is made anew where corrections shrink slowly and, from the first correction on that an
+   older one has spoilt, each time. */
 static corot_status solve_newton(corot_integrator *self, const stage *g, int *iterations) {
   fixed *f = self->method;
-  double norm, last = INFINITY;
-  bool fresh = false, fell = true;
-  memcpy(f->trial, f->w, f->n * sizeof *f->w);
-  COROT_TRY(evaluate(self, g, &norm));
+  double norm, size = 0, last = INFINITY;
+  bool fresh = false, always = false, fell = true;
+  COROT_TRY(predict(self, g, &norm));
   for (*iterations = 1; *iterations <= self->def.newton_iterations; ++*iterations) {
-    bool was_current = fresh;
     COROT_TRY(ensure_factor(self, g, fresh));
     COROT_TRY(corot_pencil_solve(self->pencil, f->G, f->d));
-    double size = correction(self, g);
+    size = correction(self, g);
     f->counts.nni++;
     if (size <= self->def.newton_tolerance) {
       for (int i = 0; i < f->n; i++) f->w[i] -= f->d[i];
       return COROT_OK;
     }
-    fresh = size > 0.3 * last; /* slow: the next correction gets its own matrix */
-    last = size;
     COROT_TRY(backtrack(self, g, &norm, &fell));
-    if (!fell) {
-      if (was_current)
-        return corot_fail(COROT_EINTEGRATE,
-                          "%s: at t = %.9g: Newton's correction of %.2g lengths "
-                          "does not reduce the residual",
-                          f->scheme->name, g->t, size);
-      fresh = true, last = INFINITY;
-    }
+    if (!fell && fresh)
+      return corot_fail(COROT_EINTEGRATE,
+                        "%s: in the step from t = %.9g: Newton's correction of %.2g lengths does "
+                        "not reduce the residual",
+                        f->scheme->name, self->t, size);
+    always = always || !fell;
+    fresh = always || size > 0.3 * last;
+    last = size;
   }
   return corot_fail(COROT_EINTEGRATE,
-                    "%s: at t = %.9g: Newton has not converged in %d iterations (correction %.2g "
-                    "lengths, tolerance %.2g)",
-                    f->scheme->name, g->t, self->def.newton_iterations, last,
+                    "%s: in the step from t = %.9g: Newton has not converged in %d iterations "
+                    "(correction %.2g lengths, tolerance %.2g)",
+                    f->scheme->name, self->t, self->def.newton_iterations, size,
                     self->def.newton_tolerance);
 }
 
@@ -126,8 +133,14 @@ static void rotate_history(double *x[NHISTORY]) {
   x[0] = oldest;
 }
 
-/* Work by the trapezoidal rule. */
-static corot_status add_work(corot_integrator *self, double t) {
+static void rotate_back(double *x[NHISTORY]) {
+  double *newest = x[0];
+  for (int j = 0; j < NHISTORY - 2; j++) x[j] = x[j + 1];
+  x[NHISTORY - 2] = newest;
+}
+
+/* Work by the trapezoidal rule, up to the state in u[0], v[0]. */
+static corot_status add_work(corot_integrator *self, double t, double h) {
   fixed *f = self->method;
   double start = clock_wall();
   corot_energies e = {0};
@@ -135,11 +148,31 @@ static corot_status add_work(corot_integrator *self, double t) {
   double now[2] = {e.power_dissipated, e.power_external};
   for (int k = 0; k < 2; k++) {
     f->old_work[k] = f->work[k];
-    f->work[k] += f->count ? 0.5 * f->h * (f->power[k] + now[k]) : 0;
+    f->work[k] += 0.5 * h * (f->power[k] + now[k]);
     f->power[k] = now[k];
   }
   f->counts.nfeQ++;
   self->work_s += clock_wall() - start;
+  return COROT_OK;
+}
+
+/* The state at t from the solution w of the step's system. Where that state cannot be evaluated
+   (midpoint and the alpha methods solve for one between) the old one is back in place. */
+static corot_status finish(corot_integrator *self, double t) {
+  fixed *f = self->method;
+  rotate_history(f->u);
+  rotate_history(f->v);
+  f->scheme->finish(f);
+  corot_status status = add_work(self, t, f->h);
+  if (status) {
+    rotate_back(f->u);
+    rotate_back(f->v);
+    if (f->depth > NHISTORY - 2) f->depth = NHISTORY - 2; /* the oldest was overwritten */
+    return status;
+  }
+  if (f->scheme->needs_acceleration) memcpy(f->a, f->w, f->n * sizeof *f->a);
+  f->count++;
+  if (f->depth < NHISTORY - 1) f->depth++;
   return COROT_OK;
 }
 
@@ -148,25 +181,20 @@ static corot_status fixed_step(corot_integrator *self, double t_stop, corot_step
   fixed *f = self->method;
   stage g;
   f->scheme->prepare(f, &g);
+  step->t = f->t0 + (f->count + 1) * f->h;
+  step->order = f->scheme->order == 0 ? 2 : f->depth >= f->scheme->order ? f->scheme->order : 1;
+  step->error = 0; /* not estimated */
   step->newton = 0;
   corot_status status = self->def.solution == COROT_SOLUTION_LINEAR
                             ? solve_linear(self, &g)
                             : solve_newton(self, &g, &step->newton);
+  if (!status) status = finish(self, step->t);
   if (status > 0)
-    return corot_fail(COROT_EINTEGRATE, "%s: at t = %.9g: the step of %g s is too long: %s",
-                      f->scheme->name, g.t, f->h, corot_error());
-  if (status) return status;
-  rotate_history(f->u);
-  rotate_history(f->v);
-  f->scheme->finish(f);
-  f->count++;
-  if (f->depth < NHISTORY - 1) f->depth++;
-  step->t = f->t0 + f->count * f->h;
-  step->order = f->scheme->order ? (f->depth > f->scheme->order ? f->scheme->order : 1) : 2;
-  step->error = 0; /* not estimated */
+    return corot_fail(COROT_EINTEGRATE, "%s: in the step from t = %.9g: %g s are too long: %s",
+                      f->scheme->name, self->t, f->h, corot_error());
   f->counts.hlast = f->h;
   f->counts.qlast = step->order;
-  return add_work(self, step->t);
+  return status;
 }
 
 /* --- the rest of the interface --------------------------------------------------------------- */
@@ -207,6 +235,7 @@ static corot_status fixed_changed(corot_integrator *self, corot_history history)
   fixed *f = self->method;
   if (history != COROT_HISTORY_RESTART) return COROT_OK;
   f->depth = 1;
+  self->before = self->t; /* no interpolant any more */
   f->counts.nrestart++;
   return COROT_OK;
 }
@@ -253,7 +282,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
     f->counts.nfe++;
     for (size_t i = 0; i < n; i++) f->a[i] /= f->mass[i];
   }
-  return add_work(self, self->t);
+  return add_work(self, self->t, 0);
 }
 
 #define FIXED(name)                                                                     \

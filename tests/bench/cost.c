@@ -172,16 +172,20 @@ corot_status cost_direct(const corot_csc *full, bool cholesky, solver_cost *out)
   double index = cholesky ? 0 : 4; /* dense blocks need none to speak of */
   out->factor =
       (cost){.bytes = share * (12.0 * full->nnz + 2 * lnz * (8 + index)), .flops = share * flops};
-  out->solve = (cost){.bytes = 2 * lnz * (8 + index) + 16.0 * full->n, .flops = 4 * lnz};
+  out->solve = (cost){.bytes = 2 * lnz * (8 + index) + 16.0 * full->n,
+                      .flops = 4 * lnz,
+                      .data = 2 * share * lnz * (8 + index)};
   return COROT_OK;
 }
 
 solver_cost cost_pcg(const corot_csc *full, double iterations) {
   double n = full->n, nnz = full->nnz;
   /* an iteration: a product, the blocks, two dot products and three updates of vectors */
+  double data = 12 * nnz + (24 + 5 * 8) * n;
   return (solver_cost){
       .factor = {.bytes = 2 * 24.0 * n, .flops = 30 * n},
       .solve = {.bytes = iterations * (12 * nnz + 24 * n + 13 * 8 * n),
-                .flops = iterations * (2 * nnz + 6 * n + 10 * n)},
+                .flops = iterations * (2 * nnz + 6 * n + 10 * n),
+                .data = data},
   };
 }

@@ -14,6 +14,7 @@
 
 typedef struct cost {
   double bytes, flops; /* of one call */
+  double data;         /* bytes of the data, where it is swept more than once; else 0 */
 } cost;
 
 /* Newton steps that the polar iteration takes for the solid, mean over all blocks of tets, each of

@@ -39,7 +39,8 @@ void report_heading(bool json, int ntet, int n) {
 }
 
 void report_row(bool json, const row *r) {
-  double bandwidth = machine_bandwidth((size_t)r->least.bytes);
+  double data = r->least.data > 0 ? r->least.data : r->least.bytes;
+  double bandwidth = machine_bandwidth((size_t)data);
   double memory = r->least.bytes / bandwidth, arithmetic = r->least.flops / machine_peak();
   double floor = fmax(memory, arithmetic), unit = 1e9 / r->ntet;
   const char *of = r->solver ? r->solver : r->strain,

@@ -21,6 +21,14 @@ cp stdout resolved.yaml
 expect 0 check resolved.yaml --resolved
 cmp -s stdout resolved.yaml || complain "the resolved scenario does not resolve to itself"
 
+# What is prescribed and chosen shows up.
+expect 0 check model.yaml --set 'boundary.0={group: base, rotate: {axis: [0, 0, 1], rate: 1}}' \
+  --set 'loads.0={group: zmax, pressure: 5}' --set 'frames={policy: extrapolate, max_angle: 0.5}' \
+  --set 'integrator={method: bdf2, step: 0.01, solution: linear}' --set linear_solver=pcg
+out "base: 4 nodes, 2 triangles, 0 tets; rotated"; out "0 tets; pressure"
+out "frames: extrapolate, beyond 0.5 rad"
+out "bdf2, steps of 0.01 s, one linear solve each, linear solver pcg"
+
 # A mesh lies beside its scenario, wherever the tool is called from.
 mkdir sub
 expect 0 mesh box --size 0.1,0.1,0.2 --cells 1,1,2 -o sub/block.msh
@@ -33,6 +41,14 @@ expect 3 check .; no_out
 expect 3 check model.yaml --set loads.0.group=zmin2; err "--set loads.0.group=zmin2: loads[0].group: no group"
 expect 3 check model.yaml --set material.nu=0.6; err "must be > -1, < 0.5"
 expect 3 check model.yaml --set material.density=-1; err "material.density: must be > 0, found -1"
+expect 3 check model.yaml --set frames.policy=hold --set frames.interval=0
+err "frames.interval: must be > 0, found 0"
+expect 3 check model.yaml --set integrator.method=newmark; err "newmark needs integrator.step"
+sed 's/fix: .*/rotate: {axis: [0, 0, 0], rate: 1}}/' model.yaml >bad.yaml
+expect 3 check bad.yaml; err "bad.yaml:7:34: boundary[0].rotate.axis: [0, 0, 0] has no direction"
+sed '7a\  - {group: xmin, translate: {velocity: [1, 0, 0]}}' model.yaml >bad.yaml
+expect 3 check bad.yaml; no_out
+err "bad.yaml:8:13: boundary[1].group: node 0 of xmin cannot be moved: it is in base, too"
 expect 3 check model.yaml --set mesh.refine=1; err "not yet supported"
 printf 'mesh: {file: none.msh}\n' >bad.yaml
 sed 1,2d model.yaml >>bad.yaml

@@ -9,8 +9,16 @@ expect 0 run model.yaml -o a/b --quiet; no_out; no_err
 expect 0 run model.yaml --output a/b --json --set time.end=0.02
 json 'd is not None'
 
+expect 0 run model.yaml -o c --json --set 'integrator={method: newmark, step: 0.004}' \
+  --set 'frames={policy: hold, interval: 0.02}' --set 'compare=[warp]'
+json 'd["t_reached"] == 0.05 and d["statistics"]["nst"] == 13 and d["frames"]["updates_by"]["interval"] == 2'
+[ "$(head -1 c/compare.csv)" = t,warp.total,warp.pressure,warp.shear,polar.total,polar.pressure,polar.shear ] ||
+  complain "c/compare.csv"
+expect 4 run model.yaml -o c --set 'integrator={method: newmark, step: 0.004, newton: {iterations: 1}}'
+err "newmark: at t = "
+
 expect 3 run none.yaml; no_out; err "none.yaml"
-expect 3 run model.yaml --set boundary.0.group=bse -o c; err "did you mean base?"; no_out
+expect 3 run model.yaml --set boundary.0.group=bse -o d; err "did you mean base?"; no_out
 expect 3 run model.yaml --set mesh.box=null --set mesh.file=none.msh -o c; err "none.msh"
 echo >file
 expect 5 run model.yaml -o file/x; err "file: exists and is not a folder"; no_out

@@ -2,6 +2,7 @@
 
 expect 0 schema; no_err
 out "integrator.rtol"; out "kg/m^3"; out "not yet"; out "cauchy, green, polar, warp, hybrid"
+out "frames.max_angle"; out "boundary[].rotate.axis"; out "generalized-alpha"; out "compare"
 expect 0 schema integrator.atol; no_err
 out "integrator.atol.velocity"
 grep -q strain stdout && complain "schema KEY prints other keys"

@@ -1,6 +1,6 @@
-/* What frames that lag behind the body do to the solution: the bar of bar.h, loaded in 0.2 s so that
-   it swings by half a radian, against frames exact in every evaluation. Errors are of u at 0.4 s,
-   relative to the largest displacement; those of integration are a hundred times smaller. */
+/* What frames that lag behind the body do to the solution: the bar of bar.h, loaded in 0.2 s so
+   that it swings by half a radian, against frames exact in every evaluation. Errors are of u at 0.4
+   s, relative to the largest displacement; those of integration are a hundred times smaller. */
 #include "bar.h"
 #include "follow.h"
 
