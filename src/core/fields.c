@@ -3,8 +3,8 @@
 
 void corot_nodal(const corot_model *m, double t, const double *u, const double *v,
                  double (*displacement)[3], double (*velocity)[3]) {
-  if (displacement) model_displacement(m, NAN, t, u, displacement[0], 3);
-  if (velocity) model_velocity(m, NAN, t, v, velocity[0], 3);
+  if (displacement) corot_model_displacement(m, NAN, t, u, displacement[0], 3);
+  if (velocity) corot_model_velocity(m, NAN, t, v, velocity[0], 3);
 }
 
 /* sqrt(3/2 dev:dev) of sym(A). */
@@ -55,6 +55,6 @@ static COROT_CLONES int elements_loop(const corot_model *m, const corot_state *s
 
 corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
                             const corot_element_fields *fields) {
-  state_displace(m, s, t, u);
-  return state_inverted(s, elements_loop(m, s, fields));
+  corot_state_displace(m, s, t, u);
+  return corot_state_check(s, elements_loop(m, s, fields));
 }

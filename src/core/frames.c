@@ -30,10 +30,10 @@ static corot_status energy_with(const corot_model *m, corot_state *s, mat3 *R, d
   double power;
   s->frames = COROT_FRAMES_HELD;
   s->R = R;
-  int tet = kernel_energy(m, s, false, energy, &power);
+  int tet = corot_kernel_energy(m, s, false, energy, &power);
   s->frames = frames;
   s->R = held;
-  return state_inverted(s, tet);
+  return corot_state_check(s, tet);
 }
 
 /* s->new_R becomes the frames of u; the change is from those in use at t to them. */
@@ -41,8 +41,8 @@ static corot_status find_new(const corot_model *m, corot_state *s, double t, con
                              corot_frames_change *change) {
   corot_frames_change c = {0};
   double before, after;
-  state_displace(m, s, t, u);
-  COROT_TRY(state_inverted(s, kernel_frames(m, s, s->new_R)));
+  corot_state_displace(m, s, t, u);
+  COROT_TRY(corot_state_check(s, corot_kernel_frames(m, s, s->new_R)));
   if (!change) return COROT_OK;
   mat3 *now = s->R;
   if (s->frames == COROT_FRAMES_EXTRAPOLATED) {
@@ -76,9 +76,9 @@ corot_status corot_frames_update(const corot_model *m, corot_state *s, double t,
 corot_status corot_frames_spin(const corot_model *m, corot_state *s, double t, const double *u,
                                const double *v, double *spin_max) {
   double square = 0;
-  state_displace(m, s, t, u);
-  model_velocity(m, s->phase, t, v, s->v[0], 4);
-  COROT_TRY(state_inverted(s, kernel_spin(m, s, s->spin)));
+  corot_state_displace(m, s, t, u);
+  corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  COROT_TRY(corot_state_check(s, corot_kernel_spin(m, s, s->spin)));
   for (int b = 0; b < m->tets.nblock; b++) {
     vd w2 = vec3_dot(s->spin[b], s->spin[b]);
     for (int l = 0; l < W; l++) square = fmax(square, w2[l]);

@@ -7,32 +7,32 @@
 #include "core/state.h"
 
 /* state->force = -(internal + viscous force) for state->u and, if `damped`, state->v. */
-int kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk);
+int corot_kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk);
 
 /* state->force = the change of that for the directions state->du and state->dv; `exact`: with that
    of the frames. */
-int kernel_derivative(const corot_model *m, corot_state *state, bool exact, int chunk);
+int corot_kernel_derivative(const corot_model *m, corot_state *state, bool exact, int chunk);
 
 /* Elastic energy and, if `damped`, the power of the viscous forces. */
-int kernel_energy(const corot_model *m, corot_state *state, bool damped, double *elastic,
-                  double *power);
+int corot_kernel_energy(const corot_model *m, corot_state *state, bool damped, double *elastic,
+                        double *power);
 
 /* R [tets.nblock] = the measure's own frames. */
-int kernel_frames(const corot_model *m, corot_state *state, mat3 *R);
+int corot_kernel_frames(const corot_model *m, corot_state *state, mat3 *R);
 
 /* spin [tets.nblock] = the angular velocity of the measure's own frames for the velocity
    state->v: dR/dt = [spin]x R. */
-int kernel_spin(const corot_model *m, corot_state *state, vec3 *spin);
+int corot_kernel_spin(const corot_model *m, corot_state *state, vec3 *spin);
 
 /* state->force = -(the internal force of a measure, index `strain`, with its own frames and with
    the material's coefficients times the factors given). */
-int kernel_internal(const corot_model *m, corot_state *state, int strain, double lambda_part,
-                    double mu_part, int chunk);
+int corot_kernel_internal(const corot_model *m, corot_state *state, int strain, double lambda_part,
+                          double mu_part, int chunk);
 
 /* Adds the element matrices to K and D, either of which may be NULL, and completes the columns of
    the nodes that are ready then. `exact`: with the variation of the frames. */
-int kernel_tangent(const corot_model *m, corot_state *state, bool exact, int chunk, double (*K)[9],
-                   double (*D)[9]);
+int corot_kernel_tangent(const corot_model *m, corot_state *state, bool exact, int chunk,
+                         double (*K)[9], double (*D)[9]);
 
 /* --- shared by the loops --------------------------------------------------------------------- */
 

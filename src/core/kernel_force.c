@@ -29,7 +29,8 @@ COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot
 }
 
 /* The hot loop is compiled for each measure, so that its branches on the measure fall away. */
-COROT_CLONES int kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk) {
+COROT_CLONES int corot_kernel_force(const corot_model *m, corot_state *state, bool damped,
+                                    int chunk) {
   switch (m->strain) {
     case CAUCHY:
       return force_loop(&strain_measures[CAUCHY], m, state, damped, chunk);
@@ -66,8 +67,8 @@ COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, coro
   return -1;
 }
 
-COROT_CLONES int kernel_energy(const corot_model *m, corot_state *state, bool damped,
-                               double *elastic, double *power) {
+COROT_CLONES int corot_kernel_energy(const corot_model *m, corot_state *state, bool damped,
+                                     double *elastic, double *power) {
   return energy_loop(&strain_measures[m->strain], m, state, damped, elastic, power);
 }
 
@@ -83,7 +84,7 @@ COROT_INLINE int frames_loop(const strain_measure *s, const corot_model *m, coro
   return -1;
 }
 
-COROT_CLONES int kernel_frames(const corot_model *m, corot_state *state, mat3 *R) {
+COROT_CLONES int corot_kernel_frames(const corot_model *m, corot_state *state, mat3 *R) {
   return frames_loop(&strain_measures[m->strain], m, state, R);
 }
 
@@ -103,7 +104,7 @@ COROT_INLINE int spin_loop(const strain_measure *s, const corot_model *m, corot_
   return -1;
 }
 
-COROT_CLONES int kernel_spin(const corot_model *m, corot_state *state, vec3 *spin) {
+COROT_CLONES int corot_kernel_spin(const corot_model *m, corot_state *state, vec3 *spin) {
   return spin_loop(&strain_measures[m->strain], m, state, spin);
 }
 
@@ -113,7 +114,7 @@ COROT_INLINE int internal_loop(const strain_measure *s, const corot_model *m, co
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
     mat3 Q0 = mat3_identity();
-    if (s->frame == FRAME_WARP) Q0 = tets_rest_basis(m->mesh, m->tets.number + b * W);
+    if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(m->mesh, m->tets.number + b * W);
     vi inverted = {0};
     mat3 F = deformation(block, (const double(*)[4])state->u);
     mat3 R = frame_of(s->frame, F, &Q0, &inverted);
@@ -126,7 +127,7 @@ COROT_INLINE int internal_loop(const strain_measure *s, const corot_model *m, co
   return -1;
 }
 
-COROT_CLONES int kernel_internal(const corot_model *m, corot_state *state, int strain,
-                                 double lambda_part, double mu_part, int chunk) {
+COROT_CLONES int corot_kernel_internal(const corot_model *m, corot_state *state, int strain,
+                                       double lambda_part, double mu_part, int chunk) {
   return internal_loop(&strain_measures[strain], m, state, lambda_part, mu_part, chunk);
 }

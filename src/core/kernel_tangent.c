@@ -140,8 +140,8 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
   return -1;
 }
 
-COROT_CLONES int kernel_tangent(const corot_model *m, corot_state *state, bool exact, int chunk,
-                                double (*K)[9], double (*D)[9]) {
+COROT_CLONES int corot_kernel_tangent(const corot_model *m, corot_state *state, bool exact,
+                                      int chunk, double (*K)[9], double (*D)[9]) {
   return tangent_loop(&strain_measures[m->strain], m, state, exact, chunk, K, D);
 }
 
@@ -176,7 +176,7 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, 
   return -1;
 }
 
-COROT_CLONES int kernel_derivative(const corot_model *m, corot_state *state, bool exact,
-                                   int chunk) {
+COROT_CLONES int corot_kernel_derivative(const corot_model *m, corot_state *state, bool exact,
+                                         int chunk) {
   return derivative_loop(&strain_measures[m->strain], m, state, exact, chunk);
 }

@@ -12,7 +12,7 @@ static void add_force(const corot_model *m, double *force, int node, const doubl
 /* The faces of a load's group. */
 static corot_status find_faces(const corot_model *m, const char *name, const char *user,
                                const corot_group **group) {
-  COROT_TRY(model_find_group(m->mesh, name, user, group));
+  COROT_TRY(corot_model_find_group(m->mesh, name, user, group));
   if (!(*group)->ntri) return corot_fail(COROT_EINVAL, "%s: group '%s' has no faces", user, name);
   return COROT_OK;
 }
@@ -51,7 +51,7 @@ static corot_status add_traction(const corot_model *m, const corot_load *from, l
 
 static corot_status add_point_force(const corot_model *m, const corot_load *from, load *to) {
   const corot_group *group;
-  COROT_TRY(model_find_group(m->mesh, from->group, "force", &group));
+  COROT_TRY(corot_model_find_group(m->mesh, from->group, "force", &group));
   for (int i = 0; i < group->nnode; i++)
     add_force(m, to->force, group->node[i], from->value, 1.0 / group->nnode);
   return COROT_OK;
@@ -116,7 +116,7 @@ static corot_status create(const corot_model *m, const corot_load *from, int k, 
   }
 }
 
-corot_status loads_create(const corot_model_def *def, corot_model *m) {
+corot_status corot_loads_create(const corot_model_def *def, corot_model *m) {
   m->load = calloc(def->nload + 1, sizeof *m->load);
   if (!m->load) return corot_fail(COROT_ENOMEM, "no memory for %d loads", def->nload);
   m->nload = def->nload;
@@ -124,7 +124,7 @@ corot_status loads_create(const corot_model_def *def, corot_model *m) {
   return COROT_OK;
 }
 
-void loads_destroy(corot_model *m) {
+void corot_loads_destroy(corot_model *m) {
   for (int k = 0; k < m->nload; k++) {
     free(m->load[k].force);
     free(m->load[k].tri);
@@ -146,7 +146,7 @@ static double amplitude_at(const load *l, double t) {
   return (1 - s) * value[k - 1] + s * value[k];
 }
 
-void loads_force(const corot_model *m, double t, const double (*u)[4], double *f) {
+void corot_loads_force(const corot_model *m, double t, const double (*u)[4], double *f) {
   memset(f, 0, m->ndof * sizeof *f);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
@@ -163,8 +163,8 @@ void loads_force(const corot_model *m, double t, const double (*u)[4], double *f
   }
 }
 
-void loads_derivative(const corot_model *m, double t, const double (*u)[4], const double (*du)[4],
-                      double *f) {
+void corot_loads_derivative(const corot_model *m, double t, const double (*u)[4],
+                            const double (*du)[4], double *f) {
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
     double factor = amplitude_at(l, t);

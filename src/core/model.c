@@ -4,7 +4,7 @@
 
 corot_model_def corot_model_defaults(void) { return (corot_model_def){.strain = "polar"}; }
 
-corot_status model_find_strain(const char *name, int *strain) {
+corot_status corot_model_find_strain(const char *name, int *strain) {
   for (int k = 0; k < NSTRAIN; k++)
     if (name && strcmp(name, strain_measures[k].name) == 0) {
       *strain = k;
@@ -14,8 +14,8 @@ corot_status model_find_strain(const char *name, int *strain) {
                     name ? name : "");
 }
 
-corot_status model_find_group(const corot_mesh *mesh, const char *name, const char *user,
-                              const corot_group **group) {
+corot_status corot_model_find_group(const corot_mesh *mesh, const char *name, const char *user,
+                                    const corot_group **group) {
   *group = name ? corot_mesh_find_group(mesh, name) : NULL;
   if (*group) return COROT_OK;
   return corot_fail(COROT_EINVAL, "%s: the mesh has no group '%s'", user, name ? name : "");
@@ -62,7 +62,7 @@ static corot_status assign_materials(const corot_model_def *def, corot_model *m,
       continue;
     }
     const corot_group *group;
-    COROT_TRY(model_find_group(m->mesh, from->group, "material", &group));
+    COROT_TRY(corot_model_find_group(m->mesh, from->group, "material", &group));
     if (!group->ntet)
       return corot_fail(COROT_EINVAL, "material: group '%s' has no tets", from->group);
     for (int i = 0; i < group->ntet; i++) {
@@ -82,7 +82,7 @@ static corot_status assign_materials(const corot_model_def *def, corot_model *m,
 static corot_status hold_fixed(const corot_model_def *def, const corot_model *m, char (*held)[3]) {
   for (int k = 0; k < def->nfix; k++) {
     const corot_group *group;
-    COROT_TRY(model_find_group(m->mesh, def->fix[k].group, "fix", &group));
+    COROT_TRY(corot_model_find_group(m->mesh, def->fix[k].group, "fix", &group));
     for (int i = 0; i < group->nnode; i++)
       for (int c = 0; c < 3; c++)
         if (def->fix[k].component[c]) held[group->node[i]][c] = 1;
@@ -98,7 +98,7 @@ static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
   corot_status status = COROT_OK;
   if (!m->dof || !held) status = corot_fail(COROT_ENOMEM, "no memory for %d nodes", nnode);
   if (!status) status = hold_fixed(def, m, held);
-  if (!status) status = motions_create(def, m, held);
+  if (!status) status = corot_motions_create(def, m, held);
   if (!status)
     for (int n = 0; n < nnode; n++)
       for (int c = 0; c < 3; c++) m->dof[n][c] = held[n][c] ? -1 : m->ndof++;
@@ -201,7 +201,7 @@ static void find_scales(corot_model *m) {
 
 static corot_status build(const corot_model_def *def, corot_model *m) {
   if (!def->mesh) return corot_fail(COROT_EINVAL, "the model has no mesh");
-  COROT_TRY(model_find_strain(def->strain, &m->strain));
+  COROT_TRY(corot_model_find_strain(def->strain, &m->strain));
   m->objective = def->viscosity == COROT_OBJECTIVE;
   if (m->objective && strain_measures[m->strain].frame != FRAME_POLAR)
     return corot_fail(COROT_EINVAL, "the objective viscous law needs a polar frame, not strain %s",
@@ -212,16 +212,16 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   if (!of_tet) return corot_fail(COROT_ENOMEM, "no memory for %d tets", m->mesh->ntet);
   corot_status status = assign_materials(def, m, of_tet);
   if (!status)
-    status = tets_create(m->mesh, m->nmaterial, of_tet,
-                         strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
+    status = corot_tets_create(m->mesh, m->nmaterial, of_tet,
+                               strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
   free(of_tet);
   COROT_TRY(status);
 
   COROT_TRY(number_dofs(def, m));
   COROT_TRY(lump_mass(m));
-  COROT_TRY(loads_create(def, m));
+  COROT_TRY(corot_loads_create(def, m));
   COROT_TRY(list_kinks(m));
-  COROT_TRY(pattern_create(m->mesh->nnode, &m->tets, &m->pattern));
+  COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->pattern));
   find_scales(m);
   return COROT_OK;
 }
@@ -240,21 +240,21 @@ corot_status corot_model_create(const corot_model_def *def, corot_model **model)
 
 void corot_model_destroy(corot_model *m) {
   if (!m) return;
-  loads_destroy(m);
-  motions_destroy(m);
+  corot_loads_destroy(m);
+  corot_motions_destroy(m);
   free(m->kink);
   free(m->material);
   free(m->dof);
   free(m->mass);
   free(m->inverse_mass);
   free(m->mass_damping);
-  tets_clear(&m->tets);
-  pattern_clear(&m->pattern);
+  corot_tets_clear(&m->tets);
+  corot_pattern_clear(&m->pattern);
   corot_mesh_destroy(m->mesh);
   free(m);
 }
 
-void model_spread(const corot_model *m, const double *values, double *nodal, int stride) {
+void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride) {
   for (int n = 0; n < m->mesh->nnode; n++)
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
@@ -308,8 +308,8 @@ size_t corot_model_bytes(const corot_model *m) {
   if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
   bytes += t->nblock * (sizeof *t->block + W * sizeof *t->number);
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
-  bytes += (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) *
-               sizeof(int) +
-           t->nblock * sizeof *p->place;
+  bytes +=
+      (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) * sizeof(int) +
+      t->nblock * sizeof *p->place;
   return bytes;
 }

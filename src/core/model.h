@@ -66,36 +66,36 @@ struct corot_model {
 };
 
 /* Index into strain_measures by name. */
-corot_status model_find_strain(const char *name, int *strain);
+corot_status corot_model_find_strain(const char *name, int *strain);
 
 /* COROT_EINVAL if the mesh has no such group; `user` says who asked. */
-corot_status model_find_group(const corot_mesh *mesh, const char *name, const char *user,
-                              const corot_group **group);
+corot_status corot_model_find_group(const corot_mesh *mesh, const char *name, const char *user,
+                                    const corot_group **group);
 
 /* Displacement and velocity at t of all nodes, `stride` doubles each: the free values, the motions'
    on their nodes, zero on held components. At a kink of a motion, `phase` says which side is meant:
    the law in force just after that time; NaN: just after t. */
-void model_displacement(const corot_model *m, double phase, double t, const double *u,
-                        double *nodal, int stride);
-void model_velocity(const corot_model *m, double phase, double t, const double *v, double *nodal,
-                    int stride);
+void corot_model_displacement(const corot_model *m, double phase, double t, const double *u,
+                              double *nodal, int stride);
+void corot_model_velocity(const corot_model *m, double phase, double t, const double *v,
+                          double *nodal, int stride);
 
 /* The free values alone: zero on every held component. */
-void model_spread(const corot_model *m, const double *values, double *nodal, int stride);
+void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride);
 
 /* m->load from the definition, once the degrees of freedom and the mass are known. */
-corot_status loads_create(const corot_model_def *def, corot_model *m);
-void loads_destroy(corot_model *m);
+corot_status corot_loads_create(const corot_model_def *def, corot_model *m);
+void corot_loads_destroy(corot_model *m);
 
 /* f [ndof] = external force at time t on the body displaced by u [nnode]. */
-void loads_force(const corot_model *m, double t, const double (*u)[4], double *f);
+void corot_loads_force(const corot_model *m, double t, const double (*u)[4], double *f);
 
 /* f += its change in the direction du. */
-void loads_derivative(const corot_model *m, double t, const double (*u)[4], const double (*du)[4],
-                      double *f);
+void corot_loads_derivative(const corot_model *m, double t, const double (*u)[4],
+                            const double (*du)[4], double *f);
 
 /* m->motion from the definition; marks the nodes' components in `held`. */
-corot_status motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]);
-void motions_destroy(corot_model *m);
+corot_status corot_motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]);
+void corot_motions_destroy(corot_model *m);
 
 #endif

@@ -62,7 +62,7 @@ static motion *continued(const corot_model *m, const corot_motion *from) {
 static corot_status start(corot_model *m, const corot_motion *from, int k, int nspan,
                           char (*held)[3]) {
   const corot_group *group;
-  COROT_TRY(model_find_group(m->mesh, from->group, "motion", &group));
+  COROT_TRY(corot_model_find_group(m->mesh, from->group, "motion", &group));
   COROT_TRY(claim(group, k, held));
   motion *to = &m->motion[m->nmotion++];
   to->kind = from->kind;
@@ -93,7 +93,7 @@ static corot_status add_span(motion *to, const corot_motion *from, int k) {
   return COROT_OK;
 }
 
-corot_status motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]) {
+corot_status corot_motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]) {
   m->motion = calloc(def->nmotion + 1, sizeof *m->motion);
   if (!m->motion) return corot_fail(COROT_ENOMEM, "no memory for %d motions", def->nmotion);
   for (int k = 0; k < def->nmotion; k++) {
@@ -109,7 +109,7 @@ corot_status motions_create(const corot_model_def *def, corot_model *m, char (*h
   return COROT_OK;
 }
 
-void motions_destroy(corot_model *m) {
+void corot_motions_destroy(corot_model *m) {
   for (int k = 0; k < m->nmotion; k++) {
     free(m->motion[k].group);
     free(m->motion[k].node);
@@ -156,9 +156,9 @@ static void spin_arms(const motion *a, const double X[3], double w[3], double d[
   }
 }
 
-void model_displacement(const corot_model *m, double phase, double t, const double *u,
-                        double *nodal, int stride) {
-  model_spread(m, u, nodal, stride);
+void corot_model_displacement(const corot_model *m, double phase, double t, const double *u,
+                              double *nodal, int stride) {
+  corot_model_spread(m, u, nodal, stride);
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
     progress p = progress_at(a, phase, t);
@@ -173,9 +173,9 @@ void model_displacement(const corot_model *m, double phase, double t, const doub
   }
 }
 
-void model_velocity(const corot_model *m, double phase, double t, const double *v, double *nodal,
-                    int stride) {
-  model_spread(m, v, nodal, stride);
+void corot_model_velocity(const corot_model *m, double phase, double t, const double *v,
+                          double *nodal, int stride) {
+  corot_model_spread(m, v, nodal, stride);
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
     progress p = progress_at(a, phase, t);

@@ -29,7 +29,7 @@ static corot_status sum_forces(const corot_model *m, corot_state *s, double t, f
   const int *ready = m->pattern.ready;
   double check = 0;
   for (int c = 0; c < m->pattern.nchunk; c++) {
-    COROT_TRY(state_inverted(s, kernel(m, s, option, c)));
+    COROT_TRY(corot_state_check(s, kernel(m, s, option, c)));
     check += collect(m, s, ready[c], ready[c + 1]);
   }
   if (!isfinite(check))
@@ -40,12 +40,12 @@ static corot_status sum_forces(const corot_model *m, corot_state *s, double t, f
 
 corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, double *r) {
-  state_displace(m, s, t, u);
-  if (m->damped) model_velocity(m, s->phase, t, v, s->v[0], 4);
-  loads_force(m, t, (const double(*)[4])s->u, s->r);
+  corot_state_displace(m, s, t, u);
+  if (m->damped) corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  corot_loads_force(m, t, (const double(*)[4])s->u, s->r);
   if (m->mass_damped)
     for (int i = 0; i < m->ndof; i++) s->r[i] -= m->mass_damping[i] * v[i];
-  return sum_forces(m, s, t, kernel_force, m->damped, r);
+  return sum_forces(m, s, t, corot_kernel_force, m->damped, r);
 }
 
 corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
@@ -61,7 +61,7 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
   (void)v; /* viscous forces are linear in it */
-  state_displace(m, s, t, u);
+  corot_state_displace(m, s, t, u);
   size_t bytes = m->pattern.nblock * sizeof *K;
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
@@ -71,22 +71,22 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
         if (m->dof[n][c] >= 0) D[m->pattern.colptr[n]][4 * c] = m->mass_damping[m->dof[n][c]];
   bool exact = tangent == COROT_TANGENT_EXACT;
   for (int c = 0; c < m->pattern.nchunk; c++)
-    COROT_TRY(state_inverted(s, kernel_tangent(m, s, exact, c, K, m->damped ? D : NULL)));
+    COROT_TRY(corot_state_check(s, corot_kernel_tangent(m, s, exact, c, K, m->damped ? D : NULL)));
   return COROT_OK;
 }
 
 corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const double *u,
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
-  state_displace(m, s, t, u);
-  model_velocity(m, s->phase, t, v, s->v[0], 4);
-  model_spread(m, du, s->du[0], 4);
-  model_spread(m, dv, s->dv[0], 4);
+  corot_state_displace(m, s, t, u);
+  corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  corot_model_spread(m, du, s->du[0], 4);
+  corot_model_spread(m, dv, s->dv[0], 4);
   memset(s->r, 0, m->ndof * sizeof *s->r);
-  loads_derivative(m, t, (const double(*)[4])s->u, (const double(*)[4])s->du, s->r);
+  corot_loads_derivative(m, t, (const double(*)[4])s->u, (const double(*)[4])s->du, s->r);
   if (m->mass_damped)
     for (int i = 0; i < m->ndof; i++) s->r[i] -= m->mass_damping[i] * dv[i];
-  return sum_forces(m, s, t, kernel_derivative, tangent == COROT_TANGENT_EXACT, jv);
+  return sum_forces(m, s, t, corot_kernel_derivative, tangent == COROT_TANGENT_EXACT, jv);
 }
 
 static void add_cross(double a[3], double m, const double x[3], const double v[3]) {
@@ -101,7 +101,7 @@ static corot_status support_power(const corot_model *m, corot_state *s, double *
   const double *force = (const double *)s->force;
   const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
   for (int c = 0; c < m->pattern.nchunk; c++) {
-    COROT_TRY(state_inverted(s, kernel_force(m, s, m->damped, c)));
+    COROT_TRY(corot_state_check(s, corot_kernel_force(m, s, m->damped, c)));
     for (int n = ready[c]; n < ready[c + 1]; n++)
       for (int k = begin[n]; k < begin[n + 1]; k++)
         for (int i = 0; i < 3; i++)
@@ -113,11 +113,12 @@ static corot_status support_power(const corot_model *m, corot_state *s, double *
 corot_status corot_energy(const corot_model *m, corot_state *s, double t, const double *u,
                           const double *v, corot_energies *energies) {
   corot_energies e = {0};
-  state_displace(m, s, t, u);
-  model_velocity(m, s->phase, t, v, s->v[0], 4);
-  COROT_TRY(state_inverted(s, kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
+  corot_state_displace(m, s, t, u);
+  corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  COROT_TRY(
+      corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
   if (m->nmotion) COROT_TRY(support_power(m, s, &e.power_external));
-  loads_force(m, t, (const double(*)[4])s->u, s->r);
+  corot_loads_force(m, t, (const double(*)[4])s->u, s->r);
   for (int i = 0; i < m->ndof; i++) {
     e.kinetic += 0.5 * m->mass[i] * v[i] * v[i];
     e.power_external += s->r[i] * v[i];
@@ -142,12 +143,12 @@ corot_status corot_internal_force(const corot_model *m, corot_state *s, double t
                                   const char *strain, double lambda_part, double mu_part,
                                   double (*f)[3]) {
   int index;
-  COROT_TRY(model_find_strain(strain, &index));
-  state_displace(m, s, t, u);
+  COROT_TRY(corot_model_find_strain(strain, &index));
+  corot_state_displace(m, s, t, u);
   const double *force = (const double *)s->force;
   const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
   for (int c = 0; c < m->pattern.nchunk; c++) {
-    COROT_TRY(state_inverted(s, kernel_internal(m, s, index, lambda_part, mu_part, c)));
+    COROT_TRY(corot_state_check(s, corot_kernel_internal(m, s, index, lambda_part, mu_part, c)));
     for (int n = ready[c]; n < ready[c + 1]; n++)
       for (int i = 0; i < 3; i++) {
         double sum = 0;

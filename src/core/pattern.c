@@ -128,14 +128,14 @@ static void wrap_slots(int nnode, pattern *p) {
   for (int k = 0; k < p->first[nnode]; k++) p->slot[k] %= size;
 }
 
-corot_status pattern_create(int nnode, const tets *t, pattern *out) {
+corot_status corot_pattern_create(int nnode, const tets *t, pattern *out) {
   pattern p = {.nnode = nnode};
   corot_status status = list_slots(nnode, t, &p);
   if (!status) status = list_blocks(nnode, t, &p);
   if (!status) status = place_tets(t, &p);
   if (!status) status = plan_chunks(nnode, t, &p);
   if (status) {
-    pattern_clear(&p);
+    corot_pattern_clear(&p);
     return status;
   }
   wrap_slots(nnode, &p);
@@ -143,7 +143,7 @@ corot_status pattern_create(int nnode, const tets *t, pattern *out) {
   return COROT_OK;
 }
 
-void pattern_clear(pattern *p) {
+void corot_pattern_clear(pattern *p) {
   free(p->colptr);
   free(p->row);
   free(p->place);

@@ -31,7 +31,7 @@ typedef struct pattern {
                  y and z W further */
 } pattern;
 
-corot_status pattern_create(int nnode, const tets *t, pattern *out);
-void pattern_clear(pattern *p);
+corot_status corot_pattern_create(int nnode, const tets *t, pattern *out);
+void corot_pattern_clear(pattern *p);
 
 #endif

@@ -4,15 +4,15 @@
 
 static corot_status allocate(const corot_model *m, corot_state *s) {
   int nnode = m->mesh->nnode, nblock = m->tets.nblock;
-  s->u = vector_calloc(nnode, sizeof *s->u);
-  s->v = vector_calloc(nnode, sizeof *s->v);
-  s->du = vector_calloc(nnode, sizeof *s->du);
-  s->dv = vector_calloc(nnode, sizeof *s->dv);
-  s->R = vector_calloc(nblock, sizeof *s->R);
-  s->new_R = vector_calloc(nblock, sizeof *s->new_R);
-  s->now_R = vector_calloc(nblock, sizeof *s->now_R);
-  s->spin = vector_calloc(nblock, sizeof *s->spin);
-  s->force = vector_calloc(m->pattern.window, sizeof *s->force);
+  s->u = corot_vector_calloc(nnode, sizeof *s->u);
+  s->v = corot_vector_calloc(nnode, sizeof *s->v);
+  s->du = corot_vector_calloc(nnode, sizeof *s->du);
+  s->dv = corot_vector_calloc(nnode, sizeof *s->dv);
+  s->R = corot_vector_calloc(nblock, sizeof *s->R);
+  s->new_R = corot_vector_calloc(nblock, sizeof *s->new_R);
+  s->now_R = corot_vector_calloc(nblock, sizeof *s->now_R);
+  s->spin = corot_vector_calloc(nblock, sizeof *s->spin);
+  s->force = corot_vector_calloc(m->pattern.window, sizeof *s->force);
   s->r = calloc(m->ndof, sizeof *s->r);
   if (!s->u || !s->v || !s->du || !s->dv || !s->R || !s->new_R || !s->now_R || !s->spin ||
       !s->force || !s->r)
@@ -64,12 +64,12 @@ corot_frames corot_state_frames(const corot_state *s) { return s->frames; }
 int corot_state_inverted(const corot_state *s) { return s->inverted; }
 void corot_state_enter(corot_state *s, double t) { s->phase = t; }
 
-void state_displace(const corot_model *m, corot_state *s, double t, const double *u) {
+void corot_state_displace(const corot_model *m, corot_state *s, double t, const double *u) {
   s->elapsed = t - s->t_update;
-  model_displacement(m, s->phase, t, u, s->u[0], 4);
+  corot_model_displacement(m, s->phase, t, u, s->u[0], 4);
 }
 
-corot_status state_inverted(corot_state *s, int tet) {
+corot_status corot_state_check(corot_state *s, int tet) {
   s->inverted = tet;
   if (tet < 0) return COROT_OK;
   return corot_fail(COROT_RETRY, "tet %d is inverted", tet);

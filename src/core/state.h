@@ -26,9 +26,9 @@ struct corot_state {
 };
 
 /* Before an evaluation: all nodes' displacement at t, and the age of the held frames. */
-void state_displace(const corot_model *m, corot_state *s, double t, const double *u);
+void corot_state_displace(const corot_model *m, corot_state *s, double t, const double *u);
 
 /* Remembers the tet a kernel returned; COROT_RETRY if there is one. */
-corot_status state_inverted(corot_state *s, int tet);
+corot_status corot_state_check(corot_state *s, int tet);
 
 #endif

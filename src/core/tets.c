@@ -6,7 +6,7 @@
 
 #include "core/polar.h"
 
-void *vector_calloc(size_t count, size_t size) {
+void *corot_vector_calloc(size_t count, size_t size) {
   if (size && count > (SIZE_MAX - sizeof(vd)) / size) return NULL;
   size_t bytes = (count * size + sizeof(vd) - 1) / sizeof(vd) * sizeof(vd);
   void *p = aligned_alloc(sizeof(vd), bytes ? bytes : sizeof(vd));
@@ -50,7 +50,7 @@ static void fill_block(const corot_mesh *mesh, const int *number, tet_block *blo
   for (int l = 0; l < W; l++) block->volume[l] = l < block->ntet ? fabs(det[l]) / 6 : 0;
 }
 
-mat3 tets_rest_basis(const corot_mesh *mesh, const int *number) {
+mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number) {
   mat3 D;
   for (int l = 0; l < W; l++) {
     const int *node = mesh->tet[number[l]];
@@ -59,8 +59,8 @@ mat3 tets_rest_basis(const corot_mesh *mesh, const int *number) {
   return gram_schmidt(D);
 }
 
-corot_status tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
-                         int with_rest_basis, tets *out) {
+corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
+                               int with_rest_basis, tets *out) {
   tets t = {0};
   if (mesh->ntet > INT_MAX / (4 * 3) - W * nmaterial) /* slots in the force buffer */
     return corot_fail(COROT_EINVAL, "%d tets exceed 32-bit counts", mesh->ntet);
@@ -80,9 +80,9 @@ corot_status tets_create(const corot_mesh *mesh, int nmaterial, const int *mater
   /* blocks: W tets in order, a new one where the material changes */
   for (int k = 0, lanes = W; k < ntet; k++, lanes++)
     if (lanes == W || material[order[k]] != material[order[k - 1]]) t.nblock++, lanes = 0;
-  t.block = vector_calloc(t.nblock, sizeof *t.block);
+  t.block = corot_vector_calloc(t.nblock, sizeof *t.block);
   t.number = malloc((size_t)t.nblock * W * sizeof *t.number);
-  if (with_rest_basis) t.rest_basis = vector_calloc(t.nblock, sizeof *t.rest_basis);
+  if (with_rest_basis) t.rest_basis = corot_vector_calloc(t.nblock, sizeof *t.rest_basis);
   if (!t.block || !t.number || (with_rest_basis && !t.rest_basis)) goto no_memory;
 
   for (int b = 0, k = 0; b < t.nblock; b++) {
@@ -93,7 +93,7 @@ corot_status tets_create(const corot_mesh *mesh, int nmaterial, const int *mater
       number[block->ntet++] = order[k++];
     for (int l = block->ntet; l < W; l++) number[l] = number[block->ntet - 1];
     fill_block(mesh, number, block);
-    if (with_rest_basis) t.rest_basis[b] = tets_rest_basis(mesh, number);
+    if (with_rest_basis) t.rest_basis[b] = corot_tets_rest_basis(mesh, number);
   }
   free(lowest), free(count), free(by_node), free(order);
   *out = t;
@@ -101,11 +101,11 @@ corot_status tets_create(const corot_mesh *mesh, int nmaterial, const int *mater
 
 no_memory:
   free(lowest), free(count), free(by_node), free(order);
-  tets_clear(&t);
+  corot_tets_clear(&t);
   return corot_fail(COROT_ENOMEM, "no memory for %d tets", ntet);
 }
 
-void tets_clear(tets *t) {
+void corot_tets_clear(tets *t) {
   free(t->block);
   free(t->number);
   free(t->rest_basis);

@@ -27,14 +27,14 @@ typedef struct tets {
 } tets;
 
 /* `material` [ntet] says what each tet is made of, 0 <= material < nmaterial. */
-corot_status tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
-                         int with_rest_basis, tets *out);
-void tets_clear(tets *t);
+corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
+                               int with_rest_basis, tets *out);
+void corot_tets_clear(tets *t);
 
 /* The rest basis of one block. */
-mat3 tets_rest_basis(const corot_mesh *mesh, const int *number);
+mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number);
 
 /* Zeroed memory aligned for vectors, freed by free(). NULL if there is none. */
-void *vector_calloc(size_t count, size_t size);
+void *corot_vector_calloc(size_t count, size_t size);
 
 #endif

@@ -53,10 +53,10 @@ struct fixed {
 };
 
 /* The scheme of that name; NULL: there is none. */
-const scheme *scheme_find(const char *name);
+const scheme *corot_scheme_find(const char *name);
 
 /* The Newmark family's constants from the spectral radius rho at infinite frequency: 1 no numerical
    damping, 0 most. HHT: rho = (1 - alpha) / (1 + alpha), alpha up to 1/3. */
-void scheme_set_family(fixed *f, double rho);
+void corot_scheme_set_family(fixed *f, double rho);
 
 #endif

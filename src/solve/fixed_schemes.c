@@ -76,13 +76,13 @@ static const scheme schemes[] = {
     {"generalized-alpha", 0, true, newmark_prepare, newmark_finish},
 };
 
-const scheme *scheme_find(const char *name) {
+const scheme *corot_scheme_find(const char *name) {
   for (size_t k = 0; k < sizeof schemes / sizeof *schemes; k++)
     if (strcmp(name, schemes[k].name) == 0) return &schemes[k];
   return NULL;
 }
 
-void scheme_set_family(fixed *f, double rho) {
+void corot_scheme_set_family(fixed *f, double rho) {
   const char *name = f->scheme->name;
   if (strcmp(name, "hht") == 0) f->af = (1 - rho) / (1 + rho);
   if (strcmp(name, "generalized-alpha") == 0) {

@@ -21,9 +21,9 @@ corot_integrator_def corot_integrator_defaults(void) {
 }
 
 static corot_status find_method(const char *name, const integrator_ops **ops) {
-  *ops = &integrator_cvode;
-  if (name && strcmp(name, integrator_cvode.name) == 0) return COROT_OK;
-  for (*ops = integrators_fixed; (*ops)->name; ++*ops)
+  *ops = &corot_integrator_cvode;
+  if (name && strcmp(name, corot_integrator_cvode.name) == 0) return COROT_OK;
+  for (*ops = corot_integrators_fixed; (*ops)->name; ++*ops)
     if (name && strcmp(name, (*ops)->name) == 0) return COROT_OK;
   return corot_fail(COROT_EINVAL,
                     "no integrator '%s': cvode, backward-euler, bdf2, bdf3, midpoint, newmark, hht "

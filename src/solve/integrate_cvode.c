@@ -326,5 +326,6 @@ static void cvode_statistics(const corot_integrator *self, corot_statistics *s) 
   add_counts(c, s);
 }
 
-const integrator_ops integrator_cvode = {"cvode",  cvode_create, cvode_destroy, cvode_step,
-                                         cvode_at, cvode_work,   cvode_changed, cvode_statistics};
+const integrator_ops corot_integrator_cvode = {"cvode",       cvode_create,    cvode_destroy,
+                                               cvode_step,    cvode_at,        cvode_work,
+                                               cvode_changed, cvode_statistics};

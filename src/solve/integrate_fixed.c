@@ -55,7 +55,8 @@ static double correction(const corot_integrator *self, const stage *g) {
   return largest * g->p / corot_model_length(self->model);
 }
 
-/* G at the predictor or, where that cannot be evaluated, at the w that leaves the body where it is. */
+/* G at the predictor or, where that cannot be evaluated, at the w that leaves the body where it is.
+ */
 static corot_status predict(corot_integrator *self, const stage *g, double *norm) {
   fixed *f = self->method;
   memcpy(f->trial, f->w, f->n * sizeof *f->w);
@@ -256,7 +257,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   const corot_integrator_def *d = &self->def;
   fixed *f = self->method = calloc(1, sizeof *f);
   if (!f) return corot_fail(COROT_ENOMEM, "no memory for %s", d->method);
-  f->scheme = scheme_find(d->method);
+  f->scheme = corot_scheme_find(d->method);
   if (!(d->step > 0)) return corot_fail(COROT_EINVAL, "%s needs a step", d->method);
   double lowest = strcmp(d->method, "hht") == 0 ? 0.5 : 0;
   if (!(d->spectral_radius >= lowest && d->spectral_radius <= 1))
@@ -265,7 +266,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   size_t n = f->n = corot_model_ndof(self->model);
   f->mass = corot_model_mass(self->model);
   f->t0 = self->t, f->h = d->step;
-  scheme_set_family(f, d->spectral_radius);
+  corot_scheme_set_family(f, d->spectral_radius);
 
   f->memory = calloc(NVECTOR * n, sizeof *f->memory);
   if (!f->memory) return corot_fail(COROT_ENOMEM, "no memory for %s", d->method);
@@ -290,11 +291,11 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
     name, fixed_create, fixed_destroy, fixed_step, fixed_at, fixed_work, fixed_changed, \
         fixed_statistics                                                                \
   }
-const integrator_ops integrators_fixed[] = {FIXED("backward-euler"),
-                                            FIXED("bdf2"),
-                                            FIXED("bdf3"),
-                                            FIXED("midpoint"),
-                                            FIXED("newmark"),
-                                            FIXED("hht"),
-                                            FIXED("generalized-alpha"),
-                                            {0}};
+const integrator_ops corot_integrators_fixed[] = {FIXED("backward-euler"),
+                                                  FIXED("bdf2"),
+                                                  FIXED("bdf3"),
+                                                  FIXED("midpoint"),
+                                                  FIXED("newmark"),
+                                                  FIXED("hht"),
+                                                  FIXED("generalized-alpha"),
+                                                  {0}};

@@ -17,8 +17,8 @@ typedef struct integrator_ops {
   void (*statistics)(const corot_integrator *self, corot_statistics *statistics);
 } integrator_ops;
 
-extern const integrator_ops integrator_cvode;
-extern const integrator_ops integrators_fixed[]; /* one without a name ends it */
+extern const integrator_ops corot_integrator_cvode;
+extern const integrator_ops corot_integrators_fixed[]; /* one without a name ends it */
 
 struct corot_integrator {
   const integrator_ops *ops;

@@ -6,18 +6,18 @@
    grows with the size: 4 at 3 000 unknowns, 40 at 20 000. */
 enum { KLU_MAX = 3000 };
 
-corot_status linsol_find(const char *name, int n, const linsol_ops **ops) {
+corot_status corot_linsol_find(const char *name, int n, const linsol_ops **ops) {
   static const linsol_ops *const built[] = {
-      &linsol_pcg,
-      &linsol_klu,
+      &corot_linsol_pcg,
+      &corot_linsol_klu,
 #ifdef COROT_HAVE_CHOLMOD
-      &linsol_cholmod,
+      &corot_linsol_cholmod,
 #endif
   };
   int nbuilt = sizeof built / sizeof *built;
   const linsol_ops *largest = built[nbuilt - 1];
   if (name && strcmp(name, "auto") == 0) {
-    *ops = n > KLU_MAX ? largest : &linsol_klu;
+    *ops = n > KLU_MAX ? largest : &corot_linsol_klu;
     return COROT_OK;
   }
   for (int k = 0; k < nbuilt; k++)

@@ -23,13 +23,13 @@ typedef struct linsol_ops {
   long (*iterations)(const void *solver);
 } linsol_ops;
 
-extern const linsol_ops linsol_klu;
-extern const linsol_ops linsol_pcg;
+extern const linsol_ops corot_linsol_klu;
+extern const linsol_ops corot_linsol_pcg;
 #ifdef COROT_HAVE_CHOLMOD
-extern const linsol_ops linsol_cholmod;
+extern const linsol_ops corot_linsol_cholmod;
 #endif
 
 /* The solver of that name; "auto" picks by the number n of unknowns. */
-corot_status linsol_find(const char *name, int n, const linsol_ops **ops);
+corot_status corot_linsol_find(const char *name, int n, const linsol_ops **ops);
 
 #endif

@@ -101,6 +101,6 @@ static corot_status cholesky_solve(void *solver, double *x) {
   return COROT_OK;
 }
 
-const linsol_ops linsol_cholmod = {
+const linsol_ops corot_linsol_cholmod = {
     "cholmod", COROT_LOWER, cholesky_create, cholesky_factor, cholesky_solve, cholesky_destroy,
     NULL,      NULL};

@@ -107,6 +107,6 @@ static corot_status klu_solver_solve(void *solver, double *x) {
   return failure(k, "solve");
 }
 
-const linsol_ops linsol_klu = {
+const linsol_ops corot_linsol_klu = {
     "klu", COROT_FULL, klu_solver_create, klu_solver_factor, klu_solver_solve, klu_solver_destroy,
     NULL,  NULL};

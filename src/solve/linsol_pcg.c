@@ -176,5 +176,5 @@ static void pcg_set_tolerance(void *solver, double tolerance) {
 
 static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
 
-const linsol_ops linsol_pcg = {"pcg",     COROT_FULL,  pcg_create,        pcg_factor,
-                               pcg_solve, pcg_destroy, pcg_set_tolerance, pcg_iterations};
+const linsol_ops corot_linsol_pcg = {"pcg",     COROT_FULL,  pcg_create,        pcg_factor,
+                                     pcg_solve, pcg_destroy, pcg_set_tolerance, pcg_iterations};

@@ -6,7 +6,7 @@
 #include "solve/clock.h"
 
 static corot_status allocate(const char *linear_solver, corot_pencil *p) {
-  COROT_TRY(linsol_find(linear_solver, p->n, &p->ops));
+  COROT_TRY(corot_linsol_find(linear_solver, p->n, &p->ops));
   COROT_TRY(corot_csc_create(p->model, p->ops->triangle, &p->csc));
   size_t nblock = corot_model_nblock(p->model);
   p->K = malloc(nblock * sizeof *p->K);

@@ -5,7 +5,7 @@
 #include "solid.h"
 
 /* Reports factor, refactor and solve of each solver that is built in; s->K and s->D are set. KLU
-   is left out beyond 20 000 unknowns, where it takes minutes. */
+   is left out beyond 12 000 unknowns, where it takes minutes. */
 corot_status solvers_measure(bool json, const solid *s);
 
 #endif

@@ -24,17 +24,15 @@ static corot_status batch(piece_of_work *work, void *data, int ncall, double *se
 }
 
 corot_status timing_of(piece_of_work *work, void *data, timing *out) {
-  enum { FEWEST = 5, MOST = 40 };
+  enum { FEWEST = 3, MOST = 40 };
   const double shortest = 2e-4, budget = 0.5;
   double sample[MOST], seconds;
-  COROT_TRY(work(data));
-  int ncall = 1;
+  int ncall = 1, n = 0;
   COROT_TRY(batch(work, data, ncall, &seconds));
   while (seconds < shortest) {
     ncall *= 2;
     COROT_TRY(batch(work, data, ncall, &seconds));
   }
-  int n = 0;
   for (double spent = 0; n < FEWEST || (n < MOST && spent < budget); n++) {
     COROT_TRY(batch(work, data, ncall, &seconds));
     spent += seconds;

@@ -12,8 +12,8 @@ typedef struct timing {
 
 typedef corot_status piece_of_work(void *data);
 
-/* Calls `work` once to warm up, then in batches of at least 0.2 ms, until 40 batches or half a
-   second are spent, but 5 batches at least. */
+/* Calls `work` in batches of at least 0.2 ms, until 40 batches or half a second are spent, but 3
+   batches at least; one more, to warm up, does not count. */
 corot_status timing_of(piece_of_work *work, void *data, timing *out);
 
 /* Sorts `sample` [n]. */

@@ -11,8 +11,8 @@ enum { NSOLVER = 3 };
 /* NULL: not in this build. */
 static const linsol_ops *find(const char *name) {
   const linsol_ops *ops;
-  if (linsol_find(name, 1, &ops) == COROT_OK) return ops;
-  assert_fails(linsol_find("cholmod", 1, &ops), COROT_EINVAL, "COROT_CHOLMOD=ON");
+  if (corot_linsol_find(name, 1, &ops) == COROT_OK) return ops;
+  assert_fails(corot_linsol_find("cholmod", 1, &ops), COROT_EINVAL, "COROT_CHOLMOD=ON");
   return NULL;
 }
 
@@ -107,7 +107,7 @@ static void factors_with_old_and_new_pivots_agree(void **state) {
     assert_true(fresh);
     set(&p, 1, 1e-2, 1e-4);
     assert_ok(ops->factor(p.solver, p.S, &fresh));
-    if (ops == &linsol_klu) assert_false(fresh);
+    if (ops == &corot_linsol_klu) assert_false(fresh);
     assert_below(error(&p), 1e-12);
     double *reused = malloc(p.bar.n * sizeof *reused);
     memcpy(reused, p.y, p.bar.n * sizeof *reused);
@@ -132,18 +132,18 @@ static void klu_chooses_new_pivots_where_the_old_ones_fail(void **state) {
   const double d[] = {4, 3, 1e-14, 0, 5}; /* pivots on the diagonal, but for 1e-14 and 0 */
   const bool expected[] = {true, false, true, false, true};
   void *solver;
-  assert_ok(linsol_klu.create(&csc, &solver));
+  assert_ok(corot_linsol_klu.create(&csc, &solver));
   for (int k = 0; k < 5; k++) {
     double value[] = {d[k], 1, 1, d[k]}, x[] = {d[k] + 2, 1 + 2 * d[k]};
     bool fresh = !expected[k];
-    assert_ok(linsol_klu.factor(solver, value, &fresh));
+    assert_ok(corot_linsol_klu.factor(solver, value, &fresh));
     /* d = 5 can do with the pivots off the diagonal: growth 5, rcond about 1/24 */
     if (k < 4) assert_int_equal(fresh, expected[k]);
-    assert_ok(linsol_klu.solve(solver, x));
+    assert_ok(corot_linsol_klu.solve(solver, x));
     assert_close(x[0], 1, 0, 1e-14);
     assert_close(x[1], 2, 0, 1e-14);
   }
-  linsol_klu.destroy(solver);
+  corot_linsol_klu.destroy(solver);
 }
 
 /* Without its row and column, a degree of freedom has no pivot; afterwards all is as before. */
@@ -153,7 +153,7 @@ static void a_singular_matrix_is_refused(void **state) {
   for (int s = 0; s < NSOLVER; s++) {
     const linsol_ops *ops = find(names[s]);
     if (!ops) continue;
-    bool klu = ops == &linsol_klu, fresh;
+    bool klu = ops == &corot_linsol_klu, fresh;
     problem p = problem_create(ops, 1, 6);
     set(&p, 1, 1e-2, 1e-4);
     for (int j = 0; j < p.csc->n; j++)
@@ -194,7 +194,7 @@ static void a_matrix_singular_to_rounding_is_refused(void **state) {
     assert_ok(ops->create(csc, &solver));
     corot_status status = ops->factor(solver, S, &fresh);
     assert_true(status == COROT_ESINGULAR || status == COROT_RETRY);
-    if (ops == &linsol_klu) assert_int_equal(status, COROT_ESINGULAR);
+    if (ops == &corot_linsol_klu) assert_int_equal(status, COROT_ESINGULAR);
     ops->destroy(solver);
     corot_csc_destroy(csc);
     free(S);
@@ -213,7 +213,7 @@ static void an_indefinite_matrix_is_for_klu_only(void **state) {
       bool fresh;
       problem p = problem_create(ops, size ? 6 : 1, size ? 24 : 3);
       set(&p, -1e4, 0, 1); /* some modes have a frequency below 100/s */
-      if (ops == &linsol_klu) {
+      if (ops == &corot_linsol_klu) {
         assert_ok(ops->factor(p.solver, p.S, &fresh));
         assert_below(error(&p), 1e-9); /* its distance from a mode's frequency is luck */
       } else {
@@ -249,16 +249,16 @@ static void pcg_iterates_to_its_tolerance(void **state) {
   (void)state;
   const double tolerance[] = {1e-3, 1e-6, 1e-9};
   long before = 0;
-  problem p = problem_create(&linsol_pcg, 2, 8);
+  problem p = problem_create(&corot_linsol_pcg, 2, 8);
   double *z = malloc(p.bar.n * sizeof *z);
   bool fresh;
   set(&p, 1, 1e-2, 1e-4);
-  assert_ok(linsol_pcg.factor(p.solver, p.S, &fresh));
+  assert_ok(corot_linsol_pcg.factor(p.solver, p.S, &fresh));
   for (int k = 0; k < 3; k++) {
-    linsol_pcg.set_tolerance(p.solver, tolerance[k]);
+    corot_linsol_pcg.set_tolerance(p.solver, tolerance[k]);
     set(&p, 1, 1e-2, 1e-4);
     error(&p);
-    long iterations = linsol_pcg.iterations(p.solver) - before;
+    long iterations = corot_linsol_pcg.iterations(p.solver) - before;
     assert_true(iterations > 2 * (k + 1) && iterations < p.bar.n);
     before += iterations;
     memcpy(z, p.b, p.bar.n * sizeof *z); /* residual: b - S y */
@@ -280,15 +280,15 @@ static void pcg_iterates_to_its_tolerance(void **state) {
 static void solvers_are_found_by_name_or_size(void **state) {
   (void)state;
   const linsol_ops *ops, *large = find("cholmod") ? find("cholmod") : find("klu");
-  assert_ok(linsol_find("auto", 3000, &ops));
+  assert_ok(corot_linsol_find("auto", 3000, &ops));
   assert_string_equal(ops->name, "klu");
-  assert_ok(linsol_find("auto", 3001, &ops));
+  assert_ok(corot_linsol_find("auto", 3001, &ops));
   assert_ptr_equal(ops, large);
   for (int s = 0; s < NSOLVER; s++)
     if (find(names[s])) assert_string_equal(find(names[s])->name, names[s]);
-  assert_fails(linsol_find("umfpack", 10, &ops), COROT_EINVAL,
+  assert_fails(corot_linsol_find("umfpack", 10, &ops), COROT_EINVAL,
                "'umfpack': auto, klu, cholmod or pcg");
-  assert_fails(linsol_find(NULL, 10, &ops), COROT_EINVAL, "''");
+  assert_fails(corot_linsol_find(NULL, 10, &ops), COROT_EINVAL, "''");
 }
 
 /* SuiteSparse's allocations, counted and failed on demand. */
@@ -332,7 +332,7 @@ static void failed_allocations_are_reported(void **state) {
   for (int size = 0; size < 2; size++)
     for (int s = 0; s < NSOLVER; s++) {
       const linsol_ops *ops = find(names[s]);
-      if (!ops || ops == &linsol_pcg) continue; /* its memory is not SuiteSparse's */
+      if (!ops || ops == &corot_linsol_pcg) continue; /* its memory is not SuiteSparse's */
       problem p = problem_create(ops, size ? 4 : 1, size ? 16 : 3);
       set(&p, 1, 1e-2, 1e-4);
       SuiteSparse_config.malloc_func = failing_malloc;

@@ -133,13 +133,13 @@ static size_t bytes_in_use(void) {
 
 static corot_status make_pcg(void *context) {
   void *solver;
-  COROT_TRY(linsol_pcg.create(context, &solver));
-  linsol_pcg.destroy(solver);
+  COROT_TRY(corot_linsol_pcg.create(context, &solver));
+  corot_linsol_pcg.destroy(solver);
   return COROT_OK;
 }
 
-/* All that is ever needed is allocated at creation: of ours each piece is counted, of SUNDIALS' what
-   is left behind. */
+/* All that is ever needed is allocated at creation: of ours each piece is counted, of SUNDIALS'
+   what is left behind. */
 static void memory_is_of_creation_only(void **state) {
   (void)state;
   body b = partly_held_bar(4);
