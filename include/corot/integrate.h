@@ -13,7 +13,8 @@ extern "C" {
 /* How a step of a fixed-step method is solved. */
 typedef enum corot_solution {
   COROT_SOLUTION_NEWTON, /* with backtracking, to a tolerance */
-  COROT_SOLUTION_LINEAR, /* one solve: exact while the frames are held and both bases are R */
+  COROT_SOLUTION_LINEAR, /* one solve: exact while the frames are held and both bases are R, else
+                            Newton's first iteration, with a matrix of its own each step */
 } corot_solution;
 
 /* How to integrate. Zero means "choose" wherever the comment says so. Methods:
@@ -93,7 +94,7 @@ corot_status corot_integrator_changed(corot_integrator *integrator, corot_histor
 
 /* --- Frames that follow the body between steps ------------------------------------------------ */
 
-/* Asked after each step; true: update the frames now. u and v [n] at t; `drift` is how far the
+/* Asked after each step that no other condition ends with an update; true: update the frames now. u and v [n] at t; `drift` is how far the
    frames in use are from the body's. */
 typedef bool corot_frame_hook(void *data, double t, const double *u, const double *v,
                               const corot_frames_change *drift);
@@ -112,8 +113,8 @@ typedef struct corot_frame_policy {
 /* Exact frames; history auto. */
 corot_frame_policy corot_frame_policy_defaults(void);
 
-/* Extrapolated frames are never turned further than this from where they were found: an update is
-   forced there [rad]. */
+/* Extrapolated frames are never turned further than this from where they were found, but for the
+   rest of a constant step: an update is forced there [rad]. */
 #define COROT_EXTRAPOLATION_CAP 0.1
 
 typedef enum corot_frame_reason {

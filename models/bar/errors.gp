@@ -1,5 +1,5 @@
 # Draws shearing.svg and rotating.svg (figures 5 and 6) from the tables of errors in the folder `dir`:
-#   gnuplot -e "dir='out/bar/figures'" errors.gp
+#   gnuplot -e "dir='out/bar/figures-bdf2'" errors.gp
 set terminal svg size 760,760 enhanced font "Helvetica,13" background "white"
 set datafile separator ","
 set border 3 linecolor "#555555"
@@ -14,9 +14,9 @@ set ylabel "|u_z - u_z^G| / |u_z^G|"
 set format y "%g %%"
 
 set macros
-CURVES = 'using 1:(100 * column("warp.z")) linestyle 1 title "warp", \
-  "" using 1:(100 * column("polar.z")) linestyle 2 title "polar", \
-  "" using 1:(100 * column("hybrid.z")) linestyle 3 title "hybrid"'
+CURVES = 'every 2 using 1:(100 * column("warp.z")) linestyle 1 title "warp", \
+  "" every 2 using 1:(100 * column("polar.z")) linestyle 2 title "polar", \
+  "" every 2 using 1:(100 * column("hybrid.z")) linestyle 3 title "hybrid"'
 
 set output dir."/shearing.svg"
 set multiplot layout 3,1
@@ -34,7 +34,7 @@ set terminal svg size 760,520
 set output dir."/rotating.svg"
 set multiplot layout 2,1
 unset xlabel
-set yrange [0:100]
+set yrange [0:40]
 set title "Turned once in 10 s; steps of 60 ms, frames held 300 ms"
 plot dir."/turn-300.csv" @CURVES
 set title "Turned once in 10 s; error control, exact frames"

@@ -1,7 +1,8 @@
 /* Methods of constant step: the paper's (backward Euler, BDF3) and the field's. The system of a
    step (see fixed.h) is solved either linearly, by one solve from the predictor, which is exact
-   where the frames are held and both bases are R (the paper's "linear" rows); or by Newton with
-   backtracking, the factor kept while it converges. */
+   where the frames are held and both bases are R (the paper's "linear" rows) and elsewhere takes a
+   matrix of its own each step; or by Newton with backtracking, the factor kept while it
+   converges. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,11 +67,19 @@ static corot_status predict(corot_integrator *self, const stage *g, double *norm
   return evaluate(self, g, norm);
 }
 
+/* Whether K and D are the same in every step until the frames change. */
+static bool has_constant_matrices(const corot_integrator *self) {
+  const char *strain = corot_model_strain(self->model);
+  if (strcmp(strain, "cauchy") == 0) return true;
+  bool by_frame = strcmp(strain, "polar") == 0 || strcmp(strain, "warp") == 0;
+  return by_frame && corot_state_frames(self->state) == COROT_FRAMES_HELD;
+}
+
 static corot_status solve_linear(corot_integrator *self, const stage *g) {
   fixed *f = self->method;
   double norm;
   COROT_TRY(predict(self, g, &norm));
-  COROT_TRY(ensure_factor(self, g, false));
+  COROT_TRY(ensure_factor(self, g, !has_constant_matrices(self)));
   COROT_TRY(corot_pencil_solve(self->pencil, f->G, f->d));
   for (int i = 0; i < f->n; i++) f->w[i] -= f->d[i];
   return COROT_OK;

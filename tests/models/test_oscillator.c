@@ -1,7 +1,7 @@
-/* Damping and period of the methods of constant step on one mode without damping: a regular tet that
-   breathes, x = s X, is a harmonic oscillator at any amplitude,
-     s'' = -omega^2 (s - 1),  omega^2 = V (2 mu + 3 lambda) / j,  j I = sum m X X',
-   which is 3 (2 mu + 3 lambda) / (density a^2) for corners at the distance a from the centre. */
+/* Damping and period of the methods of constant step on one mode without damping: a regular tet
+   that breathes, x = s X, is a harmonic oscillator at any amplitude, s'' = -omega^2 (s - 1),
+   omega^2 = V (2 mu + 3 lambda) / j,  j I = sum m X X', which is 3 (2 mu + 3 lambda) / (density
+   a^2) for corners at the distance a from the centre. */
 #include <complex.h>
 
 #include "solution.h"
@@ -41,8 +41,10 @@ static void breathe(const char *method, double rho, double theta, double amplitu
     assert_ok(corot_integrator_step(integrator, 1e9, &step));
     assert_ok(corot_integrator_at(integrator, step.t, u, v));
     out[k] = (sample){u[0] / X, v[0] / X};
-    for (int i = 0; i < 12; i++) /* breathes and does nothing else */
-      assert_close(u[i] / b.mesh->x[i / 3][i % 3], out[k].s, 0, 1e-10 * amplitude);
+    /* it breathes and does nothing else, to the rounding of a solution with h^2 K against M */
+    for (int i = 0; i < 12; i++)
+      assert_close(u[i] / b.mesh->x[i / 3][i % 3], out[k].s, 0,
+                   1e-10 * (1 + theta * theta) * amplitude);
   }
   corot_integrator_destroy(integrator), drop_body(&b);
 }
@@ -106,10 +108,10 @@ static void bdf3_grows_where_bdf2_decays(void **state) {
   static sample y[N + 1];
   double theta = 0.3, left[3];
   for (int m = 0; m < 3; m++) {
-    breathe(bdf[m].name, 0.8, theta, 1e-6, N, y);
-    left[m] = hypot(y[N].s, y[N].v) / 1e-6;
+    breathe(bdf[m].name, 0.8, theta, 5e-3, N, y);
+    left[m] = hypot(y[N].s, y[N].v) / 5e-3;
   }
-  assert_below(left[0], 1e-30);
+  assert_below(left[0], 1e-9);                              /* rounding */
   assert_close(left[1], exp(-N * pow(theta, 4) / 4), 1, 0); /* e^-4 */
   assert_below(left[1], 0.1);
   assert_above(left[2], 5); /* of e^4 to leading order */
@@ -127,8 +129,7 @@ static void midpoint_and_newmark_conserve(void **state) {
   for (int m = 0; m < 3; m++)
     for (double theta = 0.05; theta < 10; theta *= 4) {
       breathe(kase[m].method, kase[m].rho, theta, 0.3, N, y);
-      for (int k = 0; k <= N; k++)
-        assert_close(y[k].s * y[k].s + y[k].v * y[k].v, 0.09, 1e-11, 0);
+      for (int k = 0; k <= N; k++) assert_close(y[k].s * y[k].s + y[k].v * y[k].v, 0.09, 1e-10, 0);
       double complex z = (y[N].s - I * y[N].v) / (y[N - 1].s - I * y[N - 1].v);
       assert_close(cabs(z - (1 + 0.5 * I * theta) / (1 - 0.5 * I * theta)), 0, 0, 1e-10);
     }
@@ -194,7 +195,7 @@ static void solve3(double A[9], const double b[3], double c[3]) {
   }
 }
 
-/* At steps of a thousand radians the recurrence s_{n+3} = c2 s_{n+2} + c1 s_{n+1} + c0 s_n has the
+/* At steps of a hundred radians the recurrence s_{n+3} = c2 s_{n+2} + c1 s_{n+1} + c0 s_n has the
    three roots -rho for generalized-alpha: c = -(rho^3, 3 rho^2, 3 rho). HHT has -rho twice, and
    -alpha/(1 - alpha) with rho = (1 - alpha)/(1 + alpha). */
 static void spectral_radius_is_as_asked_for(void **state) {
@@ -204,16 +205,16 @@ static void spectral_radius_is_as_asked_for(void **state) {
   for (int m = 0; m < 2; m++)
     for (int r = 0; r < 3; r++) {
       double p = rho[r], alpha = (1 - p) / (1 + p), q = m ? p : alpha / (1 - alpha), c[3];
-      breathe(m ? "generalized-alpha" : "hht", p, 1e3, 1e-3, 6, y);
+      breathe(m ? "generalized-alpha" : "hht", p, 100, 1e-3, 6, y);
       double A[9], b[3];
       for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) A[3 * i + j] = y[i + j].s;
         b[i] = y[i + 3].s;
       }
       solve3(A, b, c);
-      assert_close(c[0], -p * p * q, 0, 1e-4);
-      assert_close(c[1], -(p * p + 2 * p * q), 0, 1e-4);
-      assert_close(c[2], -(2 * p + q), 0, 1e-4);
+      assert_close(c[0], -p * p * q, 0, 5e-3);
+      assert_close(c[1], -(p * p + 2 * p * q), 0, 5e-3);
+      assert_close(c[2], -(2 * p + q), 0, 5e-3);
     }
 }
 

@@ -52,10 +52,10 @@ static void unusable_policies_are_refused(void **state) {
   const struct {
     double interval, max_angle;
     const char *words;
-  } bad[] = {
-      {-0.1, 0, "interval = -0.1"}, {NAN, 0, "interval = "},  {INFINITY, 0, "interval = inf"},
-      {0, -0.02, "max_angle = -"},  {0, NAN, "max_angle = "}, {0.1, INFINITY, "max_angle = inf"},
-      {0, 0, "neither an interval"}};
+  } bad[] = {{-0.1, 0, "interval = -0.1"},    {NAN, 0, "interval = "},
+             {INFINITY, 0, "interval = inf"}, {0, -0.02, "max_angle = -"},
+             {0, NAN, "max_angle = "},        {0.1, INFINITY, "max_angle = inf"},
+             {0, 0, "neither an interval"}};
   bar b = quick_bar();
   corot_integrator_def def = corot_integrator_defaults();
   corot_integrator *integrator = start(&b, &def);
@@ -64,16 +64,16 @@ static void unusable_policies_are_refused(void **state) {
     for (corot_frames f = COROT_FRAMES_HELD; f <= COROT_FRAMES_EXTRAPOLATED; f++) {
       corot_frame_policy policy = corot_frame_policy_defaults();
       policy.frames = f, policy.interval = bad[k].interval, policy.max_angle = bad[k].max_angle;
-      assert_fails(corot_frame_clock_create(&policy, b.model, b.state, integrator, 0, b.u, b.v,
-                                            &clock),
-                   COROT_EINVAL, bad[k].words);
+      assert_fails(
+          corot_frame_clock_create(&policy, b.model, b.state, integrator, 0, b.u, b.v, &clock),
+          COROT_EINVAL, bad[k].words);
       assert_null(clock);
       assert_int_equal(corot_state_frames(b.state), COROT_FRAMES_EXACT);
     }
   corot_frame_policy hook_alone = held();
   hook_alone.hook = never;
-  assert_ok(corot_frame_clock_create(&hook_alone, b.model, b.state, integrator, 0, b.u, b.v,
-                                     &clock));
+  assert_ok(
+      corot_frame_clock_create(&hook_alone, b.model, b.state, integrator, 0, b.u, b.v, &clock));
   assert_true(isinf(corot_frame_clock_stop(clock)));
   corot_frame_clock_destroy(clock);
   corot_frame_clock_destroy(NULL);
@@ -133,7 +133,7 @@ static void a_clock_may_start_at_any_time(void **state) {
   (void)state;
   const struct {
     double t, next;
-  } at[] = {{0.07, 1 * 0.1}, {0.3, 4 * 0.1},   {0.7, 8 * 0.1},     {1e4, 100001 * 0.1},
+  } at[] = {{0.07, 1 * 0.1}, {0.3, 4 * 0.1},   {0.7, 8 * 0.1},    {1e4, 100001 * 0.1},
             {-0.25, -0.2},   {-0.3, -2 * 0.1}, {-1e-17, 1 * 0.1}, {3 * 0.1, 4 * 0.1}};
   for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
     bar b = quick_bar();
@@ -143,8 +143,8 @@ static void a_clock_may_start_at_any_time(void **state) {
     corot_frame_policy policy = held();
     policy.interval = 0.1;
     assert_ok(corot_integrator_create(&def, b.model, b.state, at[k].t, b.u, b.v, &integrator));
-    assert_ok(corot_frame_clock_create(&policy, b.model, b.state, integrator, at[k].t, b.u, b.v,
-                                       &clock));
+    assert_ok(
+        corot_frame_clock_create(&policy, b.model, b.state, integrator, at[k].t, b.u, b.v, &clock));
     assert_close(corot_frame_clock_stop(clock), at[k].next, 1e-15, 0);
     double stop = corot_frame_clock_stop(clock);
     frame_log log = follow(integrator, clock, at[k].t, stop);
@@ -174,8 +174,8 @@ static void a_clock_may_start_from_a_deformed_body(void **state) {
     corot_frames_change drift;
     policy.frames = f, policy.interval = 0.1;
     assert_ok(corot_integrator_create(&def, b->model, b->state, 0.2, b->u, b->v, &integrator));
-    assert_ok(corot_frame_clock_create(&policy, b->model, b->state, integrator, 0.2, b->u, b->v,
-                                       &clock));
+    assert_ok(
+        corot_frame_clock_create(&policy, b->model, b->state, integrator, 0.2, b->u, b->v, &clock));
     assert_ok(corot_frames_drift(b->model, b->state, 0.2, b->u, &drift));
     assert_true(drift.angle_max == 0 && drift.energy == 0);
     assert_ok(corot_residual(b->model, b->state, 0.2, b->u, b->v, now));
@@ -243,7 +243,8 @@ static void the_cap_forces_updates_of_extrapolated_frames(void **state) {
   assert_ok(corot_frame_clock_create(&policy, b.model, b.state, integrator, 0, u, v, &clock));
   assert_close(corot_frame_clock_stop(clock), COROT_EXTRAPOLATION_CAP / rate, 1e-12, 0);
   frame_log log = follow(integrator, clock, 0, 0.2);
-  /* 0.02 0.04 .0501 .0701 .0901 .1002 ... : two in each interval but the last, which is cut short */
+  /* 0.02 0.04 .0501 .0701 .0901 .1002 ... : two in each interval but the last, which is cut short
+   */
   assert_int_equal(log.updates[COROT_FRAMES_BY_INTERVAL], 3);
   assert_int_equal(log.updates[COROT_FRAMES_BY_CAP], 8);
   assert_int_equal(updates_in(&log), 11);

@@ -18,10 +18,10 @@ static body moved_body(corot_mesh *mesh, const char *strain, int nmotion,
   return make_body(mesh, def);
 }
 
-static const corot_motion turn = {
-    COROT_ROTATE, "zmin", {1, 2, 3}, {0.1, -0.2, 0.05}, 2, {0, 0, 0}, 0.5, 1.5};
-static const corot_motion shift = {
-    COROT_TRANSLATE, "zmax", {0, 0, 0}, {0, 0, 0}, 0, {1, -2, 0.5}, -1, 0.8};
+static const corot_motion turn = {COROT_ROTATE, "zmin", {1, 2, 3}, {0.1, -0.2, 0.05}, 2,
+                                  {0, 0, 0},    0.5,    1.5};
+static const corot_motion shift = {COROT_TRANSLATE, "zmax", {0, 0, 0}, {0, 0, 0}, 0,
+                                   {1, -2, 0.5},    -1,     0.8};
 
 static double largest(int n, const double (*a)[3]) { return norm_max(3 * n, a[0]); }
 
@@ -130,14 +130,15 @@ static void what_is_held_twice_is_refused(void **state) {
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
                "motion 0: node 0 of group 'zmin' is already held in z");
   motion[0].axis[0] = motion[0].axis[1] = motion[0].axis[2] = 0, def.nfix = 0;
-  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "motion 0: the axis has no direction");
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
+               "motion 0: the axis has no direction");
   assert_null(model);
   corot_mesh_destroy(mesh);
 }
 
-/* All of the boundary turned by theta about z, the inner nodes with it: F = Q. The strain in a frame
-   is rounding, some 1e-15 of coordinates over edges; cauchy's is (cos theta - 1) across the axis,
-   which is a von Mises stress of 2 mu (1 - cos theta). */
+/* All of the boundary turned by theta about z, the inner nodes with it: F = Q. The strain in a
+   frame is rounding, some 1e-15 of coordinates over edges; cauchy's is (cos theta - 1) across the
+   axis, which is a von Mises stress of 2 mu (1 - cos theta). */
 static void a_turned_boundary_makes_stress_in_cauchy_only(void **state) {
   (void)state;
   corot_motion all = {COROT_ROTATE, "skin", {0, 0, 1}, {0.2, 0.7, 0}, 1.5, {0}, 0, INFINITY};
@@ -183,8 +184,8 @@ static void go_to(corot_integrator *integrator, double t) {
 }
 
 /* A bar whose base is turned for a while and then held: the work put in at the base is what moves
-   in the bar, what is stored in it and what is lost. Relative to the work; the largest error, at the
-   end of each of three laws. */
+   in the bar, what is stored in it and what is lost. Relative to the work; the largest error, at
+   the end of each of three laws. */
 static double imbalance(const char *strain, double rtol, double *work) {
   corot_motion base = turn;
   base.rate = 2, base.from = 0.05, base.to = 0.3;
@@ -221,7 +222,8 @@ static void the_ledger_closes(void **state) {
   (void)state;
   static const char *const strain[] = {"polar", "hybrid", "green"};
   for (int m = 0; m < 3; m++) {
-    double work, loose = imbalance(strain[m], 1e-5, &work), tight = imbalance(strain[m], 1e-7, &work);
+    double work, loose = imbalance(strain[m], 1e-5, &work),
+                 tight = imbalance(strain[m], 1e-7, &work);
     assert_above(work, 0.5); /* J, in a bar of 3 kg */
     assert_below(loose, 2 * pow(1e-5, 2. / 3));
     assert_below(tight, 2 * pow(1e-7, 2. / 3));

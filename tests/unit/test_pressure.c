@@ -1,4 +1,5 @@
-/* What loads do to a body that deforms: forces of a pressure all around, power, work, amplitudes. */
+/* What loads do to a body that deforms: forces of a pressure all around, power, work, amplitudes.
+ */
 #include <corot/integrate.h>
 
 #include "solid.h"
