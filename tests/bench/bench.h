@@ -2,6 +2,7 @@
 #ifndef BENCH_BENCH_H
 #define BENCH_BENCH_H
 
+#include <corot/model.h>
 #include <getopt.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -12,6 +13,10 @@ int command_kernels(int argc, char **argv);
 int command_solvers(int argc, char **argv);
 int command_example(int argc, char **argv);
 int command_memory(int argc, char **argv);
+int command_frames(int argc, char **argv);
+
+/* The bar of corot-bench run, as a box. */
+corot_status example_model(const corot_box *box, const char *strain, corot_model **model);
 
 /* A whole number from 1 to `most`. */
 bool parse_count(const char *text, int most, int *number);

@@ -48,7 +48,7 @@ static corot_status first_factors(problem *p, timing *time) {
   enum { FEWEST = 3, MOST = 15 };
   double sample[MOST], spent = 0;
   int n = 0;
-  for (; n < FEWEST || (n < MOST && spent < 0.5); n++) {
+  for (; (n < FEWEST && spent < 2) || (n < MOST && spent < 0.5); n++) {
     if (p->solver) p->ops->destroy(p->solver);
     p->solver = NULL;
     COROT_TRY(p->ops->create(p->csc, &p->solver));

@@ -25,7 +25,7 @@ static corot_status batch(piece_of_work *work, void *data, int ncall, double *se
 
 corot_status timing_of(piece_of_work *work, void *data, timing *out) {
   enum { FEWEST = 3, MOST = 40 };
-  const double shortest = 2e-4, budget = 0.5;
+  const double shortest = 2e-4, budget = 0.5, patience = 2;
   double sample[MOST], seconds;
   int ncall = 1, n = 0;
   COROT_TRY(batch(work, data, ncall, &seconds));
@@ -33,7 +33,7 @@ corot_status timing_of(piece_of_work *work, void *data, timing *out) {
     ncall *= 2;
     COROT_TRY(batch(work, data, ncall, &seconds));
   }
-  for (double spent = 0; n < FEWEST || (n < MOST && spent < budget); n++) {
+  for (double spent = 0; (n < FEWEST && spent < patience) || (n < MOST && spent < budget); n++) {
     COROT_TRY(batch(work, data, ncall, &seconds));
     spent += seconds;
     sample[n] = seconds / ncall;

@@ -13,7 +13,7 @@ typedef struct timing {
 typedef corot_status piece_of_work(void *data);
 
 /* Calls `work` in batches of at least 0.2 ms, until 40 batches or half a second are spent, but 3
-   batches at least; one more, to warm up, does not count. */
+   batches at least where that does not take two seconds; one more, to warm up, does not count. */
 corot_status timing_of(piece_of_work *work, void *data, timing *out);
 
 /* Sorts `sample` [n]. */
