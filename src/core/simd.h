@@ -3,7 +3,8 @@
    A function marked COROT_CLONES is compiled once for each instruction set and the best one the
    processor has is taken at load time; what it calls must be COROT_INLINE to be compiled with it.
    Clang refuses 64-byte arguments between clones, so there the build's own -march decides; so it
-   does under AddressSanitizer, where the clones would take minutes to compile. */
+   does where it names AVX2 or more, and under AddressSanitizer, where the clones would take minutes
+   to compile. */
 #ifndef COROT_CORE_SIMD_H
 #define COROT_CORE_SIMD_H
 
@@ -19,7 +20,7 @@ typedef long long vi __attribute__((vector_size(64))); /* a comparison's mask: 0
 #define COROT_INLINE static inline __attribute__((always_inline))
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__linux__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__AVX2__) && !defined(__SANITIZE_ADDRESS__)
 #define COROT_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 
 /* The one whose clones are taken. */
