@@ -94,8 +94,8 @@ corot_status corot_integrator_changed(corot_integrator *integrator, corot_histor
 
 /* --- Frames that follow the body between steps ------------------------------------------------ */
 
-/* Asked after each step that no other condition ends with an update; true: update the frames now. u and v [n] at t; `drift` is how far the
-   frames in use are from the body's. */
+/* Asked after each step that no other condition ends with an update; true: update the frames now.
+   u and v [n] at t; `drift` is how far the frames in use are from the body's. */
 typedef bool corot_frame_hook(void *data, double t, const double *u, const double *v,
                               const corot_frames_change *drift);
 

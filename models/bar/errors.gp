@@ -13,10 +13,11 @@ set style line 3 linewidth 1.6 linecolor "#1f5fa8"
 set ylabel "|u_z - u_z^G| / |u_z^G|"
 set format y "%g %%"
 
+n = 2 # of how many outputs one is drawn
 set macros
-CURVES = 'every 2 using 1:(100 * column("warp.z")) linestyle 1 title "warp", \
-  "" every 2 using 1:(100 * column("polar.z")) linestyle 2 title "polar", \
-  "" every 2 using 1:(100 * column("hybrid.z")) linestyle 3 title "hybrid"'
+CURVES = 'every n using 1:(100 * column("warp.z")) linestyle 1 title "warp", \
+  "" every n using 1:(100 * column("polar.z")) linestyle 2 title "polar", \
+  "" every n using 1:(100 * column("hybrid.z")) linestyle 3 title "hybrid"'
 
 set output dir."/shearing.svg"
 set multiplot layout 3,1
@@ -30,6 +31,7 @@ set xlabel "t [s]"
 plot dir."/shear-exact.csv" @CURVES
 unset multiplot
 
+n = 1
 set terminal svg size 760,520
 set output dir."/rotating.svg"
 set multiplot layout 2,1

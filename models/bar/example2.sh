@@ -1,10 +1,10 @@
 # What table1 and figures share; to be sourced.
-# The corot of build/release is used (models/run builds it), or the one named by COROT.
+# The corot of build/release is used, brought up to date, or the one named by COROT.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
-corot=${COROT-$root/build/release/src/app/corot}
-[ -x "$corot" ] || "$root/models/run" bar >/dev/null
+corot=${COROT:-$root/build/release/src/app/corot}
+[ "${COROT-}" ] || "$root/models/run" bar >/dev/null # builds corot, and runs the model
 
 # The paper's three experiments: name, model, step [s], time between updates of the frames [s]
 experiments="shear-20 bar.yaml 0.02 0.02
