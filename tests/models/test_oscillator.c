@@ -117,7 +117,7 @@ static void bdf3_grows_where_bdf2_decays(void **state) {
   assert_above(left[2], 5); /* of e^4 to leading order */
 }
 
-/* Energy s^2 + v^2 to the rounding of a thousand steps; the period is longer by theta^2/12. */
+/* Energy s^2 + v^2, to a rounding of 1e-12 a step; the period is longer by theta^2/12. */
 static void midpoint_and_newmark_conserve(void **state) {
   (void)state;
   enum { N = 1000 };
@@ -129,9 +129,10 @@ static void midpoint_and_newmark_conserve(void **state) {
   for (int m = 0; m < 3; m++)
     for (double theta = 0.05; theta < 10; theta *= 4) {
       breathe(kase[m].method, kase[m].rho, theta, 0.3, N, y);
-      for (int k = 0; k <= N; k++) assert_close(y[k].s * y[k].s + y[k].v * y[k].v, 0.09, 1e-10, 0);
+      for (int k = 0; k <= N; k++)
+        assert_close(y[k].s * y[k].s + y[k].v * y[k].v, 0.09, N * 1e-12, 0);
       double complex z = (y[N].s - I * y[N].v) / (y[N - 1].s - I * y[N - 1].v);
-      assert_close(cabs(z - (1 + 0.5 * I * theta) / (1 - 0.5 * I * theta)), 0, 0, 1e-10);
+      assert_close(cabs(z - (1 + 0.5 * I * theta) / (1 - 0.5 * I * theta)), 0, 0, 1e-8);
     }
 }
 

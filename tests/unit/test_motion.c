@@ -149,7 +149,7 @@ static void a_turned_boundary_makes_stress_in_cauchy_only(void **state) {
     int ntri, *node = malloc(mesh->nnode * sizeof *node), nnode = 0, (*tri)[3];
     assert_ok(corot_mesh_boundary(mesh, &ntri, &tri));
     char *seen = calloc(mesh->nnode, 1);
-    for (int k = 0; k < 3 * ntri; k++) seen[tri[0][k]] = 1;
+    for (int k = 0; k < 3 * ntri; k++) seen[tri[k / 3][k % 3]] = 1;
     for (int n = 0; n < mesh->nnode; n++)
       if (seen[n]) node[nnode++] = n;
     assert_ok(corot_mesh_group_nodes(mesh, "skin", nnode, node));
