@@ -2,7 +2,7 @@
    digits (they read back to the same bits), an empty cell where there is nothing to say.
 
    Each row is handed to the system as a whole as soon as it is made, so that a program that is
-   killed leaves whole rows. A row that did not fit on the disk is taken back.
+   killed leaves whole rows (but for the very last, which the system may cut at a page). A row that did not fit on the disk is taken back.
    `dir` is the run's folder. */
 #ifndef COROT_APP_WRITE_CSV_H
 #define COROT_APP_WRITE_CSV_H
