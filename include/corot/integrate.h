@@ -3,7 +3,7 @@
 #ifndef COROT_INTEGRATE_H
 #define COROT_INTEGRATE_H
 
-#include <corot/ode.h>
+#include <corot/solve.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus
@@ -19,24 +19,32 @@ typedef enum corot_solution {
 
 /* How to integrate. Zero means "choose" wherever the comment says so. Methods:
      cvode              BDF of order 1 to 5, steps and order chosen by error control
+     ida                the same with fixed leading coefficient, on the residual M v' - r
+     arkode             diagonally implicit Runge-Kutta of one order, 2 to 5, steps by error control
+     erk                explicit Runge-Kutta of one order, 2 to 8, steps by error control: for coarse
+                        soft meshes, and as a reference without any Newton iteration
      backward-euler, bdf2, bdf3, midpoint, newmark, hht, generalized-alpha
                         of constant step, without error control: baselines */
 typedef struct corot_integrator_def {
   const char *method;
-  const char *linear_solver; /* "auto", "klu", "cholmod", "pcg" */
-  double linear_tolerance;   /* relative residual of an iterative solver, > 0 */
+  corot_linear_def linear;
   double rtol;               /* relative tolerance, > 0 */
   double atol_displacement;  /* [m]; 0: rtol * 0.01 * length of the model */
   double atol_velocity;      /* [m/s]; 0: atol_displacement * frequency of the model */
-  int max_order;             /* 1 to 5; 0: 2, more where damping or tolerance make it pay */
+  int max_order;             /* cvode, ida: 1 to 5; 0: 2, more where damping or tolerance make it
+                                pay */
+  int order;                 /* arkode, erk; 0: choose */
+  const char *table;         /* arkode, erk: SUNDIALS' name of a Butcher table; NULL: by order */
+  int predictor;             /* arkode: ARKStepSetPredictorMethod's; -1: choose */
   long max_steps;            /* for the whole run; 0: no limit */
   double first_step;         /* [s]; 0: choose */
   double min_step;           /* [s]; 0: none */
   double max_step;           /* [s]; 0: none */
-  corot_tangent tangent;     /* the frames' part in K */
-  int reassembly;            /* K and D at least every so many steps, > 0 */
-  int refactorisation;       /* S at least every so many steps, > 0 */
-  double gamma_change;       /* refactor when gamma has changed by this fraction, > 0 */
+  corot_tangent tangent;     /* the frames' part in K; COROT_TANGENT_AUTO: choose */
+  int reassembly;            /* K and D at least every so many steps; 0: choose */
+  int refactorisation;       /* S at least every so many steps; 0: choose */
+  double gamma_change;       /* refactor when gamma has changed by this fraction; 0: choose */
+  double convergence;        /* Newton's error as a fraction of the tolerance; 0: choose */
   double step;               /* [s] of a fixed-step method, > 0 */
   corot_solution solution;   /* of a fixed-step method */
   double newton_tolerance;   /* of Newton's last correction, in lengths of the model, > 0 */
@@ -44,9 +52,12 @@ typedef struct corot_integrator_def {
   double spectral_radius;    /* 0 to 1, at infinite frequency: hht (from 1/2), generalized-alpha */
 } corot_integrator_def;
 
-/* cvode, auto, rtol 1e-4, held tangent, reassembly 20, refactorisation 20, gamma_change 0.3;
-   Newton to 1e-9 in 50 iterations, spectral radius 0.8. */
+/* cvode, rtol 1e-4, everything that can be chosen left to choose; Newton of the methods of constant
+   step to 1e-9 in 50 iterations, spectral radius 0.8. */
 corot_integrator_def corot_integrator_defaults(void);
+
+/* Whether the method of that name controls its error (and so chooses its own steps). */
+bool corot_integrator_controls_error(const char *method);
 
 typedef struct corot_integrator corot_integrator;
 
@@ -164,21 +175,28 @@ typedef struct corot_statistics {
   long ncfn;    /* nonlinear convergence failures */
   long nje;     /* Jacobian evaluations (K and D) */
   long nli;     /* linear iterations; 0 for direct solvers */
-  long nfactor, nsolve, nfresh, nindefinite; /* of the pencil */
+  long nfactor, nsolve, nfresh, nindefinite, nclamped, nfallback; /* of the pencil */
   long nfeQ;     /* evaluations of the work integrands */
   long nrestart; /* restarts after a change */
   double hlast;  /* last step [s] */
   int qlast;     /* its order */
-  double force_s, assembly_s, combine_s, factor_s, solve_s, work_s; /* wall time by phase [s] */
+  /* Wall time by phase [s]; `integrator_s` is what the others leave of the steps: vectors, error
+     control. */
+  double force_s, assembly_s, combine_s, factor_s, solve_s, work_s, integrator_s;
 } corot_statistics;
 
 corot_statistics corot_integrator_statistics(const corot_integrator *integrator);
 
-/* What was chosen where the definition left it open. */
+/* What was chosen where the definition left it open; zero where the method has no such thing. */
 typedef struct corot_integrator_choice {
-  const char *method, *linear_solver;
+  const char *method;
+  const char *linear_solver; /* its name in full, e.g. "cholmod supernodal, amd"; "none" */
+  const char *table;         /* of arkode and erk; else "" */
   double atol_displacement, atol_velocity;
-  int max_order;
+  int max_order; /* or the order of arkode, erk */
+  corot_tangent tangent;
+  int reassembly, refactorisation, predictor;
+  double gamma_change, convergence;
 } corot_integrator_choice;
 
 corot_integrator_choice corot_integrator_chosen(const corot_integrator *integrator);

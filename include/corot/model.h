@@ -36,6 +36,11 @@ typedef struct corot_amplitude {
   const double *value; /* [n] */
 } corot_amplitude;
 
+/* LUMPED: row sums at the nodes (the paper's). CONSISTENT: the linear shape functions' own, which
+   couples neighbours; not with moving supports, whose sudden starts and stops it would hand on to
+   them as impulses. */
+typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
+
 typedef enum corot_load_kind {
   COROT_TRACTION, /* force per rest area on the group's triangles, fixed direction [Pa] */
   COROT_GRAVITY,  /* acceleration of the whole body [m/s^2]; the group is ignored */
@@ -88,9 +93,10 @@ typedef struct corot_model_def {
   int nload;
   const corot_load *load; /* [nload] */
   corot_viscosity viscosity;
+  corot_mass mass;
 } corot_model_def;
 
-/* Strain polar, nothing else. */
+/* Strain polar, mass lumped, nothing else. */
 corot_model_def corot_model_defaults(void);
 
 typedef struct corot_model corot_model;
@@ -114,8 +120,10 @@ int corot_model_ndof(const corot_model *model);
 /* [nnode][3] the degree of freedom of each node's components; -1: held. */
 const int (*corot_model_dof(const corot_model *model))[3];
 
-/* [n] lumped mass (row sums) of each degree of freedom [kg]; positive. */
+/* [n] lumped mass (row sums) of each degree of freedom [kg], whichever mass is in use; positive. */
 const double *corot_model_mass(const corot_model *model);
+
+corot_mass corot_model_mass_kind(const corot_model *model);
 
 /* The times strictly between t0 and t1 where a load or a motion has a kink, ascending; at most `max`
    are written to `time` (which may be NULL if max is 0). Returns how many there are. */

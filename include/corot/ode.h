@@ -2,7 +2,8 @@
 
      du/dt = v,   M dv/dt = r(t, u, v; R),   r = f_ext(t) - f_int(u; R) - f_damp(u, v; R)
 
-   u displacement [m], v velocity [m/s], M lumped mass, R one rotation ("frame") a tet.
+   u displacement [m], v velocity [m/s], M mass, lumped or consistent, R one rotation ("frame") a
+   tet.
    Arrays u, v, r are [n], ordered by corot_model_dof(), and owned by the caller.
 
    Strain measures (Hauth & Strasser 2004; F gradient of the deformation, F = R S its polar
@@ -66,9 +67,12 @@ corot_status corot_residual(const corot_model *model, corot_state *state, double
                             const double *v, double *r);
 
 /* The same as a first-order system for y = (u, v) [2n]: ydot = (v, M^-1 r). y and ydot may not
-   overlap. */
+   overlap. COROT_EINVAL with consistent mass, which takes a factor of M: see corot/solve.h. */
 corot_status corot_rhs(const corot_model *model, corot_state *state, double t, const double *y,
                        double *ydot);
+
+/* y = M x [n]; they may not overlap. */
+void corot_mass_multiply(const corot_model *model, const double *x, double *y);
 
 /* The tet (number in the mesh) whose inversion made the last evaluation fail; -1: none did. */
 int corot_state_inverted(const corot_state *state);
@@ -77,6 +81,9 @@ int corot_state_inverted(const corot_state *state);
 typedef enum corot_tangent {
   COROT_TANGENT_HELD,  /* as if constant: the paper's warped stiffness R K_e R' */
   COROT_TANGENT_EXACT, /* with their own variation dR (polar, hybrid; otherwise the same) */
+  COROT_TANGENT_CLAMPED, /* exact, but what each tet's compression makes negative is cut off: K is
+                            positive semidefinite, and exact wherever it is so by itself */
+  COROT_TANGENT_AUTO = -1 /* in definitions: choose */
 } corot_tangent;
 
 /* Elastic stiffness K = -dr/du at v = 0 and damping D = -dr/dv, both symmetric, as 3x3 blocks
@@ -181,7 +188,7 @@ corot_status corot_csc_create(const corot_model *model, corot_triangle triangle,
 /* Takes NULL. */
 void corot_csc_destroy(corot_csc *csc);
 
-/* value [nnz] = a M + b D + c K; D and K may be NULL where their factor is zero. */
+/* value [nnz] = a M + b D + c K with the model's own M; D and K may be NULL where their factor is zero. */
 void corot_csc_combine(const corot_model *model, const corot_csc *csc, double a, double b,
                        const double (*D)[9], double c, const double (*K)[9], double *value);
 

@@ -18,13 +18,29 @@
 extern "C" {
 #endif
 
+/* Whose matrix it is: the mass helps an iterative solver in a time step, not in statics. */
+typedef enum corot_role { COROT_ROLE_DYNAMIC, COROT_ROLE_STATIC } corot_role;
+
+/* How linear systems are solved. Each "auto" is decided by size and role (rules: linsol.c). */
+typedef struct corot_linear_def {
+  const char *solver;         /* "auto", "klu", "cholmod" (if built in), "pcg" */
+  const char *ordering;       /* of klu and cholmod: "auto", "amd", "metis" (if built in) */
+  const char *factor;         /* of cholmod: "auto", "simplicial", "supernodal" */
+  const char *preconditioner; /* of pcg: "auto", "block-jacobi", "incomplete-cholesky" */
+  double tolerance; /* of pcg: residual relative to the right-hand side, > 0 */
+  corot_role role;
+} corot_linear_def;
+
+/* All "auto", 1e-10, dynamic. */
+corot_linear_def corot_linear_defaults(void);
+
 /* K, D, S and a factor of S: one for each run. */
 typedef struct corot_pencil corot_pencil;
 
-/* `linear_solver`: "klu", "cholmod" (if built in), "pcg" or "auto". COROT_EINVAL: no solver of that name.
-   Model and state must outlive the pencil. */
+/* `linear` NULL: the defaults. COROT_EINVAL: no solver, ordering ... of that name, or not in this
+   build. Model and state must outlive the pencil. */
 corot_status corot_pencil_create(const corot_model *model, corot_state *state,
-                                 const char *linear_solver, corot_pencil **pencil);
+                                 const corot_linear_def *linear, corot_pencil **pencil);
 
 /* Takes NULL. */
 void corot_pencil_destroy(corot_pencil *pencil);
@@ -35,17 +51,15 @@ const char *corot_pencil_solver(const corot_pencil *pencil);
 /* Which derivative of the frames K uses; held at first. */
 void corot_pencil_use(corot_pencil *pencil, corot_tangent tangent);
 
-/* The residual an iterative solver reduces to, relative to the right-hand side; 1e-10 at first. A
-   direct one does not look at it. */
-void corot_pencil_tolerance(corot_pencil *pencil, double tolerance);
-
 /* K and D at (t, u, v). */
 corot_status corot_pencil_assemble(corot_pencil *pencil, double t, const double *u, const double *v);
 
 /* S = a M + b D + c K, without reassembly. */
 void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
 
-/* Factors S. COROT_RETRY: S is not positive definite (cholmod); COROT_ESINGULAR: no pivot. */
+/* Factors S. Where the solver needs a positive definite S and it is not, S is made again with the
+   clamped tangent, and if that is no help either it is handed to klu; the counts tell.
+   COROT_ESINGULAR: no pivot. */
 corot_status corot_pencil_factor(corot_pencil *pencil);
 
 /* x = S^-1 b; x may be b. */
@@ -59,11 +73,27 @@ typedef struct corot_pencil_counts {
   long nassembly, ncombine, nfactor, nsolve; /* calls */
   long nfresh;     /* factorisations that chose their pivots anew */
   long niteration;  /* of an iterative solver */
-  long nindefinite; /* factorisations refused because S was not positive definite */
+  long nindefinite; /* factorisations refused because S was not positive definite, of which */
+  long nclamped;    /* the clamped tangent helped */
+  long nfallback;   /* klu had to help */
   double assembly_s, combine_s, factor_s, solve_s; /* wall time [s] */
 } corot_pencil_counts;
 
 corot_pencil_counts corot_pencil_statistics(const corot_pencil *pencil);
+
+/* --- Mass ------------------------------------------------------------------------------------ */
+
+/* M^-1: a division where M is lumped, a factor computed once where it is consistent. */
+typedef struct corot_mass_solver corot_mass_solver;
+
+/* The model must outlive it. */
+corot_status corot_mass_solver_create(const corot_model *model, corot_mass_solver **solver);
+
+/* Takes NULL. */
+void corot_mass_solver_destroy(corot_mass_solver *solver);
+
+/* x = M^-1 b [n]; x may be b. */
+corot_status corot_mass_solve(corot_mass_solver *solver, const double *b, double *x);
 
 /* --- SUNDIALS ------------------------------------------------------------------------------- */
 
@@ -86,6 +116,7 @@ int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunboo
 typedef struct corot_sun_data {
   const corot_model *model;
   corot_state *state;
+  corot_mass_solver *mass; /* may be NULL where the mass is lumped */
 } corot_sun_data;
 
 /* A CVRhsFn: ydot = (v, M^-1 r). user_data is a corot_sun_data. y is a serial vector [2n]. */

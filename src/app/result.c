@@ -67,14 +67,23 @@ static json_t *frames_part(const scenario *s, const run_summary *run) {
                    "energy", real(run->frames.energy));
 }
 
+static json_t *jacobian_part(const corot_integrator_choice *c) {
+  static const char *const tangents[] = {"held", "exact", "clamped"};
+  return json_pack("{s:s, s:o, s:o, s:o, s:o}", "tangent", tangents[c->tangent], "reassembly",
+                   positive(c->reassembly), "refactorisation", positive(c->refactorisation),
+                   "gamma_change", positive(c->gamma_change), "convergence",
+                   positive(c->convergence));
+}
+
 static json_t *integrator_part(const scenario *s, const corot_integrator_choice *c) {
   const corot_integrator_def *d = &s->integrator;
   const char *solution = d->solution == COROT_SOLUTION_LINEAR ? "linear" : "newton";
-  return json_pack("{s:s?, s:s?, s:o, s:o, s:o, s:i, s:o, s:s?}", "method", c->method,
+  return json_pack("{s:s?, s:s?, s:o, s:o, s:o, s:i, s:s?, s:o, s:s?, s:o}", "method", c->method,
                    "linear_solver", c->linear_solver, "rtol", real(d->rtol), "atol_displacement",
                    real(c->atol_displacement), "atol_velocity", real(c->atol_velocity), "max_order",
-                   c->max_order, "step", positive(d->step), "solution",
-                   d->step > 0 ? solution : NULL);
+                   c->max_order, "table", c->table && *c->table ? c->table : NULL, "step",
+                   positive(d->step), "solution", d->step > 0 ? solution : NULL, "jacobian",
+                   jacobian_part(c));
 }
 
 static json_t *statistics_part(const run_summary *run) {
@@ -84,10 +93,11 @@ static json_t *statistics_part(const run_summary *run) {
                 integer(n->nfe), "nsetups", integer(n->nsetups), "netf", integer(n->netf), "nni",
                 integer(n->nni), "ncfn", integer(n->ncfn), "nje", integer(n->nje), "nli",
                 integer(n->nli), "hlast", real(n->hlast), "qlast", n->qlast);
-  json_t *more = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor", integer(n->nfactor),
-                           "nsolve", integer(n->nsolve), "nfresh", integer(n->nfresh),
-                           "nindefinite", integer(n->nindefinite), "nfeQ", integer(n->nfeQ),
-                           "nrestart", integer(n->nrestart), "nframes", integer(run->frames.count));
+  json_t *more = json_pack(
+      "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor", integer(n->nfactor), "nsolve",
+      integer(n->nsolve), "nfresh", integer(n->nfresh), "nindefinite", integer(n->nindefinite),
+      "nclamped", integer(n->nclamped), "nfallback", integer(n->nfallback), "nfeQ",
+      integer(n->nfeQ), "nrestart", integer(n->nrestart), "nframes", integer(run->frames.count));
   bool complete = part && more && json_object_update(part, more) == 0;
   json_decref(more);
   if (complete) return part;
@@ -99,13 +109,13 @@ static json_t *statistics_part(const run_summary *run) {
 static json_t *timings_part(const run_summary *run) {
   const corot_statistics *n = &run->statistics;
   double known = run->setup_s + n->force_s + n->assembly_s + n->combine_s + n->factor_s +
-                 n->solve_s + n->work_s + run->frames_s + run->output_s;
-  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "setup",
+                 n->solve_s + n->work_s + n->integrator_s + run->frames_s + run->output_s;
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "setup",
                    real(run->setup_s), "force", real(n->force_s), "assembly", real(n->assembly_s),
                    "combine", real(n->combine_s), "factor", real(n->factor_s), "solve",
-                   real(n->solve_s), "work", real(n->work_s), "frames", real(run->frames_s),
-                   "output", real(run->output_s), "other", real(run->wall_s - known), "wall",
-                   real(run->wall_s), "cpu", real(run->cpu_s));
+                   real(n->solve_s), "work", real(n->work_s), "integrator", real(n->integrator_s),
+                   "frames", real(run->frames_s), "output", real(run->output_s), "other",
+                   real(run->wall_s - known), "wall", real(run->wall_s), "cpu", real(run->cpu_s));
 }
 
 /* Bytes; `peak` is the largest resident set of the process so far. */

@@ -40,6 +40,7 @@ typedef struct scenario {
   const char *strain;
 
   corot_viscosity viscosity;
+  corot_mass mass;
 
   const char *frame_policy; /* its name */
   corot_frame_policy frames;

@@ -1,4 +1,4 @@
-/* How the body is taken through time: frames, viscous law, integrator. */
+/* How the body is taken through time: mass, frames, viscous law, integrator. */
 #include "scenario_parts.h"
 
 static const struct {
@@ -54,10 +54,10 @@ static corot_status read_viscosity(scenario *s) {
 static corot_status read_constant_step(config_node *node, corot_integrator_def *def) {
   const config_node *step = config_find(node, "step"), *method = config_find(node, "method");
   const config_node *radius = config_find(node, "spectral_radius");
-  if (step && strcmp(def->method, "cvode") == 0)
-    return config_fail_key(step, "cvode chooses its own steps; see first_step, max_step");
-  if (!step && strcmp(def->method, "cvode") != 0)
-    return config_fail(method, "%s needs integrator.step", def->method);
+  bool controlled = corot_integrator_controls_error(def->method);
+  if (step && controlled)
+    return config_fail_key(step, "%s chooses its own steps; see first_step, max_step", def->method);
+  if (!step && !controlled) return config_fail(method, "%s needs integrator.step", def->method);
   if (strcmp(def->method, "hht") == 0 && radius->number < 0.5)
     return config_fail(radius, "must be 0.5 to 1 for hht, found %s", radius->text);
   if (step) def->step = step->number;
@@ -67,6 +67,43 @@ static corot_status read_constant_step(config_node *node, corot_integrator_def *
   def->newton_iterations = (int)number_at(node, "newton.iterations");
   def->spectral_radius = radius->number;
   return COROT_OK;
+}
+
+/* Of one Runge-Kutta method, which has one order. */
+static corot_status read_stages(config_node *node, corot_integrator_def *def) {
+  const config_node *order = config_find(node, "order"), *table = config_find(node, "table");
+  const config_node *max_order = config_find(node, "max_order");
+  bool stages = strcmp(def->method, "arkode") == 0 || strcmp(def->method, "erk") == 0;
+  def->order = (int)number_at(node, "order");
+  def->table = table ? table->text : NULL;
+  if (!text_is(node, "predictor", "auto")) def->predictor = (int)number_at(node, "predictor");
+  if (stages && def->max_order > 0)
+    return config_fail_key(max_order, "%s has one order: see integrator.order", def->method);
+  if (stages && def->order > 0 && table)
+    return config_fail_key(table, "has an order of its own: give order or table");
+  if (strcmp(def->method, "arkode") == 0 && def->order > 5)
+    return config_fail(order, "must be 2 to 5 for arkode, found %s", order->text);
+  return COROT_OK;
+}
+
+static void read_linear_solver(config_node *node, corot_linear_def *def) {
+  def->solver = text_at(node, "name");
+  def->ordering = text_at(node, "ordering");
+  def->factor = text_at(node, "factor");
+  def->preconditioner = text_at(node, "preconditioner");
+  def->tolerance = number_at(node, "tolerance");
+}
+
+static corot_tangent tangent_at(config_node *node) {
+  static const struct {
+    const char *name;
+    corot_tangent tangent;
+  } known[] = {{"held", COROT_TANGENT_HELD},
+               {"exact", COROT_TANGENT_EXACT},
+               {"clamped", COROT_TANGENT_CLAMPED}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+    if (text_is(node, "jacobian.tangent", known[k].name)) return known[k].tangent;
+  return COROT_TANGENT_AUTO;
 }
 
 static corot_status read_controlled_step(config_node *node, corot_integrator_def *def) {
@@ -87,22 +124,24 @@ static corot_status read_controlled_step(config_node *node, corot_integrator_def
 static corot_status read_integrator(scenario *s) {
   config_node *root = s->source->root, *node = config_find(root, "integrator");
   corot_integrator_def def = corot_integrator_defaults();
-  bool exact = text_is(node, "jacobian.tangent", "exact");
   def.method = text_at(node, "method");
   def.max_steps = (long)number_at(node, "max_steps");
-  def.tangent = exact ? COROT_TANGENT_EXACT : COROT_TANGENT_HELD;
+  def.tangent = tangent_at(node);
   def.reassembly = (int)number_at(node, "jacobian.reassembly");
   def.refactorisation = (int)number_at(node, "jacobian.refactorisation");
   def.gamma_change = number_at(node, "jacobian.gamma_change");
-  def.linear_solver = text_at(root, "linear_solver.name");
-  def.linear_tolerance = number_at(root, "linear_solver.tolerance");
+  def.convergence = number_at(node, "jacobian.convergence");
+  read_linear_solver(config_find(root, "linear_solver"), &def.linear);
   COROT_TRY(read_controlled_step(node, &def));
+  COROT_TRY(read_stages(node, &def));
   COROT_TRY(read_constant_step(node, &def));
   s->integrator = def;
   return COROT_OK;
 }
 
 corot_status scenario_read_method(scenario *s) {
+  s->mass =
+      text_is(s->source->root, "mass", "consistent") ? COROT_MASS_CONSISTENT : COROT_MASS_LUMPED;
   COROT_TRY(read_viscosity(s));
   COROT_TRY(read_frames(s));
   return read_integrator(s);

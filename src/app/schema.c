@@ -51,6 +51,7 @@ const schema_key schema_keys[] = {
   {"material.damping.mu",     NUMBER,          OPTIONAL, NOT_NEGATIVE, "Pa s",    "0.0", 0, 0, "second viscosity"},
   {"material.damping.mass",   NUMBER,          OPTIONAL, NOT_NEGATIVE, "1/s",     "0.0", 0, 0, "Rayleigh's: a force against the velocity, this times the mass"},
 
+  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "lumped", "lumped|consistent", 0, "lumped: row sums at the nodes; consistent: the shape functions' own, without moving supports"},
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", 0, "strain measure"},
   {"viscosity",               CHOICE,          OPTIONAL, ANY,          "",        "corotated", "corotated|objective", 0, "strain rate of the damping: sym(R' dF/dt), or dS/dt of F = R S, zero in any rigid motion (polar, hybrid)"},
   {"frames",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "the rotations of the elements, as part of the model"},
@@ -86,8 +87,8 @@ const schema_key schema_keys[] = {
   {"time.output",             NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "time between outputs; default: end / 100"},
 
   {"integrator",              MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "how the equations are integrated"},
-  {"integrator.method",       CHOICE,          OPTIONAL, ANY,          "",        "cvode", "cvode|backward-euler|bdf2|bdf3|midpoint|newmark|hht|generalized-alpha", "ida|arkode", "cvode: BDF with variable step and order, of which the error is controlled; the others: constant step, no error control"},
-  {"integrator.step",         NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "length of the step; required by the methods of constant step, refused with cvode"},
+  {"integrator.method",       CHOICE,          OPTIONAL, ANY,          "",        "cvode", "cvode|backward-euler|bdf2|bdf3|midpoint|newmark|hht|generalized-alpha", "ida|arkode", "cvode, ida: BDF of variable order; arkode, erk: implicit, explicit Runge-Kutta; these control the error; the others: constant step, no error control"},
+  {"integrator.step",         NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "length of the step; required by the methods of constant step, refused by the others"},
   {"integrator.solution",     CHOICE,          OPTIONAL, ANY,          "",        "newton", "newton|linear", 0, "constant step: Newton's method, or one linear solve a step, which suffices where frames are held"},
   {"integrator.newton",       MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "constant step: Newton's method with backtracking"},
   {"integrator.newton.tolerance", NUMBER,      OPTIONAL, POSITIVE,     "",        "1.0e-9", 0, 0, "of the last correction, in lengths of the model"},
@@ -98,17 +99,24 @@ const schema_key schema_keys[] = {
   {"integrator.atol.displacement", NUMBER,     OPTIONAL, POSITIVE,     "m",       "auto", "auto", 0, "auto: rtol / 100 of the length of the model"},
   {"integrator.atol.velocity", NUMBER,         OPTIONAL, POSITIVE,     "m/s",     "auto", "auto", 0, "auto: of the displacement, times the model's frequency"},
   {"integrator.max_order",    INTEGER,         OPTIONAL, SCHEMA_ORDER, "",        "auto", "auto", 0, "highest order; auto: 2, more where damping or tolerance make it pay"},
+  {"integrator.order",        INTEGER,         OPTIONAL, SCHEMA_STAGE_ORDER, "",        "auto", "auto", 0, "arkode, erk: order of the Runge-Kutta method; arkode 2 to 5, erk 2 to 8"},
+  {"integrator.table",        TEXT,            OPTIONAL, ANY,          "",        0, 0, 0, "arkode, erk: a method by SUNDIALS' name of its Butcher table, in place of order"},
+  {"integrator.predictor",    INTEGER,         OPTIONAL, NOT_NEGATIVE, "",        "auto", "auto", 0, "arkode: how a stage's first guess is made, as ARKStepSetPredictorMethod numbers it"},
   {"integrator.max_steps",    INTEGER,         OPTIONAL, POSITIVE,     "",        "none", "none", 0, "give up after so many"},
   {"integrator.first_step",   NUMBER,          OPTIONAL, POSITIVE,     "s",       "auto", "auto", 0, "length of the first step"},
   {"integrator.min_step",     NUMBER,          OPTIONAL, POSITIVE,     "s",       "none", "none", 0, "give up where a shorter step is needed"},
   {"integrator.max_step",     NUMBER,          OPTIONAL, POSITIVE,     "s",       "none", "none", 0, "take no longer step"},
   {"integrator.jacobian",     MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "the Newton matrix: changes the cost, not the answer"},
-  {"integrator.jacobian.tangent", CHOICE,      OPTIONAL, ANY,          "",        "held", "held|exact", 0, "frames in the stiffness: as if held, or with their own variation"},
-  {"integrator.jacobian.reassembly", INTEGER,  OPTIONAL, POSITIVE,     "",        "20", 0, 0, "stiffness and damping anew at least every so many steps"},
-  {"integrator.jacobian.refactorisation", INTEGER, OPTIONAL, POSITIVE, "",        "20", 0, 0, "factor anew at least every so many steps"},
-  {"integrator.jacobian.gamma_change", NUMBER, OPTIONAL, POSITIVE,     "",        "0.3", 0, 0, "factor anew when step times leading coefficient changes by this fraction"},
+  {"integrator.jacobian.tangent", CHOICE,      OPTIONAL, ANY,          "",        "auto", "auto|held|exact|clamped", 0, "frames in the stiffness: as if held; with their own variation; exact, but positive semidefinite in each element"},
+  {"integrator.jacobian.reassembly", INTEGER,  OPTIONAL, POSITIVE,     "",        "auto", "auto", 0, "stiffness and damping anew at least every so many steps"},
+  {"integrator.jacobian.refactorisation", INTEGER, OPTIONAL, POSITIVE, "",        "auto", "auto", 0, "factor anew at least every so many steps"},
+  {"integrator.jacobian.gamma_change", NUMBER, OPTIONAL, POSITIVE,     "",        "auto", "auto", 0, "factor anew when step times leading coefficient changes by this fraction"},
+  {"integrator.jacobian.convergence", NUMBER,  OPTIONAL, POSITIVE,     "",        "auto", "auto", 0, "Newton's iteration ends at this fraction of the tolerance"},
   {"linear_solver",           SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "auto", 0, 0, "how a step's linear system is solved; the name alone will do"},
-  {"linear_solver.name",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod|pcg", 0, "auto, klu, cholmod: sparse direct; pcg: conjugate gradients with block-diagonal preconditioner"},
+  {"linear_solver.name",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod|pcg", 0, "klu: sparse LU; cholmod: sparse Cholesky; pcg: conjugate gradients; auto: by size"},
+  {"linear_solver.ordering",  CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|amd|metis", 0, "klu, cholmod: of the mesh's nodes, against fill"},
+  {"linear_solver.factor",    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|simplicial|supernodal", 0, "cholmod: entry by entry, or in dense blocks"},
+  {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky", 0, "pcg: what it is preconditioned with"},
   {"linear_solver.tolerance", NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-10", 0, 0, "pcg: residual to reach, relative to the right-hand side"},
 
   {"compare",                 SCHEMA_WORDS,    OPTIONAL, ANY,          "",        0, "cauchy|warp|polar|hybrid", 0, "strain measures whose forces are compared with those of green on the states of the run"},
@@ -160,6 +168,8 @@ const char *schema_range_words(schema_range range) {
       return "> 0, < 1";
     case SCHEMA_ORDER:
       return "1 to 5";
+    case SCHEMA_STAGE_ORDER:
+      return "2 to 8";
     case SCHEMA_UNIT:
       return "0 to 1";
     case SCHEMA_POISSON:

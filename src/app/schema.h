@@ -37,6 +37,7 @@ typedef enum schema_range {
   SCHEMA_FRACTION,     /* > 0 and < 1 */
   SCHEMA_UNIT,         /* 0 to 1 */
   SCHEMA_ORDER,        /* 1 to 5 */
+  SCHEMA_STAGE_ORDER,  /* 2 to 8 */
   SCHEMA_POISSON,      /* > -1 and < 0.5 */
   SCHEMA_ZERO_FOR_NOW, /* 0; anything else is not yet supported */
 } schema_range;

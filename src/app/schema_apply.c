@@ -93,6 +93,8 @@ static bool in_range(double x, schema_range range) {
       return x >= 0 && x <= 1;
     case SCHEMA_ORDER:
       return x >= 1 && x <= 5;
+    case SCHEMA_STAGE_ORDER:
+      return x >= 2 && x <= 8;
     case SCHEMA_POISSON:
       return x > -1 && x < 0.5;
     default:

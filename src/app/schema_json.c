@@ -24,6 +24,9 @@ static json_t *ranged(const char *type, schema_range range) {
     case SCHEMA_ORDER:
       return json_text_with(json_text_with(s, "minimum", json_integer(1)), "maximum",
                             json_integer(5));
+    case SCHEMA_STAGE_ORDER:
+      return json_text_with(json_text_with(s, "minimum", json_integer(2)), "maximum",
+                            json_integer(8));
     case SCHEMA_POISSON:
       return json_text_with(json_text_with(s, "exclusiveMinimum", json_integer(-1)),
                             "exclusiveMaximum", json_real(0.5));

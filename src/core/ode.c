@@ -89,6 +89,10 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
   return sum_forces(m, s, t, corot_kernel_derivative, tangent == COROT_TANGENT_EXACT, jv);
 }
 
+void corot_mass_multiply(const corot_model *m, const double *x, double *y) {
+  for (int i = 0; i < m->ndof; i++) y[i] = m->mass[i] * x[i];
+}
+
 static void add_cross(double a[3], double m, const double x[3], const double v[3]) {
   a[0] += m * (x[1] * v[2] - x[2] * v[1]);
   a[1] += m * (x[2] * v[0] - x[0] * v[2]);

@@ -4,30 +4,39 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solve/clock.h"
 #include "solve/integrator.h"
 
 corot_integrator_def corot_integrator_defaults(void) {
   return (corot_integrator_def){.method = "cvode",
-                                .linear_solver = "auto",
-                                .linear_tolerance = 1e-10,
+                                .linear = corot_linear_defaults(),
                                 .rtol = 1e-4,
-                                .tangent = COROT_TANGENT_HELD,
-                                .reassembly = 20,
-                                .refactorisation = 20,
-                                .gamma_change = 0.3,
+                                .predictor = -1,
+                                .tangent = COROT_TANGENT_AUTO,
                                 .newton_tolerance = 1e-9,
                                 .newton_iterations = 50,
                                 .spectral_radius = 0.8};
 }
 
+static const integrator_ops *const controlled[] = {&corot_integrator_cvode};
+
+bool corot_integrator_controls_error(const char *method) {
+  for (size_t k = 0; k < sizeof controlled / sizeof *controlled; k++)
+    if (strcmp(method, controlled[k]->name) == 0) return true;
+  return false;
+}
+
 static corot_status find_method(const char *name, const integrator_ops **ops) {
-  *ops = &corot_integrator_cvode;
-  if (name && strcmp(name, corot_integrator_cvode.name) == 0) return COROT_OK;
+  for (size_t k = 0; k < sizeof controlled / sizeof *controlled; k++)
+    if (name && strcmp(name, controlled[k]->name) == 0) {
+      *ops = controlled[k];
+      return COROT_OK;
+    }
   for (*ops = corot_integrators_fixed; (*ops)->name; ++*ops)
     if (name && strcmp(name, (*ops)->name) == 0) return COROT_OK;
   return corot_fail(COROT_EINVAL,
-                    "no integrator '%s': cvode, backward-euler, bdf2, bdf3, midpoint, newmark, hht "
-                    "or generalized-alpha",
+                    "no integrator '%s': cvode, ida, arkode, erk, backward-euler, bdf2, bdf3, "
+                    "midpoint, newmark, hht or generalized-alpha",
                     name ? name : "");
 }
 
@@ -38,15 +47,15 @@ static corot_status check(const corot_integrator_def *d) {
     bool zero; /* stands for "choose" or "none" */
   } number[] = {
       {"rtol", d->rtol, false},
-      {"linear_tolerance", d->linear_tolerance, false},
       {"atol_displacement", d->atol_displacement, true},
       {"atol_velocity", d->atol_velocity, true},
       {"first_step", d->first_step, true},
       {"min_step", d->min_step, true},
       {"max_step", d->max_step, true},
-      {"gamma_change", d->gamma_change, false},
-      {"reassembly", d->reassembly, false},
-      {"refactorisation", d->refactorisation, false},
+      {"gamma_change", d->gamma_change, true},
+      {"reassembly", d->reassembly, true},
+      {"refactorisation", d->refactorisation, true},
+      {"convergence", d->convergence, true},
       {"max_steps", (double)d->max_steps, true},
       {"step", d->step, true},
       {"newton_tolerance", d->newton_tolerance, false},
@@ -63,7 +72,7 @@ static corot_status check(const corot_integrator_def *d) {
   if (d->max_step > 0 && d->min_step > d->max_step)
     return corot_fail(COROT_EINVAL, "integrator: min_step = %g exceeds max_step = %g", d->min_step,
                       d->max_step);
-  if (d->tangent != COROT_TANGENT_HELD && d->tangent != COROT_TANGENT_EXACT)
+  if (d->tangent < COROT_TANGENT_AUTO || d->tangent > COROT_TANGENT_CLAMPED)
     return corot_fail(COROT_EINVAL, "integrator: tangent = %d is none", (int)d->tangent);
   return COROT_OK;
 }
@@ -91,10 +100,23 @@ static int choose_max_order(const corot_integrator_def *d, const corot_model *mo
   return beta >= 0.738 * h ? 5 : beta >= 0.367 * h ? 4 : beta >= 0.145 * h ? 3 : 2;
 }
 
-static void choose(corot_integrator_def *d, const corot_model *model) {
-  if (d->atol_displacement == 0) d->atol_displacement = 0.01 * d->rtol * corot_model_length(model);
-  if (d->atol_velocity == 0) d->atol_velocity = d->atol_displacement * corot_model_frequency(model);
-  if (d->max_order == 0) d->max_order = choose_max_order(d, model);
+void corot_integrator_choose_bdf(corot_integrator *self) {
+  corot_integrator_def *d = &self->def;
+  if (d->max_order == 0) d->max_order = choose_max_order(d, self->model);
+  if (d->tangent == COROT_TANGENT_AUTO) d->tangent = COROT_TANGENT_HELD;
+  if (d->reassembly == 0) d->reassembly = 20;
+  if (d->refactorisation == 0) d->refactorisation = 20;
+  if (d->gamma_change == 0) d->gamma_change = 0.3;
+  if (d->convergence == 0) d->convergence = 0.1;
+}
+
+static void choose(corot_integrator *self) {
+  corot_integrator_def *d = &self->def;
+  if (d->atol_displacement == 0)
+    d->atol_displacement = 0.01 * d->rtol * corot_model_length(self->model);
+  if (d->atol_velocity == 0)
+    d->atol_velocity = d->atol_displacement * corot_model_frequency(self->model);
+  self->ops->choose(self);
 }
 
 corot_status corot_integrator_create(const corot_integrator_def *def, const corot_model *model,
@@ -108,16 +130,17 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
   if (!self) return corot_fail(COROT_ENOMEM, "no memory for an integrator");
   *self = (corot_integrator){
       .ops = ops, .model = model, .state = state, .def = *def, .t = t, .before = t};
-  choose(&self->def, model);
-  self->def.method = ops->name;
-  self->def.linear_solver = NULL;
+  choose(self);
 
-  corot_status status = corot_pencil_create(model, state, def->linear_solver, &self->pencil);
+  corot_status status = corot_pencil_create(model, state, &def->linear, &self->pencil);
+  if (!status) status = corot_mass_solver_create(model, &self->mass);
   if (!status) {
-    corot_pencil_use(self->pencil, def->tangent);
-    corot_pencil_tolerance(self->pencil, def->linear_tolerance);
+    corot_pencil_use(self->pencil, self->def.tangent);
     status = ops->create(self, u, v);
   }
+  self->def.method = ops->name;
+  self->def.table = NULL;
+  self->def.linear = corot_linear_defaults();
   if (status) {
     corot_integrator_destroy(self);
     return status;
@@ -130,6 +153,7 @@ void corot_integrator_destroy(corot_integrator *self) {
   if (!self) return;
   if (self->method) self->ops->destroy(self->method);
   corot_pencil_destroy(self->pencil);
+  corot_mass_solver_destroy(self->mass);
   free(self);
 }
 
@@ -156,7 +180,10 @@ corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_
     return corot_fail(COROT_EINTEGRATE, "%s: max_steps = %ld reached at t = %g", self->ops->name,
                       self->def.max_steps, self->t);
   corot_step taken;
-  COROT_TRY(self->ops->step(self, t_stop, &taken));
+  double start = clock_wall();
+  corot_status status = self->ops->step(self, t_stop, &taken);
+  self->step_s += clock_wall() - start;
+  if (status) return status;
   taken.h = taken.t - self->t;
   self->before = self->t;
   self->t = taken.t;
@@ -200,6 +227,8 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
                         .nsolve = p.nsolve,
                         .nfresh = p.nfresh,
                         .nindefinite = p.nindefinite,
+                        .nclamped = p.nclamped,
+                        .nfallback = p.nfallback,
                         .force_s = self->force_s,
                         .work_s = self->work_s,
                         .assembly_s = p.assembly_s,
@@ -210,13 +239,23 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
   s.nst = self->nst;
   s.hlast = self->hlast;
   s.qlast = self->qlast;
+  s.integrator_s =
+      self->step_s - s.force_s - s.assembly_s - s.combine_s - s.factor_s - s.solve_s - s.work_s;
   return s;
 }
 
 corot_integrator_choice corot_integrator_chosen(const corot_integrator *self) {
+  const corot_integrator_def *d = &self->def;
   return (corot_integrator_choice){.method = self->ops->name,
                                    .linear_solver = corot_pencil_solver(self->pencil),
-                                   .atol_displacement = self->def.atol_displacement,
-                                   .atol_velocity = self->def.atol_velocity,
-                                   .max_order = self->def.max_order};
+                                   .table = self->table ? self->table : "",
+                                   .atol_displacement = d->atol_displacement,
+                                   .atol_velocity = d->atol_velocity,
+                                   .max_order = d->order ? d->order : d->max_order,
+                                   .tangent = d->tangent,
+                                   .reassembly = d->reassembly,
+                                   .refactorisation = d->refactorisation,
+                                   .predictor = d->predictor,
+                                   .gamma_change = d->gamma_change,
+                                   .convergence = d->convergence};
 }

@@ -262,6 +262,11 @@ static void fixed_destroy(void *method) {
   free(f);
 }
 
+static void fixed_choose(corot_integrator *self) {
+  corot_integrator_def *d = &self->def;
+  if (d->tangent == COROT_TANGENT_AUTO) d->tangent = COROT_TANGENT_HELD;
+}
+
 static corot_status fixed_create(corot_integrator *self, const double *u, const double *v) {
   const corot_integrator_def *d = &self->def;
   fixed *f = self->method = calloc(1, sizeof *f);
@@ -295,10 +300,10 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   return add_work(self, self->t, 0);
 }
 
-#define FIXED(name)                                                                     \
-  {                                                                                     \
-    name, fixed_create, fixed_destroy, fixed_step, fixed_at, fixed_work, fixed_changed, \
-        fixed_statistics                                                                \
+#define FIXED(name)                                                                    \
+  {                                                                                    \
+    name, fixed_choose, fixed_create, fixed_destroy, fixed_step, fixed_at, fixed_work, \
+        fixed_changed, fixed_statistics                                                \
   }
 const integrator_ops corot_integrators_fixed[] = {FIXED("backward-euler"),
                                                   FIXED("bdf2"),

@@ -8,6 +8,7 @@
 
 typedef struct integrator_ops {
   const char *name;
+  void (*choose)(corot_integrator *self); /* what the definition leaves open */
   corot_status (*create)(corot_integrator *self, const double *u, const double *v);
   void (*destroy)(void *method);
   corot_status (*step)(corot_integrator *self, double t_stop, corot_step *step);
@@ -18,6 +19,9 @@ typedef struct integrator_ops {
 } integrator_ops;
 
 extern const integrator_ops corot_integrator_cvode;
+extern const integrator_ops corot_integrator_ida;
+extern const integrator_ops corot_integrator_arkode; /* diagonally implicit */
+extern const integrator_ops corot_integrator_erk;
 extern const integrator_ops corot_integrators_fixed[]; /* one without a name ends it */
 
 struct corot_integrator {
@@ -25,6 +29,7 @@ struct corot_integrator {
   const corot_model *model;
   corot_state *state;
   corot_pencil *pencil;
+  corot_mass_solver *mass;
   corot_integrator_def def; /* choices made; its strings are not kept */
   double t;                 /* reached */
   double before;            /* where the last step began; t: there is no interpolant */
@@ -32,7 +37,12 @@ struct corot_integrator {
   int qlast;                /* its order */
   long nst;                 /* steps taken */
   double force_s, work_s;   /* wall time in the right-hand side and the work integrands [s] */
+  double step_s;            /* wall time of all steps [s] */
   void *method;             /* the method's own part */
+  const char *table;        /* the Butcher table in use; NULL: none */
 };
+
+/* Defaults of the BDF methods for what is left open. */
+void corot_integrator_choose_bdf(corot_integrator *self);
 
 #endif

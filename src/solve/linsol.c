@@ -2,6 +2,10 @@
 
 #include <string.h>
 
+corot_linear_def corot_linear_defaults(void) {
+  return (corot_linear_def){"auto", "auto", "auto", "auto", 1e-10, COROT_ROLE_DYNAMIC};
+}
+
 /* Up to here KLU's simplicity costs little; beyond, CHOLMOD's dense blocks win by a factor that
    grows with the size: 4 at 3 000 unknowns, 40 at 20 000. */
 enum { KLU_MAX = 3000 };

@@ -2,7 +2,7 @@
 #ifndef COROT_SOLVE_LINSOL_H
 #define COROT_SOLVE_LINSOL_H
 
-#include <corot/ode.h>
+#include <corot/solve.h>
 #include <stdbool.h>
 
 typedef struct linsol_ops {

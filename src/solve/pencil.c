@@ -5,8 +5,11 @@
 
 #include "solve/clock.h"
 
-static corot_status allocate(const char *linear_solver, corot_pencil *p) {
-  COROT_TRY(corot_linsol_find(linear_solver, p->n, &p->ops));
+static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
+  if (!(linear->tolerance > 0))
+    return corot_fail(COROT_EINVAL, "linear solver: tolerance = %g is not positive",
+                      linear->tolerance);
+  COROT_TRY(corot_linsol_find(linear->solver, p->n, &p->ops));
   COROT_TRY(corot_csc_create(p->model, p->ops->triangle, &p->csc));
   size_t nblock = corot_model_nblock(p->model);
   p->K = malloc(nblock * sizeof *p->K);
@@ -15,18 +18,21 @@ static corot_status allocate(const char *linear_solver, corot_pencil *p) {
   p->work = malloc(2 * p->n * sizeof *p->work);
   if (!p->K || !p->D || !p->S || !p->work)
     return corot_fail(COROT_ENOMEM, "no memory for matrices of %d unknowns", p->n);
-  return p->ops->create(p->csc, &p->solver);
+  COROT_TRY(p->ops->create(p->csc, &p->solver));
+  if (p->ops->set_tolerance) p->ops->set_tolerance(p->solver, linear->tolerance);
+  return COROT_OK;
 }
 
 corot_status corot_pencil_create(const corot_model *model, corot_state *state,
-                                 const char *linear_solver, corot_pencil **pencil) {
+                                 const corot_linear_def *linear, corot_pencil **pencil) {
+  corot_linear_def chosen = linear ? *linear : corot_linear_defaults();
   corot_pencil *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for a pencil");
   p->model = model;
   p->state = state;
   p->n = corot_model_ndof(model);
   p->dirty = true;
-  corot_status status = allocate(linear_solver, p);
+  corot_status status = allocate(&chosen, p);
   if (status) {
     corot_pencil_destroy(p);
     return status;
@@ -53,10 +59,6 @@ corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
   corot_pencil_counts counts = p->counts;
   if (p->ops->iterations) counts.niteration = p->ops->iterations(p->solver);
   return counts;
-}
-
-void corot_pencil_tolerance(corot_pencil *p, double tolerance) {
-  if (p->ops->set_tolerance) p->ops->set_tolerance(p->solver, tolerance);
 }
 
 corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, const double *v) {

@@ -7,14 +7,26 @@
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_version.h>
 
+/* Error handlers: one function of these arguments, installed on an integrator's memory in 6.4 by
+   the integrator's own setter, on the context in 7.x. `text` and `data` are what both have. */
 #if SUNDIALS_VERSION_MAJOR >= 7
 typedef SUNErrCode sun_status; /* of an operation of our own */
 static inline int sun_context_create(SUNContext *ctx) {
   return SUNContext_Create(SUN_COMM_NULL, ctx);
 }
+#define SUN_ERROR_HANDLER_ARGUMENTS                                                                \
+  int line, const char *function, const char *file, const char *text, SUNErrCode code, void *data, \
+      SUNContext ctx
+#define SUN_ERROR_HANDLER_UNUSED (void)line, (void)function, (void)file, (void)code, (void)ctx
+#define SUN_CATCH_ERRORS(setter, memory, ctx, handler, data) \
+  SUNContext_PushErrHandler(ctx, handler, data)
 #else
 typedef int sun_status;
 static inline int sun_context_create(SUNContext *ctx) { return SUNContext_Create(NULL, ctx); }
+#define SUN_ERROR_HANDLER_ARGUMENTS \
+  int code, const char *module, const char *function, char *text, void *data
+#define SUN_ERROR_HANDLER_UNUSED (void)code, (void)module, (void)function
+#define SUN_CATCH_ERRORS(setter, memory, ctx, handler, data) setter(memory, handler, data)
 #endif
 
 #endif

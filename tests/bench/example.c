@@ -231,7 +231,7 @@ static int take(arguments *a, int answer, char **argv) {
       a->strain = optarg;
       return EXIT_OK;
     case 'l':
-      a->integrator.linear_solver = optarg;
+      a->integrator.linear.solver = optarg;
       return EXIT_OK;
     case 'r':
       a->integrator.rtol = strtod(optarg, &end);

@@ -18,8 +18,8 @@ int main(void) {
   corot_state *state;
   corot_pencil *pencil;
   check(corot_state_create(model, &state));
-  check(corot_pencil_create(model, state, "auto", &pencil));
-  corot_sun_data data = {model, state};
+  check(corot_pencil_create(model, state, NULL, &pencil));
+  corot_sun_data data = {model, state, NULL};
 
   SUNContext ctx;
   SUN(SUNContext_Create(0, &ctx));

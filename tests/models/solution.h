@@ -32,7 +32,7 @@ static inline double lowest_mode(const body *b, double *x) {
   const double *mass = corot_model_mass(b->model);
   double *zero = calloc(3 * b->n, sizeof *zero), *y = zero + 2 * b->n, square = 0, last = 1;
   corot_pencil *pencil;
-  assert_ok(corot_pencil_create(b->model, b->state, "auto", &pencil));
+  assert_ok(corot_pencil_create(b->model, b->state, NULL, &pencil));
   assert_ok(corot_pencil_assemble(pencil, 0, zero, zero + b->n));
   corot_pencil_combine(pencil, 0, 0, 1);
   assert_ok(corot_pencil_factor(pencil));

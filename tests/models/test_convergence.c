@@ -84,7 +84,7 @@ static void consistent_load(const body *b, const char *strain, double volume, do
 static void solve(const body *b, const double *load, double *u) {
   double *zero = calloc(2 * b->n, sizeof *zero), *r = zero + b->n, last = INFINITY;
   corot_pencil *pencil;
-  assert_ok(corot_pencil_create(b->model, b->state, "auto", &pencil));
+  assert_ok(corot_pencil_create(b->model, b->state, NULL, &pencil));
   corot_pencil_use(pencil, COROT_TANGENT_EXACT);
   for (int k = 0; last > 1e-12; k++) {
     assert_true(k < 8);

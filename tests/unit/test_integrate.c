@@ -2,6 +2,7 @@
 #include <corot/solve.h>
 
 #include "bar.h"
+#include "solver.h"
 
 static bar quick_bar(void) {
   bar_def def = example2;
@@ -37,23 +38,22 @@ static void each_field_is_checked(void **state) {
     REFUSED(min_step, bad[k], "min_step");
     REFUSED(max_step, bad[k], "max_step");
     REFUSED(gamma_change, bad[k], "gamma_change");
+    REFUSED(convergence, bad[k], "convergence");
     REFUSED(step, bad[k], "step");
     REFUSED(newton_tolerance, bad[k], "newton_tolerance");
   }
   REFUSED(rtol, 0, "rtol = 0 is not positive and finite");
-  REFUSED(gamma_change, 0, "gamma_change");
   REFUSED(max_order, -1, "max_order = -1 is not in 1 to 5");
   REFUSED(max_order, 6, "max_order = 6");
   REFUSED(max_steps, -1, "max_steps = -1 is not positive, or 0, and finite");
-  REFUSED(reassembly, 0, "reassembly");
   REFUSED(reassembly, -3, "reassembly");
-  REFUSED(refactorisation, 0, "refactorisation");
+  REFUSED(refactorisation, -1, "refactorisation");
   REFUSED(newton_iterations, 0, "newton_iterations");
   REFUSED(tangent, (corot_tangent)7, "tangent = 7");
   REFUSED(method, "rk4", "no integrator 'rk4': cvode");
   REFUSED(method, NULL, "no integrator");
-  REFUSED(linear_solver, "lu", "no linear solver 'lu'");
-  REFUSED(linear_solver, NULL, "no linear solver");
+  REFUSED(linear.solver, "lu", "no linear solver 'lu'");
+  REFUSED(linear.solver, NULL, "no linear solver");
   corot_integrator_def def = corot_integrator_defaults();
   def.min_step = 0.1, def.max_step = 0.01;
   expect_refusal(&b, def, "min_step = 0.1 exceeds max_step = 0.01");
@@ -79,7 +79,7 @@ static void open_fields_are_chosen(void **state) {
   bar b = quick_bar();
   char method[] = "cvode", solver[] = "auto";
   corot_integrator_def def = corot_integrator_defaults();
-  def.method = method, def.linear_solver = solver;
+  def.method = method, def.linear.solver = solver;
   corot_integrator *integrator = start(&b, &def);
   memset(method, 'x', 5), memset(solver, 'x', 4); /* nothing of the definition is kept */
   corot_integrator_choice c = corot_integrator_chosen(integrator);
@@ -311,17 +311,17 @@ static void the_linear_solver_makes_no_difference(void **state) {
   bar_def of = example2;
   of.ramp = 0.5;
   corot_integrator_def def = corot_integrator_defaults();
-  def.linear_solver = "klu";
+  def.linear.solver = "klu";
   outcome klu = run(&of, def, 1);
   assert_int_equal(klu.s.nli, 0);
   for (int k = 0; k < 2; k++) {
     corot_pencil *probe;
     bar b = bar_create(&of);
-    corot_status status = corot_pencil_create(b.model, b.state, others[k], &probe);
+    corot_status status = corot_pencil_create(b.model, b.state, SOLVER(others[k]), &probe);
     if (!status) corot_pencil_destroy(probe);
     bar_destroy(&b);
     if (status) continue; /* not in this build */
-    def.linear_solver = others[k];
+    def.linear.solver = others[k];
     outcome other = run(&of, def, 1);
     bool iterative = strcmp(others[k], "pcg") == 0;
     assert_int_equal(other.s.nst, klu.s.nst);

@@ -1,6 +1,7 @@
 /* The pencil: S = a M + b D + c K, its factor, its books; and what happens without memory. */
 #include "alloc.h"
 #include "bar.h"
+#include "solver.h"
 
 #include <corot/solve.h>
 
@@ -34,7 +35,7 @@ static void it_solves_the_system_it_names(void **state) {
   for (int i = 0; i < b.n; i++) x[i] = noise(&seed);
   for (int tangent = COROT_TANGENT_HELD; tangent <= COROT_TANGENT_EXACT; tangent++) {
     corot_pencil *p;
-    assert_ok(corot_pencil_create(b.model, b.state, "klu", &p));
+    assert_ok(corot_pencil_create(b.model, b.state, SOLVER("klu"), &p));
     assert_string_equal(corot_pencil_solver(p), "klu");
     corot_pencil_use(p, tangent);
     assert_ok(corot_pencil_assemble(p, 0, b.u, b.v));
@@ -56,7 +57,7 @@ static void it_keeps_books(void **state) {
   bar b = a_bar();
   double *x = calloc(b.n, sizeof *x);
   corot_pencil *p;
-  assert_ok(corot_pencil_create(b.model, b.state, "klu", &p));
+  assert_ok(corot_pencil_create(b.model, b.state, SOLVER("klu"), &p));
   assert_fails(corot_pencil_solve(p, x, x), COROT_EINVAL, "there is no factor");
   assert_ok(corot_pencil_assemble(p, 0, b.u, b.v));
   for (int k = 0; k < 3; k++) {
@@ -76,7 +77,7 @@ static void it_keeps_books(void **state) {
   assert_true(c.assembly_s > 0 && c.combine_s > 0 && c.factor_s > 0 && c.solve_s > 0);
   corot_pencil_destroy(p);
 
-  if (corot_pencil_create(b.model, b.state, "cholmod", &p) == COROT_OK) {
+  if (corot_pencil_create(b.model, b.state, SOLVER("cholmod"), &p) == COROT_OK) {
     assert_ok(corot_pencil_assemble(p, 0, b.u, b.v));
     corot_pencil_combine(p, -1e4, 0, 1);
     assert_fails(corot_pencil_factor(p), COROT_RETRY, "not positive definite");
@@ -92,7 +93,7 @@ static void an_inverted_element_has_no_matrix(void **state) {
   (void)state;
   bar b = a_bar();
   corot_pencil *p;
-  assert_ok(corot_pencil_create(b.model, b.state, "auto", &p));
+  assert_ok(corot_pencil_create(b.model, b.state, NULL, &p));
   b.u[b.tip + 2] = -0.5;
   assert_fails(corot_pencil_assemble(p, 0, b.u, b.v), COROT_RETRY, "is inverted");
   corot_pencil_destroy(p);
@@ -103,7 +104,7 @@ static void an_unknown_solver_is_refused(void **state) {
   (void)state;
   bar b = a_bar();
   corot_pencil *p = (corot_pencil *)&b;
-  assert_fails(corot_pencil_create(b.model, b.state, "gauss", &p), COROT_EINVAL, "'gauss'");
+  assert_fails(corot_pencil_create(b.model, b.state, SOLVER("gauss"), &p), COROT_EINVAL, "'gauss'");
   assert_ptr_equal(p, &b);
   bar_destroy(&b);
 }
@@ -116,7 +117,7 @@ typedef struct making {
 static corot_status make_pencil(void *context) {
   const making *m = context;
   corot_pencil *p;
-  COROT_TRY(corot_pencil_create(m->bar->model, m->bar->state, m->what, &p));
+  COROT_TRY(corot_pencil_create(m->bar->model, m->bar->state, SOLVER(m->what), &p));
   corot_pencil_destroy(p);
   return COROT_OK;
 }

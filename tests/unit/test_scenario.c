@@ -14,7 +14,7 @@ static void defaults(void **state) {
   scenario *s = accept(MINIMAL);
   corot_integrator_def d = corot_integrator_defaults(), *i = &s->integrator;
   assert_string_equal(i->method, d.method);
-  assert_string_equal(i->linear_solver, d.linear_solver);
+  assert_string_equal(i->linear.solver, d.linear.solver);
   assert_close(i->rtol, d.rtol, 0, 0);
   assert_close(i->atol_displacement, d.atol_displacement, 0, 0);
   assert_close(i->atol_velocity, d.atol_velocity, 0, 0);
@@ -27,7 +27,7 @@ static void defaults(void **state) {
   assert_int_equal(i->reassembly, d.reassembly);
   assert_int_equal(i->refactorisation, d.refactorisation);
   assert_close(i->gamma_change, d.gamma_change, 0, 0);
-  assert_close(i->linear_tolerance, d.linear_tolerance, 0, 0);
+  assert_close(i->linear.tolerance, d.linear.tolerance, 0, 0);
   assert_close(i->step, d.step, 0, 0);
   assert_int_equal(i->solution, d.solution);
   assert_close(i->newton_tolerance, d.newton_tolerance, 0, 0);
@@ -175,8 +175,8 @@ static void all_keys_of_loads_and_run(void **state) {
   assert_close(i->newton_tolerance, 1e-7, 0, 0);
   assert_int_equal(i->newton_iterations, 9);
   assert_close(i->spectral_radius, 0.25, 0, 0);
-  assert_string_equal(i->linear_solver, "pcg");
-  assert_close(i->linear_tolerance, 1e-3, 0, 0);
+  assert_string_equal(i->linear.solver, "pcg");
+  assert_close(i->linear.tolerance, 1e-3, 0, 0);
   assert_int_equal(s->probe[0].node, -1);
   assert_close(s->probe[0].point[1], 2, 0, 0);
   assert_string_equal(s->probe[1].name, "n-17_b");
@@ -340,8 +340,8 @@ static void overrides(void **state) {
   assert_close(s->frames.interval, 0, 0, 0);
   scenario_destroy(s);
   assert_ok(override(everything, "linear_solver=klu", &s));
-  assert_string_equal(s->integrator.linear_solver, "klu");
-  assert_close(s->integrator.linear_tolerance, 1e-10, 0, 0);
+  assert_string_equal(s->integrator.linear.solver, "klu");
+  assert_close(s->integrator.linear.tolerance, 1e-10, 0, 0);
   scenario_destroy(s);
 }
 
@@ -420,15 +420,19 @@ static void resolved_values(void **state) {
       "{\"title\":\"\",\"mesh\":{\"box\":{\"size\":[1.0,1.0,2.0],\"cells\":[1,1,2],\"origin\":[0.0,"
       "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0},\"groups\":{},\"material\":{\"lambda\":100000.0,"
       "\"mu\":10000.0,\"density\":1000.0,\"damping\":{\"lambda\":0.0,\"mu\":0.0,\"mass\":0.0}},"
-      "\"strain\":\"polar\",\"viscosity\":\"corotated\",\"frames\":{\"policy\":\"exact\","
+      "\"mass\":\"lumped\",\"strain\":\"polar\",\"viscosity\":\"corotated\",\"frames\":{\"policy\":"
+      "\"exact\","
       "\"history\":\"auto\"},\"boundary\":[],"
       "\"loads\":[],\"time\":{\"end\":2.0,\"output\":0.02},\"integrator\":{\"method\":\"cvode\","
       "\"solution\":\"newton\",\"newton\":{\"tolerance\":1e-9,\"iterations\":50},"
       "\"spectral_radius\":0.8,"
       "\"rtol\":0.0001,\"atol\":{\"displacement\":\"auto\",\"velocity\":\"auto\"},\"max_order\":"
-      "\"auto\",\"max_steps\":\"none\",\"first_step\":\"auto\",\"min_step\":\"none\",\"max_step\":"
-      "\"none\",\"jacobian\":{\"tangent\":\"held\",\"reassembly\":20,\"refactorisation\":20,"
-      "\"gamma_change\":0.3}},\"linear_solver\":{\"name\":\"auto\",\"tolerance\":1e-10},"
+      "\"auto\",\"order\":\"auto\",\"predictor\":\"auto\",\"max_steps\":\"none\",\"first_step\":"
+      "\"auto\",\"min_step\":\"none\",\"max_step\":"
+      "\"none\",\"jacobian\":{\"tangent\":\"auto\",\"reassembly\":\"auto\",\"refactorisation\":"
+      "\"auto\","
+      "\"gamma_change\":\"auto\",\"convergence\":\"auto\"}},\"linear_solver\":{\"name\":\"auto\","
+      "\"ordering\":\"auto\",\"factor\":\"auto\",\"preconditioner\":\"auto\",\"tolerance\":1e-10},"
       "\"probes\":{},\"output\":{\"fields\":"
       "\"vtu\",\"every\":1}}");
   free(text);

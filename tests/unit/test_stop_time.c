@@ -6,6 +6,7 @@
 
 #include "bar.h"
 #include "solve/sun_compat.h"
+#include "solver.h"
 
 static bar quick_bar(void) {
   bar_def def = example2;
@@ -29,8 +30,8 @@ static void bare_start(bare *b) {
   b->bar = quick_bar();
   assert_int_equal(sun_context_create(&b->ctx), 0);
   b->y = N_VMake_Serial(2 * b->bar.n, b->bar.u, b->ctx);
-  b->data = (corot_sun_data){b->bar.model, b->bar.state};
-  assert_ok(corot_pencil_create(b->bar.model, b->bar.state, "klu", &b->pencil));
+  b->data = (corot_sun_data){b->bar.model, b->bar.state, NULL};
+  assert_ok(corot_pencil_create(b->bar.model, b->bar.state, SOLVER("klu"), &b->pencil));
   b->A = corot_sun_matrix(b->pencil, b->ctx);
   b->LS = corot_sun_linsol(b->pencil, b->ctx);
   b->cvode = CVodeCreate(CV_BDF, b->ctx);

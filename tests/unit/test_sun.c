@@ -6,6 +6,7 @@
 
 #include "full_system.h"
 #include "solve/sun_compat.h"
+#include "solver.h"
 
 static SUNContext context(void) {
   SUNContext ctx;
@@ -33,7 +34,7 @@ static void the_reduced_solve_equals_the_full_one(void **state) {
   N_Vector y = N_VMake_Serial(2 * n, b.u, ctx), r = N_VClone(y), x = N_VClone(y),
            expected = N_VClone(y);
   corot_pencil *pencil;
-  assert_ok(corot_pencil_create(b.model, b.state, "klu", &pencil));
+  assert_ok(corot_pencil_create(b.model, b.state, SOLVER("klu"), &pencil));
   SUNMatrix A = corot_sun_matrix(pencil, ctx);
   SUNLinearSolver LS = corot_sun_linsol(pencil, ctx);
   full_system full = full_create(&b);
@@ -119,9 +120,9 @@ static outcome run_host(const bar *b, bool full, double rtol, corot_integrator_c
   N_Vector y = N_VNew_Serial(2 * b->n, ctx);
   N_VConst(0, y);
   host h = {
-      {b->model, b->state}, full_create(b), rtol, chosen.atol_displacement, chosen.atol_velocity};
+      {b->model, b->state, NULL}, full_create(b), rtol, chosen.atol_displacement, chosen.atol_velocity};
   corot_pencil *pencil;
-  assert_ok(corot_pencil_create(b->model, b->state, "klu", &pencil));
+  assert_ok(corot_pencil_create(b->model, b->state, SOLVER("klu"), &pencil));
   SUNMatrix A = full ? SUNSparseMatrix(2 * b->n, 2 * b->n, full_nnz(&h.full), CSC_MAT, ctx)
                      : corot_sun_matrix(pencil, ctx);
   SUNLinearSolver LS = full ? SUNLinSol_KLU(y, A, ctx) : corot_sun_linsol(pencil, ctx);
@@ -175,7 +176,7 @@ static void a_host_with_the_full_system_computes_the_same(void **state) {
     bar b = bar_create(&example2);
     corot_integrator_def def = corot_integrator_defaults();
     def.rtol = rtol[k];
-    def.linear_solver = "klu";
+    def.linear.solver = "klu";
     double *ours = malloc(3 * 2 * b.n * sizeof *ours), *reduced = ours + 2 * b.n,
            *full = reduced + 2 * b.n;
     corot_integrator_choice chosen;
@@ -197,7 +198,7 @@ static void the_matrices_are_reassembled_when_told(void **state) {
   bar b = a_bar(1);
   N_Vector y = N_VMake_Serial(2 * b.n, b.u, ctx);
   corot_pencil *pencil;
-  assert_ok(corot_pencil_create(b.model, b.state, "klu", &pencil));
+  assert_ok(corot_pencil_create(b.model, b.state, SOLVER("klu"), &pencil));
   SUNMatrix A = corot_sun_matrix(pencil, ctx);
   const struct {
     bool ok, invalidate, invert, expected; /* expected: K and D are made anew */
@@ -236,7 +237,7 @@ static void a_singular_matrix_is_recoverable(void **state) {
   SUNContext ctx = context();
   bar b = a_bar(1);
   corot_pencil *pencil;
-  assert_ok(corot_pencil_create(b.model, b.state, "klu", &pencil));
+  assert_ok(corot_pencil_create(b.model, b.state, SOLVER("klu"), &pencil));
   SUNMatrix A = corot_sun_matrix(pencil, ctx);
   SUNLinearSolver LS = corot_sun_linsol(pencil, ctx);
   assert_int_equal(SUNMatGetID(A), SUNMATRIX_CUSTOM);
@@ -257,7 +258,7 @@ static void there_is_nothing_without_a_context(void **state) {
   (void)state;
   bar b = a_bar(1);
   corot_pencil *pencil;
-  assert_ok(corot_pencil_create(b.model, b.state, "auto", &pencil));
+  assert_ok(corot_pencil_create(b.model, b.state, NULL, &pencil));
   assert_null(corot_sun_matrix(pencil, NULL));
   assert_null(corot_sun_linsol(pencil, NULL));
   corot_pencil_destroy(pencil);
