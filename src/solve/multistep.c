@@ -1,0 +1,170 @@
+/* SUNDIALS before 6.6.1 has a defect: after a stop time has been reached by a call whose tout
+   equals it, the next call returns at once without advancing. advance() takes single steps, and its
+   tout always lies beyond the stop time. */
+#include "solve/multistep.h"
+
+#include <float.h>
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <string.h>
+
+corot_status corot_multistep_open(corot_integrator *self, const multistep_api *api, const double *u,
+                                  const double *v, multistep **out) {
+  multistep *m = self->method = calloc(1, sizeof *m);
+  if (!m) return corot_fail(COROT_ENOMEM, "no memory for %s", self->ops->name);
+  m->api = api;
+  m->t_stop = NAN;
+  COROT_TRY(corot_driver_open(&m->driver, self, u, v));
+  m->work = N_VNew_Serial(2, m->driver.ctx);
+  m->error = N_VClone(m->driver.y);
+  m->weight = N_VClone(m->driver.y);
+  m->scratch = N_VClone(m->driver.y);
+  if (!m->work || !m->error || !m->weight || !m->scratch)
+    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name,
+                      2 * corot_model_ndof(self->model));
+  N_VConst(0, m->work);
+  *out = m;
+  return COROT_OK;
+}
+
+void corot_multistep_close(multistep *m) {
+  N_Vector const vectors[] = {m->rate, m->error, m->weight, m->scratch, m->work};
+  for (int k = 0; k < 5; k++)
+    if (vectors[k]) N_VDestroy(vectors[k]);
+  corot_driver_close(&m->driver);
+  free(m);
+}
+
+static corot_status advance(multistep *m, double t_stop, double *t) {
+  driver *d = &m->driver;
+  if (t_stop != m->t_stop && m->api->set_stop_time(m->memory, t_stop))
+    return corot_driver_refuse(d, "stop time");
+  m->t_stop = t_stop;
+  double beyond = t_stop + (t_stop - d->self->t);
+  d->message[0] = 0;
+  int flag = m->api->advance(m, beyond, t);
+  if (flag == m->api->setup_failed || flag == m->api->solve_failed)
+    corot_driver_refuse_trial(d, flag, corot_error());
+  if (flag < 0) return corot_driver_give_up(d, d->message);
+  if (flag == m->api->stopped) {
+    *t = t_stop;
+    m->t_stop = NAN; /* reaching it disarms it */
+  }
+  corot_driver_watch(d, *t - d->self->t, *t == t_stop);
+  return COROT_OK;
+}
+
+corot_status corot_multistep_step(corot_integrator *self, double t_stop, corot_step *step) {
+  multistep *m = self->method;
+  const multistep_api *api = m->api;
+  double t, t_work;
+  long nni = 0;
+  COROT_TRY(corot_driver_check(&m->driver));
+  COROT_TRY(advance(m, t_stop, &t));
+  if (api->work(m->memory, &t_work, m->work) || api->nni(m->memory, &nni) ||
+      api->last_order(m->memory, &step->order) || api->local_errors(m->memory, m->error) ||
+      api->error_weights(m->memory, m->weight))
+    return corot_driver_refuse(&m->driver, "statistics");
+  step->t = t;
+  step->error = N_VWrmsNorm(m->error, m->weight);
+  step->newton = (int)(nni - m->nni);
+  m->nni = nni;
+  return COROT_OK;
+}
+
+corot_status corot_multistep_at(corot_integrator *self, double t, double *u, double *v) {
+  multistep *m = self->method;
+  int n = corot_model_ndof(self->model);
+  N_Vector y = m->driver.y;
+  if (t != self->t) {
+    y = m->error;
+    if (m->api->interpolate(m->memory, t, 0, y))
+      return corot_driver_refuse(&m->driver, "interpolant");
+  }
+  if (u) memcpy(u, N_VGetArrayPointer(y), n * sizeof *u);
+  if (v) memcpy(v, N_VGetArrayPointer(y) + n, n * sizeof *v);
+  return COROT_OK;
+}
+
+corot_status corot_multistep_work(corot_integrator *self, double t, double *dissipated,
+                                  double *external) {
+  multistep *m = self->method;
+  const double *work = N_VGetArrayPointer(m->work);
+  double at[2] = {work[0], work[1]};
+  if (t != self->t) { /* m->work lends its room */
+    bool bad = m->api->interpolate_work(m->memory, t, 0, m->work);
+    double inside[2] = {work[0], work[1]};
+    memcpy(N_VGetArrayPointer(m->work), at, sizeof at);
+    if (bad) return corot_driver_refuse(&m->driver, "interpolant");
+    memcpy(at, inside, sizeof inside);
+  }
+  *dissipated = at[0];
+  *external = at[1];
+  return COROT_OK;
+}
+
+/* Counts since the last start are added to `s`. */
+static void add_counts(const multistep *m, corot_statistics *s) {
+  const struct {
+    multistep_count *get;
+    long *sum;
+  } counts[] = {{m->api->nfe, &s->nfe}, {m->api->nsetups, &s->nsetups}, {m->api->netf, &s->netf},
+                {m->api->nni, &s->nni}, {m->api->ncfn, &s->ncfn},       {m->api->nfeQ, &s->nfeQ}};
+  for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+    long count = 0;
+    counts[k].get(m->memory, &count);
+    *counts[k].sum += count;
+  }
+}
+
+/* How fast the solution leaves its history, in units of the tolerance per second: the jump of the
+   derivative from the interpolant's to the new right-hand side's, weighted. */
+static corot_status derivative_jump(multistep *m, double *jump) {
+  N_Vector now = m->error, old = m->scratch;
+  m->before.nfe++;
+  driver *d = &m->driver;
+  if (corot_driver_rhs(d->self->t, d->y, now, d))
+    return corot_driver_give_up(d, "after a change of the frames");
+  if (m->api->interpolate(m->memory, d->self->t, 1, old) ||
+      m->api->error_weights(m->memory, m->weight))
+    return corot_driver_refuse(d, "interpolant");
+  N_VLinearSum(1, now, -1, old, now);
+  *jump = N_VWrmsNorm(now, m->weight);
+  return COROT_OK;
+}
+
+/* A jump that the next step turns into less than half the tolerance is left to error control;
+   otherwise the method begins again, with a first step that makes it half the tolerance. */
+corot_status corot_multistep_changed(corot_integrator *self, corot_history history) {
+  multistep *m = self->method;
+  double h = self->def.first_step;
+  bool fresh = self->before == self->t; /* no history yet */
+  if (fresh || history == COROT_HISTORY_KEEP) return COROT_OK;
+  if (history == COROT_HISTORY_AUTO) {
+    double jump = 0, h_last = 0, h_next = 0;
+    COROT_TRY(derivative_jump(m, &jump));
+    m->api->last_step(m->memory, &h_last);
+    m->api->next_step(m->memory, &h_next);
+    if (h_next * jump < 0.5) return COROT_OK;
+    h = fmax(fmin(h_last, 0.5 / jump), 100 * DBL_EPSILON * fabs(self->t));
+  }
+  add_counts(m, &m->before);
+  m->before.nrestart++;
+  m->nni = 0;
+  m->t_stop = NAN;
+  m->driver.collapsed = false;
+  self->before = self->t;
+  if (m->api->restart(m) || m->api->restart_work(m->memory, m->work) ||
+      m->api->set_first_step(m->memory, h))
+    return corot_driver_refuse(&m->driver, "restart");
+  return COROT_OK;
+}
+
+void corot_multistep_statistics(const corot_integrator *self, corot_statistics *s) {
+  const multistep *m = self->method;
+  const corot_statistics *b = &m->before;
+  s->nfe = b->nfe, s->nsetups = b->nsetups, s->netf = b->netf, s->nni = b->nni, s->ncfn = b->ncfn;
+  s->nfeQ = b->nfeQ, s->nrestart = b->nrestart;
+  add_counts(m, s);
+}

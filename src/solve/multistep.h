@@ -1,0 +1,58 @@
+/* What the drivers of SUNDIALS' multistep integrators share, CVODE's and IDA's: everything but
+   their set-up. The functions the two libraries offer differ in their names only; a table holds
+   them. */
+#ifndef COROT_SOLVE_MULTISTEP_H
+#define COROT_SOLVE_MULTISTEP_H
+
+#include "solve/driver.h"
+
+typedef struct multistep multistep;
+
+typedef int multistep_count(void *memory, long *count);
+
+typedef struct multistep_api {
+  int setup_failed, solve_failed, stopped; /* what `advance` returns in these cases */
+  int (*advance)(multistep *m, double beyond, double *t); /* by one internal step */
+  int (*restart)(multistep *m);                           /* from (self->t, y) */
+  int (*set_stop_time)(void *memory, sunrealtype t);
+  int (*set_first_step)(void *memory, sunrealtype h);
+  int (*interpolate)(void *memory, sunrealtype t, int derivative, N_Vector y);
+  int (*work)(void *memory, sunrealtype *t, N_Vector work);
+  int (*interpolate_work)(void *memory, sunrealtype t, int derivative, N_Vector work);
+  int (*restart_work)(void *memory, N_Vector work);
+  int (*last_order)(void *memory, int *order);
+  int (*last_step)(void *memory, sunrealtype *h);
+  int (*next_step)(void *memory, sunrealtype *h);
+  int (*local_errors)(void *memory, N_Vector error);
+  int (*error_weights)(void *memory, N_Vector weight);
+  multistep_count *nfe, *nsetups, *netf, *nni, *ncfn, *nfeQ;
+} multistep_api;
+
+struct multistep {
+  driver driver; /* first: the callbacks' data */
+  const multistep_api *api;
+  void *memory;
+  N_Vector rate;                   /* [2n] y' at self->t, of IDA; NULL: CVODE knows it */
+  N_Vector error, weight, scratch; /* [2n] */
+  N_Vector work;                   /* [2] dissipated and external work at self->t */
+  double t_stop;                   /* armed; NaN: none */
+  corot_statistics before;         /* counts of earlier starts */
+  long nni;                        /* at the end of the last step */
+};
+
+/* Driver and vectors, into self->method; what is half made is released by close. */
+corot_status corot_multistep_open(corot_integrator *self, const multistep_api *api, const double *u,
+                                  const double *v, multistep **out);
+
+/* All but the integrator's own memory. */
+void corot_multistep_close(multistep *m);
+
+/* Operations of an integrator. */
+corot_status corot_multistep_step(corot_integrator *self, double t_stop, corot_step *step);
+corot_status corot_multistep_at(corot_integrator *self, double t, double *u, double *v);
+corot_status corot_multistep_work(corot_integrator *self, double t, double *dissipated,
+                                  double *external);
+corot_status corot_multistep_changed(corot_integrator *self, corot_history history);
+void corot_multistep_statistics(const corot_integrator *self, corot_statistics *statistics);
+
+#endif
