@@ -112,6 +112,13 @@ int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunboo
                      sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
                      N_Vector tmp2, N_Vector tmp3);
 
+/* The same for F(t, y, y') = (u' - v, M v' - r), the residual form of IDA (or IDAS): the solver stands
+   for dF/dy + cj dF/dy'. corot_sun_jacobian_dae is an IDALsJacFn; its user_data is not looked at. */
+SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx);
+int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector F,
+                           SUNMatrix A, void *user_data, N_Vector tmp1, N_Vector tmp2,
+                           N_Vector tmp3);
+
 /* Model and state in one pointer: the user_data of corot_sun_rhs. */
 typedef struct corot_sun_data {
   const corot_model *model;
@@ -121,6 +128,10 @@ typedef struct corot_sun_data {
 
 /* A CVRhsFn: ydot = (v, M^-1 r). user_data is a corot_sun_data. y is a serial vector [2n]. */
 int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data);
+
+/* An IDAResFn: F = (u' - v, M v' - r), for lumped and consistent mass alike. user_data is a
+   corot_sun_data, of which the mass solver is not used. */
+int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data);
 
 #ifdef __cplusplus
 }

@@ -87,7 +87,7 @@ const schema_key schema_keys[] = {
   {"time.output",             NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "time between outputs; default: end / 100"},
 
   {"integrator",              MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "how the equations are integrated"},
-  {"integrator.method",       CHOICE,          OPTIONAL, ANY,          "",        "cvode", "cvode|backward-euler|bdf2|bdf3|midpoint|newmark|hht|generalized-alpha", "ida|arkode", "cvode, ida: BDF of variable order; arkode, erk: implicit, explicit Runge-Kutta; these control the error; the others: constant step, no error control"},
+  {"integrator.method",       CHOICE,          OPTIONAL, ANY,          "",        "cvode", "cvode|ida|backward-euler|bdf2|bdf3|midpoint|newmark|hht|generalized-alpha", "arkode", "cvode, ida: BDF of variable order; arkode, erk: implicit, explicit Runge-Kutta; these control the error; the others: constant step, no error control"},
   {"integrator.step",         NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, 0, "length of the step; required by the methods of constant step, refused by the others"},
   {"integrator.solution",     CHOICE,          OPTIONAL, ANY,          "",        "newton", "newton|linear", 0, "constant step: Newton's method, or one linear solve a step, which suffices where frames are held"},
   {"integrator.newton",       MAP,             OPTIONAL, ANY,          "",        "{}", 0, 0, "constant step: Newton's method with backtracking"},

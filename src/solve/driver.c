@@ -45,6 +45,16 @@ int corot_driver_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) 
   return status ? corot_driver_refuse_trial(d, status, corot_error()) : 0;
 }
 
+int corot_driver_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data) {
+  driver *d = user_data;
+  corot_integrator *self = d->self;
+  double start = clock_wall();
+  corot_sun_data model = {self->model, self->state, self->mass};
+  int status = corot_sun_residual(t, y, yp, F, &model);
+  self->force_s += clock_wall() - start;
+  return status ? corot_driver_refuse_trial(d, status, corot_error()) : 0;
+}
+
 int corot_driver_work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_data) {
   corot_integrator *self = ((driver *)user_data)->self;
   double start = clock_wall();

@@ -27,6 +27,9 @@ void corot_driver_close(driver *d);
 /* ydot = (v, M^-1 r); the right-hand side of CVODE and ARKODE. user_data: the driver. */
 int corot_driver_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data);
 
+/* F = (u' - v, M v' - r); the residual of IDA. user_data: the driver. */
+int corot_driver_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data);
+
 /* One weight for all displacements and one for all velocities, by the length of the longest vector
    of a node: unlike componentwise sizes it does not change when the whole problem is turned, so
    neither do the steps. */

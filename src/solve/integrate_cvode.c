@@ -1,6 +1,7 @@
 /* CVODE's variable-order BDF, through the CVODES library (which has the work integrals as
    quadratures; one program must never link both). */
 #include <cvodes/cvodes.h>
+#include <stdlib.h>
 
 #include "solve/multistep.h"
 
@@ -59,8 +60,9 @@ static void destroy(void *method) {
 }
 
 static corot_status create(corot_integrator *self, const double *u, const double *v) {
-  multistep *c;
-  COROT_TRY(corot_multistep_open(self, &api, u, v, &c));
+  multistep *c = self->method = calloc(1, sizeof *c);
+  if (!c) return corot_fail(COROT_ENOMEM, "no memory for cvode");
+  COROT_TRY(corot_multistep_open(c, self, &api, u, v));
   driver *d = &c->driver;
   c->memory = CVodeCreate(CV_BDF, d->ctx);
   if (!c->memory) return corot_fail(COROT_ENOMEM, "no memory for cvode");

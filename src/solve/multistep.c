@@ -9,10 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-corot_status corot_multistep_open(corot_integrator *self, const multistep_api *api, const double *u,
-                                  const double *v, multistep **out) {
-  multistep *m = self->method = calloc(1, sizeof *m);
-  if (!m) return corot_fail(COROT_ENOMEM, "no memory for %s", self->ops->name);
+corot_status corot_multistep_open(multistep *m, corot_integrator *self, const multistep_api *api,
+                                  const double *u, const double *v) {
   m->api = api;
   m->t_stop = NAN;
   COROT_TRY(corot_driver_open(&m->driver, self, u, v));
@@ -24,7 +22,6 @@ corot_status corot_multistep_open(corot_integrator *self, const multistep_api *a
     return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name,
                       2 * corot_model_ndof(self->model));
   N_VConst(0, m->work);
-  *out = m;
   return COROT_OK;
 }
 

@@ -40,11 +40,12 @@ struct multistep {
   long nni;                        /* at the end of the last step */
 };
 
-/* Driver and vectors, into self->method; what is half made is released by close. */
-corot_status corot_multistep_open(corot_integrator *self, const multistep_api *api, const double *u,
-                                  const double *v, multistep **out);
+/* Driver and vectors of an `m` that is zero and stands in self->method; what is half made is
+   released by close. */
+corot_status corot_multistep_open(multistep *m, corot_integrator *self, const multistep_api *api,
+                                  const double *u, const double *v);
 
-/* All but the integrator's own memory. */
+/* All but the integrator's own memory; frees `m`. */
 void corot_multistep_close(multistep *m);
 
 /* Operations of an integrator. */

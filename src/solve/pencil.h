@@ -22,4 +22,7 @@ struct corot_pencil {
   corot_pencil_counts counts;
 };
 
+/* The solve operation of corot_sun_linsol_dae. */
+int corot_sun_solve_dae(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol);
+
 #endif

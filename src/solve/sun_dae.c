@@ -1,0 +1,63 @@
+/* The pencil for the residual form: F(t, y, y') = (u' - v, M v' - r) of y = (u, v). With the
+   leading coefficient c = dy'/dy of the method, and g = 1/c, the Newton system
+
+     c du - dv = F_u,    K du + (c M + D) dv = F_v
+
+   becomes (M + g D + g^2 K) dv = g (F_v - g K F_u), then du = g (F_u + dv): the matrix is that of
+   y' = f at gamma = g. M is only multiplied by, so a consistent one costs no solve. */
+#include <nvector/nvector_serial.h>
+
+#include "solve/clock.h"
+#include "solve/pencil.h"
+#include "solve/sun_compat.h"
+
+int corot_sun_solve_dae(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
+  (void)A, (void)tol;
+  corot_pencil *p = LS->content;
+  int n = p->n;
+  double start = clock_wall(), g = p->gamma;
+  const double *Fu = N_VGetArrayPointer(b), *Fv = Fu + n;
+  double *du = N_VGetArrayPointer(x), *dv = du + n, *KFu = p->work, *rhs = KFu + n;
+
+  corot_block_multiply(p->model, (const double(*)[9])p->K, Fu, KFu);
+  for (int i = 0; i < n; i++) rhs[i] = g * (Fv[i] - g * KFu[i]);
+  p->counts.solve_s += clock_wall() - start;
+  corot_status status = corot_pencil_solve(p, rhs, rhs);
+  if (status) return status;
+  for (int i = 0; i < n; i++) {
+    du[i] = g * (Fu[i] + rhs[i]);
+    dv[i] = rhs[i];
+  }
+  return 0;
+}
+
+SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx) {
+  SUNLinearSolver LS = corot_sun_linsol(pencil, ctx);
+  if (LS) LS->ops->solve = corot_sun_solve_dae;
+  return LS;
+}
+
+int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector F,
+                           SUNMatrix A, void *user_data, N_Vector tmp1, N_Vector tmp2,
+                           N_Vector tmp3) {
+  (void)yp;
+  sunbooleantype current;
+  return corot_sun_linsys(t, y, F, A, 0, &current, 1 / cj, user_data, tmp1, tmp2, tmp3);
+}
+
+int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data) {
+  const corot_sun_data *data = user_data;
+  int n = corot_model_ndof(data->model);
+  const double *u = N_VGetArrayPointer(y), *v = u + n;
+  const double *ut = N_VGetArrayPointer(yp), *vt = ut + n;
+  double *Fu = N_VGetArrayPointer(F), *Fv = Fu + n;
+
+  corot_status status = corot_residual(data->model, data->state, t, u, v, Fu); /* r, for now */
+  if (status) return status;
+  corot_mass_multiply(data->model, vt, Fv);
+  for (int i = 0; i < n; i++) {
+    Fv[i] -= Fu[i];
+    Fu[i] = ut[i] - v[i];
+  }
+  return 0;
+}
