@@ -14,9 +14,22 @@ int command_solvers(int argc, char **argv);
 int command_example(int argc, char **argv);
 int command_memory(int argc, char **argv);
 int command_frames(int argc, char **argv);
+int command_precision(int argc, char **argv);
 
-/* The bar of corot-bench run, as a box. */
-corot_status example_model(const corot_box *box, const char *strain, corot_model **model);
+/* Where the bar of corot-bench run comes from. */
+typedef struct bar_source {
+  const char *mesh; /* a file; NULL: the box */
+  corot_box box;
+  const char *strain;
+} bar_source;
+
+/* 2 x 2 x 12 cells of 0.1 x 0.1 x 0.6 m. */
+bar_source bar_source_default(const char *strain);
+
+corot_status bar_model(const bar_source *source, corot_model **model);
+
+/* The argument of --cells. Returns EXIT_OK, or the exit code of a usage error. */
+int parse_cells(const char *program, const char *text, int cells[3]);
 
 /* A whole number from 1 to `most`. */
 bool parse_count(const char *text, int most, int *number);

@@ -32,8 +32,7 @@ enum { MOST_RUNS = 1000 };
 
 typedef struct arguments {
   bool json;
-  const char *mesh, *strain;
-  corot_box box;
+  bar_source bar;
   corot_integrator_def integrator;
   int nrun;
 } arguments;
@@ -62,62 +61,20 @@ static corot_status integrate(const arguments *a, const corot_model *model, coro
   return status;
 }
 
-static corot_status get_mesh(const arguments *a, corot_mesh **mesh) {
-  corot_mesh *m;
-  COROT_TRY(a->mesh ? corot_mesh_read(a->mesh, &m) : corot_mesh_box(&a->box, &m));
-  corot_mesh_quality q = corot_mesh_measure(m);
-  corot_status status = corot_mesh_group_plane(m, "lowest face", 2, q.min[2], 0);
-  if (!status) status = corot_mesh_group_plane(m, "highest face", 2, q.max[2], 0);
-  if (status) {
-    corot_mesh_destroy(m);
-    return status;
-  }
-  *mesh = m;
-  return COROT_OK;
-}
-
-static corot_status make_model(corot_mesh *mesh, const char *strain, corot_model **model) {
-  static const double time[] = {0, 10}, value[] = {0, 1};
-  corot_material material = {
-      .lambda = 1e5, .mu = 1e4, .density = 1000, .damping_lambda = 10, .damping_mu = 1};
-  corot_fix fix = {"lowest face", {true, true, true}};
-  corot_load load = {COROT_TRACTION, "highest face", {200, 0, 0}, {2, time, value}};
-  corot_model_def def = {.mesh = mesh,
-                         .strain = strain,
-                         .nmaterial = 1,
-                         .material = &material,
-                         .nfix = 1,
-                         .fix = &fix,
-                         .nload = 1,
-                         .load = &load};
-  return corot_model_create(&def, model);
-}
-
-static corot_status get_model(const arguments *a, corot_model **model) {
-  corot_mesh *mesh;
-  COROT_TRY(get_mesh(a, &mesh));
-  corot_status status = make_model(mesh, a->strain, model);
-  corot_mesh_destroy(mesh);
-  return status;
-}
-
-corot_status example_model(const corot_box *box, const char *strain, corot_model **model) {
-  return get_model(&(arguments){.box = *box, .strain = strain}, model);
-}
-
 typedef struct phase {
   const char *name;
   double seconds;
 } phase;
 
-enum { NPHASE = 7 };
+enum { NPHASE = 8 };
 
 static void phases_of(const outcome *o, phase out[NPHASE]) {
   const corot_statistics *c = &o->counts;
   double rest = o->wall; /* as the phases are */
-  const phase timed[] = {{"force", c->force_s},     {"assembly", c->assembly_s},
-                         {"combine", c->combine_s}, {"factor", c->factor_s},
-                         {"solve", c->solve_s},     {"work", c->work_s}};
+  const phase timed[] = {{"force", c->force_s},        {"assembly", c->assembly_s},
+                         {"combine", c->combine_s},    {"factor", c->factor_s},
+                         {"solve", c->solve_s},        {"work", c->work_s},
+                         {"sundials", c->integrator_s}};
   for (int k = 0; k < NPHASE - 1; k++) {
     out[k] = timed[k];
     rest -= timed[k].seconds;
@@ -132,8 +89,8 @@ static void print_json(const arguments *a, const corot_model *model, const outco
   phases_of(o, phases);
   json_t *j = json_pack(
       "{s:s, s:s, s:f, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:I}", "bench", "run",
-      "strain", a->strain, "rtol", a->integrator.rtol, "solver", o->choice.linear_solver, "order",
-      o->choice.max_order, "tets", corot_model_mesh(model)->ntet, "unknowns",
+      "strain", a->bar.strain, "rtol", a->integrator.rtol, "solver", o->choice.linear_solver,
+      "order", o->choice.max_order, "tets", corot_model_mesh(model)->ntet, "unknowns",
       corot_model_ndof(model), "cpu_s", cpu->median, "min_cpu_s", cpu->min, "spread_cpu_s",
       cpu->spread, "nst", (json_int_t)c->nst, "nfe", (json_int_t)c->nfe, "nni", (json_int_t)c->nni,
       "nje", (json_int_t)c->nje, "nfactor", (json_int_t)c->nfactor);
@@ -150,8 +107,8 @@ static void print_table(const arguments *a, const corot_model *model, const outc
   phase phases[NPHASE];
   phases_of(o, phases);
   printf("%s, %d tets, %d degrees of freedom, strain %s, rtol %g, order %d, %s\n",
-         a->mesh ? a->mesh : "box", corot_model_mesh(model)->ntet, corot_model_ndof(model),
-         a->strain, a->integrator.rtol, o->choice.max_order, o->choice.linear_solver);
+         a->bar.mesh ? a->bar.mesh : "box", corot_model_mesh(model)->ntet, corot_model_ndof(model),
+         a->bar.strain, a->integrator.rtol, o->choice.max_order, o->choice.linear_solver);
   printf("CPU time of 40 s: median %.4f s, minimum %.4f s, quartiles %.4f s apart, of %d runs\n",
          cpu->median, cpu->min, cpu->spread, a->nrun);
   printf("%ld steps, %ld evaluations, %ld iterations, %ld assemblies, %ld factorisations\n", c->nst,
@@ -182,7 +139,7 @@ static corot_status repeat(const arguments *a, const corot_model *model, corot_s
 static corot_status run(const arguments *a) {
   corot_model *model = NULL;
   corot_state *state = NULL;
-  COROT_TRY(get_model(a, &model));
+  COROT_TRY(bar_model(&a->bar, &model));
   corot_status status = corot_state_create(model, &state);
   double *zero = calloc(corot_model_ndof(model), sizeof *zero);
   outcome *outcomes = calloc(a->nrun, sizeof *outcomes);
@@ -205,17 +162,6 @@ static const struct option known[] = {{"json", no_argument, NULL, 'j'},
                                       {"help", no_argument, NULL, 'h'},
                                       {0}};
 
-static int take_cells(arguments *a) {
-  double cells[3];
-  bool good = parse_three(optarg, cells);
-  for (int i = 0; i < 3 && good; i++) {
-    good = cells[i] >= 1 && cells[i] <= 1000 && cells[i] == (int)cells[i];
-    if (good) a->box.cells[i] = (int)cells[i];
-  }
-  if (good) return EXIT_OK;
-  return usage_error(program, "--cells %s: expected three whole numbers I,J,K > 0", optarg);
-}
-
 static int take(arguments *a, int answer, char **argv) {
   char *end;
   switch (answer) {
@@ -223,12 +169,12 @@ static int take(arguments *a, int answer, char **argv) {
       a->json = true;
       return EXIT_OK;
     case 'm':
-      a->mesh = optarg;
+      a->bar.mesh = optarg;
       return EXIT_OK;
     case 'c':
-      return take_cells(a);
+      return parse_cells(program, optarg, a->bar.box.cells);
     case 's':
-      a->strain = optarg;
+      a->bar.strain = optarg;
       return EXIT_OK;
     case 'l':
       a->integrator.linear.solver = optarg;
@@ -247,10 +193,8 @@ static int take(arguments *a, int answer, char **argv) {
 }
 
 int command_example(int argc, char **argv) {
-  arguments a = {.strain = "polar",
-                 .box = {.size = {0.1, 0.1, 0.6}, .cells = {2, 2, 12}},
-                 .integrator = corot_integrator_defaults(),
-                 .nrun = 5};
+  arguments a = {
+      .bar = bar_source_default("polar"), .integrator = corot_integrator_defaults(), .nrun = 5};
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":h", known, NULL)) != -1;) {
     if (answer == 'h') {

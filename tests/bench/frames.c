@@ -33,9 +33,10 @@ typedef struct job {
 } job;
 
 static corot_status job_create(const char *strain, int cells, job *out) {
-  corot_box box = {.size = {0.1, 0.1, 0.6}, .cells = {cells, cells, 12}};
+  bar_source bar = bar_source_default(strain);
+  bar.box.cells[0] = bar.box.cells[1] = cells;
   job j = {.def = corot_integrator_defaults(), .policy = corot_frame_policy_defaults()};
-  COROT_TRY(example_model(&box, strain, &j.model));
+  COROT_TRY(bar_model(&bar, &j.model));
   corot_status status = corot_state_create(j.model, &j.state);
   j.zero = calloc(corot_model_ndof(j.model), sizeof *j.zero);
   if (!status && !j.zero) status = corot_fail(COROT_ENOMEM, "out of memory");

@@ -9,6 +9,7 @@ static const char help[] =
     "       corot-bench solvers [--json]\n"
     "       corot-bench run [--json] [OPTIONS]\n"
     "       corot-bench frames [--json]\n"
+    "       corot-bench precision [--json] [OPTIONS]\n"
     "       corot-bench memory [--json] [--tets N]\n"
     "\n"
     "kernels   forces, Jacobians and the rest, per tet, beside the floor set by memory and\n"
@@ -16,6 +17,7 @@ static const char help[] =
     "solvers   the linear solvers at several sizes\n"
     "run       CPU time of a whole simulation and of its phases\n"
     "frames    what frames cost: polar over warp, update over force, Newton over linear\n"
+    "precision error against CPU time, for every integrator\n"
     "memory    bytes per tet\n"
     "\n"
     "'corot-bench COMMAND --help' says more.\n"
@@ -48,8 +50,12 @@ int only_json(const char *program, const char *text, int argc, char **argv, bool
 }
 
 int main(int argc, char **argv) {
-  static const command table[] = {{"kernels", command_kernels}, {"solvers", command_solvers},
-                                  {"run", command_example},     {"frames", command_frames},
-                                  {"memory", command_memory},   {0}};
+  static const command table[] = {{"kernels", command_kernels},
+                                  {"solvers", command_solvers},
+                                  {"run", command_example},
+                                  {"frames", command_frames},
+                                  {"memory", command_memory},
+                                  {"precision", command_precision},
+                                  {0}};
   return dispatch("corot-bench", help, table, argc, argv);
 }

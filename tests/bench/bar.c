@@ -1,0 +1,53 @@
+/* The bar of the second example of Hauth & Strasser (2004). */
+#include "bench.h"
+
+bar_source bar_source_default(const char *strain) {
+  return (bar_source){.box = {.size = {0.1, 0.1, 0.6}, .cells = {2, 2, 12}}, .strain = strain};
+}
+
+static corot_status get_mesh(const bar_source *source, corot_mesh **mesh) {
+  corot_mesh *m;
+  COROT_TRY(source->mesh ? corot_mesh_read(source->mesh, &m) : corot_mesh_box(&source->box, &m));
+  corot_mesh_quality q = corot_mesh_measure(m);
+  corot_status status = corot_mesh_group_plane(m, "lowest face", 2, q.min[2], 0);
+  if (!status) status = corot_mesh_group_plane(m, "highest face", 2, q.max[2], 0);
+  if (status) {
+    corot_mesh_destroy(m);
+    return status;
+  }
+  *mesh = m;
+  return COROT_OK;
+}
+
+static corot_status make_model(corot_mesh *mesh, const char *strain, corot_model **model) {
+  static const double time[] = {0, 10}, value[] = {0, 1};
+  corot_material material = {
+      .lambda = 1e5, .mu = 1e4, .density = 1000, .damping_lambda = 10, .damping_mu = 1};
+  corot_fix fix = {"lowest face", {true, true, true}};
+  corot_load load = {COROT_TRACTION, "highest face", {200, 0, 0}, {2, time, value}};
+  corot_model_def def = corot_model_defaults();
+  def.mesh = mesh, def.strain = strain;
+  def.nmaterial = 1, def.material = &material;
+  def.nfix = 1, def.fix = &fix;
+  def.nload = 1, def.load = &load;
+  return corot_model_create(&def, model);
+}
+
+corot_status bar_model(const bar_source *source, corot_model **model) {
+  corot_mesh *mesh;
+  COROT_TRY(get_mesh(source, &mesh));
+  corot_status status = make_model(mesh, source->strain, model);
+  corot_mesh_destroy(mesh);
+  return status;
+}
+
+int parse_cells(const char *program, const char *text, int cells[3]) {
+  double number[3];
+  bool good = parse_three(text, number);
+  for (int i = 0; i < 3 && good; i++) {
+    good = number[i] >= 1 && number[i] <= 1000 && number[i] == (int)number[i];
+    if (good) cells[i] = (int)number[i];
+  }
+  if (good) return EXIT_OK;
+  return usage_error(program, "--cells %s: expected three whole numbers I,J,K > 0", text);
+}
