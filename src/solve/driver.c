@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solve/clock.h"
+#include "solve/vector.h"
 
 corot_status corot_driver_open(driver *d, corot_integrator *self, const double *u,
                                const double *v) {
@@ -17,6 +18,7 @@ corot_status corot_driver_open(driver *d, corot_integrator *self, const double *
   d->LS = corot_sun_linsol(self->pencil, d->ctx);
   if (!d->y || !d->A || !d->LS)
     return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name, 2 * n);
+  corot_vector_quicken(d->y);
   memcpy(N_VGetArrayPointer(d->y), u, n * sizeof *u);
   memcpy(N_VGetArrayPointer(d->y) + n, v, n * sizeof *v);
   return COROT_OK;
