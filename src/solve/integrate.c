@@ -100,14 +100,19 @@ static int choose_max_order(const corot_integrator_def *d, const corot_model *mo
   return beta >= 0.738 * h ? 5 : beta >= 0.367 * h ? 4 : beta >= 0.145 * h ? 3 : 2;
 }
 
+/* A matrix a hundred steps old costs few more iterations than one twenty steps old (SUNDIALS' own
+   choice), and saves a quarter of a run on the paper's bar. Without damping the iteration's error
+   may put energy into the body, unless it ends at a small fraction of the tolerance: at a tenth of
+   it (SUNDIALS' own choice) an elastic bar gains 11 % in 20 s, at 0.003 nothing. */
 void corot_integrator_choose_bdf(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
   if (d->max_order == 0) d->max_order = choose_max_order(d, self->model);
   if (d->tangent == COROT_TANGENT_AUTO) d->tangent = COROT_TANGENT_HELD;
-  if (d->reassembly == 0) d->reassembly = 20;
-  if (d->refactorisation == 0) d->refactorisation = 20;
+  if (d->reassembly == 0) d->reassembly = 100;
+  if (d->refactorisation == 0) d->refactorisation = 100;
   if (d->gamma_change == 0) d->gamma_change = 0.3;
-  if (d->convergence == 0) d->convergence = 0.1;
+  if (d->convergence == 0)
+    d->convergence = corot_model_damping_time(self->model) > 0 ? 0.03 : 0.003;
 }
 
 static void choose(corot_integrator *self) {

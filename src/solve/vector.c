@@ -21,6 +21,12 @@ COROT_CLONES static void loop_sum(long n, double a, const double *x, double b, c
   for (long i = 0; i < n; i++) z[i] = a * x[i] + b * y[i];
 }
 
+COROT_CLONES static void loop_difference(long n, double a, const double *x, const double *y,
+                                         double *z) {
+  INDEPENDENT
+  for (long i = 0; i < n; i++) z[i] = a * (x[i] - y[i]);
+}
+
 COROT_CLONES static void loop_add_to(long n, double a, const double *x, double *z) {
   INDEPENDENT
   for (long i = 0; i < n; i++) z[i] += a * x[i];
@@ -48,7 +54,10 @@ static long length(N_Vector x) { return (long)N_VGetLength_Serial(x); }
 static double *data(N_Vector x) { return NV_DATA_S(x); }
 
 static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
-  loop_sum(length(x), a, data(x), b, data(y), data(z));
+  if (a == -b) /* the factor after the difference: a large one must not make infinities of it */
+    loop_difference(length(x), a, data(x), data(y), data(z));
+  else
+    loop_sum(length(x), a, data(x), b, data(y), data(z));
 }
 
 static void scale(sunrealtype a, N_Vector x, N_Vector z) {

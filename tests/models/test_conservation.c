@@ -164,7 +164,7 @@ static void the_ledger_of_energy_closes(void **state) {
   drop_body(&b);
 }
 
-/* Largest energy of the held bar after any step of 20 s, undamped, relative to the initial one. */
+/* Largest energy of the held bar after any step of 20 s, undamped, relative to the initial one; no further than twice that. */
 static double highest_energy(const corot_integrator_def *def) {
   body b = held_bar(&elastic, 0);
   double *u = malloc(2 * b.n * sizeof *u), *v = u + b.n, highest = 0;
@@ -173,8 +173,8 @@ static double highest_energy(const corot_integrator_def *def) {
   assert_ok(corot_energy(b.model, b.state, 0, u, v, &e));
   double first = e.kinetic + e.elastic;
   corot_integrator *integrator = start(&b, def, u, v);
-  assert_int_equal(corot_integrator_chosen(integrator).max_order, 2);
-  for (corot_step step = {0}; step.t < 20;) {
+  if (!def->max_order) assert_int_equal(corot_integrator_chosen(integrator).max_order, 2);
+  for (corot_step step = {0}; step.t < 20 && highest < 2;) {
     assert_ok(corot_integrator_step(integrator, 20, &step));
     assert_ok(corot_integrator_at(integrator, step.t, u, v));
     assert_ok(corot_energy(b.model, b.state, step.t, u, v, &e));
@@ -184,19 +184,22 @@ static double highest_energy(const corot_integrator_def *def) {
   return highest;
 }
 
-/* The order chosen for an undamped body never pumps energy into it, unlike orders three to five.
-   What may is Newton's method stopping early at a loose tolerance, with a matrix that lags: with a
-   fresh exact one nothing is gained even at 1e-2, without at 1e-4. */
+/* What is chosen for an undamped body never pumps energy into it, whatever the tolerance; order
+   five does, and so does order two where Newton's method may stop at a tenth of the tolerance with
+   a matrix that lags, as is CVODE's own custom. */
 static void the_default_does_not_gain_energy(void **state) {
   (void)state;
+  const double rtol[] = {1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
+  for (int k = 0; k < 5; k++) {
+    corot_integrator_def def = corot_integrator_defaults();
+    def.rtol = rtol[k];
+    assert_below(highest_energy(&def), 1 + 1e-4);
+  }
   corot_integrator_def def = corot_integrator_defaults();
-  assert_below(highest_energy(&def), 1 + 1e-6);
-  def.rtol = 1e-3;
-  assert_below(highest_energy(&def), 1.05);
-  def.tangent = COROT_TANGENT_EXACT, def.reassembly = def.refactorisation = 1;
-  assert_below(highest_energy(&def), 1 + 1e-6);
-  def.rtol = 1e-2;
-  assert_below(highest_energy(&def), 1 + 1e-6);
+  def.rtol = 1e-2, def.max_order = 5;
+  assert_above(highest_energy(&def), 2);
+  def.rtol = 3e-3, def.max_order = 0, def.convergence = 0.1;
+  assert_above(highest_energy(&def), 1.02);
 }
 
 int main(void) {

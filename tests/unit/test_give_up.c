@@ -112,10 +112,10 @@ static void cauchy_ends_in_overflow_only(void **state) {
   corot_integrator_destroy(integrator);
   cube_destroy(&c);
 
-  c = cube_create("cauchy", (double[]){0, 0, -1e300});
+  c = cube_create("cauchy", (double[]){0, 0, -1e307});
   integrator = start_cube(&c, &def);
   assert_int_equal(run_until_it_fails(integrator, &step), COROT_EINTEGRATE);
-  expect_words("exceeds double precision");
+  expect_words("exceed double precision");
   assert_ok(corot_integrator_at(integrator, step.t, c.u, c.v));
   assert_true(isfinite(norm_max(2 * c.n, c.u)));
   corot_integrator_destroy(integrator);

@@ -6,6 +6,7 @@
 
 #include "full_system.h"
 #include "solve/sun_compat.h"
+#include "solve/vector.h"
 #include "solver.h"
 
 static SUNContext context(void) {
@@ -118,9 +119,13 @@ static outcome run_host(const bar *b, bool full, double rtol, corot_integrator_c
                         double t_end, double *y_end) {
   SUNContext ctx = context();
   N_Vector y = N_VNew_Serial(2 * b->n, ctx);
+  corot_vector_quicken(y); /* as ours are, so that every bit agrees */
   N_VConst(0, y);
-  host h = {
-      {b->model, b->state, NULL}, full_create(b), rtol, chosen.atol_displacement, chosen.atol_velocity};
+  host h = {{b->model, b->state, NULL},
+            full_create(b),
+            rtol,
+            chosen.atol_displacement,
+            chosen.atol_velocity};
   corot_pencil *pencil;
   assert_ok(corot_pencil_create(b->model, b->state, SOLVER("klu"), &pencil));
   SUNMatrix A = full ? SUNSparseMatrix(2 * b->n, 2 * b->n, full_nnz(&h.full), CSC_MAT, ctx)
@@ -131,9 +136,11 @@ static outcome run_host(const bar *b, bool full, double rtol, corot_integrator_c
       CVodeInit(cvode, corot_sun_rhs, 0, y) || CVodeSetUserData(cvode, &h) ||
       CVodeWFtolerances(cvode, weights) || CVodeSetMaxOrd(cvode, chosen.max_order) ||
       CVodeSetStabLimDet(cvode, chosen.max_order > 2) || CVodeSetMaxNumSteps(cvode, -1) ||
-      CVodeSetLinearSolver(cvode, LS, A) || CVodeSetLSetupFrequency(cvode, 20) ||
+      CVodeSetLinearSolver(cvode, LS, A) ||
+      CVodeSetLSetupFrequency(cvode, chosen.refactorisation) ||
+      CVodeSetNonlinConvCoef(cvode, chosen.convergence) ||
       (full ? CVodeSetJacFn(cvode, full_jacobian) : CVodeSetLinSysFn(cvode, corot_sun_linsys)) ||
-      CVodeSetJacEvalFrequency(cvode, 20) || CVodeSetStopTime(cvode, t_end);
+      CVodeSetJacEvalFrequency(cvode, chosen.reassembly) || CVodeSetStopTime(cvode, t_end);
   assert_int_equal(bad, 0);
   for (double t = 0; t < t_end;) assert_true(CVode(cvode, 2 * t_end, y, &t, CV_ONE_STEP) >= 0);
   outcome o;
