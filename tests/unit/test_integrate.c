@@ -112,8 +112,8 @@ static int order_chosen(double damping, double rtol, double max_step) {
 static void higher_orders_are_chosen_where_they_pay(void **state) {
   (void)state;
   assert_int_equal(order_chosen(1, 1e-4, 0), 2);
-  assert_int_equal(order_chosen(1, 2e-6, 0), 2);
-  assert_int_equal(order_chosen(1, 1e-7, 0), 5);
+  assert_int_equal(order_chosen(1, 2e-7, 0), 2);
+  assert_int_equal(order_chosen(1, 9e-8, 0), 5);
   assert_int_equal(order_chosen(1, 1e-7, 0), 5);
   const double rtol[] = {1e-2, 1e-4, 1e-7, 1e-9};
   for (int k = 0; k < 4; k++) assert_int_equal(order_chosen(0, rtol[k], 0), 2);
