@@ -21,7 +21,7 @@ extern "C" {
 /* Whose matrix it is: the mass helps an iterative solver in a time step, not in statics. */
 typedef enum corot_role { COROT_ROLE_DYNAMIC, COROT_ROLE_STATIC } corot_role;
 
-/* How linear systems are solved. Each "auto" is decided by size and role (rules: linsol.c). */
+/* How linear systems are solved. Each "auto" is decided by size and role (rules: src/solve/linsol_choose.c). */
 typedef struct corot_linear_def {
   const char *solver;         /* "auto", "klu", "cholmod" (if built in), "pcg" */
   const char *ordering;       /* of klu and cholmod: "auto", "amd", "metis" (if built in) */
@@ -45,7 +45,8 @@ corot_status corot_pencil_create(const corot_model *model, corot_state *state,
 /* Takes NULL. */
 void corot_pencil_destroy(corot_pencil *pencil);
 
-/* The name of the linear solver in use. */
+/* The linear solver chosen, with what it was chosen with: "cholmod supernodal, metis", "klu, amd",
+   "pcg, incomplete-cholesky". */
 const char *corot_pencil_solver(const corot_pencil *pencil);
 
 /* Which derivative of the frames K uses; held at first. */
@@ -57,12 +58,16 @@ corot_status corot_pencil_assemble(corot_pencil *pencil, double t, const double 
 /* S = a M + b D + c K, without reassembly. */
 void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
 
-/* Factors S. Where the solver needs a positive definite S and it is not, S is made again with the
-   clamped tangent, and if that is no help either it is handed to klu; the counts tell.
-   COROT_ESINGULAR: no pivot. */
+/* Factors S. cholmod and pcg need it positive definite. Where it is not, in a time step, K is made
+   again with the clamped tangent, and stays so until the next assembly; if that is no help (or was
+   there already), klu factors S as it is, and solves until the next factorisation. The counts
+   tell; klu is made when first needed, the only memory to be asked for after creation.
+   COROT_RETRY: not positive definite, in statics, where the loss of stability must be seen.
+   COROT_ESINGULAR: no pivot; the message names the degree of freedom and its node. */
 corot_status corot_pencil_factor(corot_pencil *pencil);
 
-/* x = S^-1 b; x may be b. */
+/* x = S^-1 b; x may be b. COROT_RETRY: pcg met a direction in which S is not positive, or did not
+   converge. */
 corot_status corot_pencil_solve(corot_pencil *pencil, const double *b, double *x);
 
 /* Marks K and D as out of date, so that the next set-up reassembles them whatever the integrator
@@ -70,7 +75,7 @@ corot_status corot_pencil_solve(corot_pencil *pencil, const double *b, double *x
 void corot_pencil_invalidate(corot_pencil *pencil);
 
 typedef struct corot_pencil_counts {
-  long nassembly, ncombine, nfactor, nsolve; /* calls */
+  long nassembly, ncombine, nfactor, nsolve; /* done, those of a fallback included */
   long nfresh;     /* factorisations that chose their pivots anew */
   long niteration;  /* of an iterative solver */
   long nindefinite; /* factorisations refused because S was not positive definite, of which */

@@ -1,4 +1,4 @@
-# SuiteSparse as targets SuiteSparse::KLU and SuiteSparse::CHOLMOD, whichever are asked for as
+# SuiteSparse as targets SuiteSparse::AMD, SuiteSparse::KLU and SuiteSparse::CHOLMOD, whichever are asked for as
 # components. Installed with the package, which has to find the same libraries again.
 find_path(SuiteSparse_INCLUDE_DIR suitesparse/klu.h)
 mark_as_advanced(SuiteSparse_INCLUDE_DIR)

@@ -1,38 +1,45 @@
 #include "solve/linsol.h"
 
-#include <string.h>
+#include <stdlib.h>
 
 corot_linear_def corot_linear_defaults(void) {
   return (corot_linear_def){"auto", "auto", "auto", "auto", 1e-10, COROT_ROLE_DYNAMIC};
 }
 
-/* Up to here KLU's simplicity costs little; beyond, CHOLMOD's dense blocks win by a factor that
-   grows with the size: 4 at 3 000 unknowns, 40 at 20 000. */
-enum { KLU_MAX = 3000 };
-
-corot_status corot_linsol_find(const char *name, int n, const linsol_ops **ops) {
-  static const linsol_ops *const built[] = {
-      &corot_linsol_pcg,
-      &corot_linsol_klu,
-#ifdef COROT_HAVE_CHOLMOD
-      &corot_linsol_cholmod,
-#endif
-  };
-  int nbuilt = sizeof built / sizeof *built;
-  const linsol_ops *largest = built[nbuilt - 1];
-  if (name && strcmp(name, "auto") == 0) {
-    *ops = n > KLU_MAX ? largest : &corot_linsol_klu;
-    return COROT_OK;
+static corot_status make(const corot_model *model, const linsol_plan *plan, linsol *s) {
+  s->ops = plan->ops;
+  s->name = plan->name;
+  if (s->ops->triangle == COROT_FULL) {
+    corot_csc_destroy(s->csc);
+    s->csc = NULL;
+    COROT_TRY(corot_csc_create(model, COROT_FULL, &s->csc));
   }
-  for (int k = 0; k < nbuilt; k++)
-    if (name && strcmp(name, built[k]->name) == 0) {
-      *ops = built[k];
-      return COROT_OK;
-    }
-  if (name && strcmp(name, "cholmod") == 0)
-    return corot_fail(
-        COROT_EINVAL,
-        "linear solver cholmod is not in this build (configure with COROT_CHOLMOD=ON)");
-  return corot_fail(COROT_EINVAL, "no linear solver '%s': auto, klu, cholmod or pcg",
-                    name ? name : "");
+  s->value = malloc(s->csc->nnz * sizeof *s->value);
+  if (!s->value) return corot_fail(COROT_ENOMEM, "no memory for %d entries", s->csc->nnz);
+  return s->ops->create(s->csc, plan, &s->solver);
+}
+
+corot_status corot_linsol_create(const corot_model *model, const corot_linear_def *def, linsol *s) {
+  linsol_plan plan = {0};
+  *s = (linsol){0};
+  corot_status status = corot_csc_create(model, COROT_LOWER, &s->csc);
+  if (!status) status = corot_linsol_choose(def, s->csc, &plan);
+  if (!status) status = make(model, &plan, s);
+  corot_linsol_plan_clear(&plan);
+  return status;
+}
+
+void corot_linsol_clear(linsol *s) {
+  if (s->solver) s->ops->destroy(s->solver);
+  corot_csc_destroy(s->csc);
+  free(s->value);
+  *s = (linsol){0};
+}
+
+corot_status corot_linsol_singular(const corot_csc *csc, const char *solver, int dof,
+                                   double ratio) {
+  return corot_fail(
+      COROT_ESINGULAR,
+      "%s: the matrix is singular at degree of freedom %d of node %d (pivot ratio %.1e)", solver,
+      dof, csc->node[dof], ratio);
 }

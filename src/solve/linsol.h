@@ -5,12 +5,15 @@
 #include <corot/solve.h>
 #include <stdbool.h>
 
+/* What is to be used on one matrix, every "auto" decided. */
+typedef struct linsol_plan linsol_plan;
+
 typedef struct linsol_ops {
   const char *name;
   corot_triangle triangle; /* the part of the matrix it reads */
 
   /* Symbolic analysis, once; `pattern` is borrowed for the solver's life. */
-  corot_status (*create)(const corot_csc *pattern, void **solver);
+  corot_status (*create)(const corot_csc *pattern, const linsol_plan *plan, void **solver);
   /* Numeric factorisation of value [nnz]; *fresh: the pivots were chosen anew. COROT_RETRY: not
      positive definite; COROT_ESINGULAR: no pivot. */
   corot_status (*factor)(void *solver, const double *value, bool *fresh);
@@ -18,8 +21,7 @@ typedef struct linsol_ops {
   corot_status (*solve)(void *solver, double *x);
   void (*destroy)(void *solver);
 
-  /* Of iterative solvers; else NULL: the relative residual to reach, and iterations so far. */
-  void (*set_tolerance)(void *solver, double tolerance);
+  /* Iterations so far; NULL: the solver does not iterate. */
   long (*iterations)(const void *solver);
 } linsol_ops;
 
@@ -29,7 +31,34 @@ extern const linsol_ops corot_linsol_pcg;
 extern const linsol_ops corot_linsol_cholmod;
 #endif
 
-/* The solver of that name; "auto" picks by the number n of unknowns. */
-corot_status corot_linsol_find(const char *name, int n, const linsol_ops **ops);
+struct linsol_plan {
+  corot_linear_def def;
+  const linsol_ops *ops;
+  const char *name; /* static: "cholmod supernodal, amd", "klu, metis", "pcg, block-jacobi" */
+  int *order;       /* [unknowns] of a direct solver: an order of little fill; else NULL */
+};
+
+/* `lower`: the lower triangle. COROT_EINVAL: a name that does not exist, or is not in this build.
+ */
+corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
+                                 linsol_plan *plan);
+void corot_linsol_plan_clear(linsol_plan *plan);
+
+/* A solver with the matrix it is for. */
+typedef struct linsol {
+  const linsol_ops *ops;
+  const char *name; /* as in the plan; static */
+  corot_csc *csc;
+  double *value; /* [csc->nnz] */
+  void *solver;
+} linsol;
+
+/* On the model's pattern. What is half made is released by clear. */
+corot_status corot_linsol_create(const corot_model *model, const corot_linear_def *def, linsol *s);
+void corot_linsol_clear(linsol *s);
+
+/* Fails with COROT_ESINGULAR for want of a pivot at a degree of freedom; `ratio`: of the smallest
+   pivot to the largest. */
+corot_status corot_linsol_singular(const corot_csc *csc, const char *solver, int dof, double ratio);
 
 #endif

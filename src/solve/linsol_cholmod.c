@@ -1,6 +1,7 @@
 /* CHOLMOD: sparse Cholesky, by dense blocks where the factor is large enough for them to pay. A
    pivot that is not positive is an answer, not an accident: the matrix is indefinite. */
 #include <float.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 #include "solve/linsol.h"
 
 typedef struct cholesky {
+  const corot_csc *pattern;
   cholmod_common common;
   cholmod_sparse A; /* view of the pattern; its values are the caller's */
   cholmod_factor *L;
@@ -16,11 +18,16 @@ typedef struct cholesky {
   cholmod_dense *b, *x, *y, *e; /* right-hand side, solution, and cholmod's workspace */
 } cholesky;
 
+static corot_status not_positive(const cholesky *c) {
+  int dof = ((const int *)c->L->Perm)[c->L->minor];
+  return corot_fail(
+      COROT_RETRY, "cholmod: the matrix is not positive definite (degree of freedom %d of node %d)",
+      dof, c->pattern->node[dof]);
+}
+
 static corot_status failure(const cholesky *c, const char *phase) {
   int status = c->common.status;
-  if (status == CHOLMOD_NOT_POSDEF)
-    return corot_fail(COROT_RETRY, "cholmod: the matrix is not positive definite (column %zu)",
-                      c->L->minor);
+  if (status == CHOLMOD_NOT_POSDEF) return not_positive(c);
   if (status == CHOLMOD_OUT_OF_MEMORY)
     return corot_fail(COROT_ENOMEM, "cholmod: %s: out of memory", phase);
   return corot_fail(COROT_EINVAL, "cholmod: %s failed (status %d)", phase, status);
@@ -43,16 +50,22 @@ static cholmod_dense *vector(cholesky *c, size_t n) {
 }
 
 /* Analysis, and all the room a solve needs: cholmod before version 4 crashes if it finds none. */
-static bool analyze(cholesky *c) {
+static bool analyze(cholesky *c, int *order) {
   size_t n = c->A.nrow;
-  return (c->L = cholmod_analyze(&c->A, &c->common)) && (c->b = vector(c, n)) &&
+  return (c->L = cholmod_analyze_p(&c->A, order, NULL, 0, &c->common)) && (c->b = vector(c, n)) &&
          (c->x = vector(c, n)) && (c->y = vector(c, n)) && (c->e = vector(c, c->L->maxesize));
 }
 
-static corot_status cholesky_create(const corot_csc *pattern, void **solver) {
+static corot_status cholesky_create(const corot_csc *pattern, const linsol_plan *plan,
+                                    void **solver) {
   cholesky *c = calloc(1, sizeof *c);
   if (!c) return corot_fail(COROT_ENOMEM, "no memory for cholmod");
+  c->pattern = pattern;
   cholmod_start(&c->common);
+  c->common.nmethods = 1;
+  c->common.method[0].ordering = CHOLMOD_GIVEN;
+  c->common.supernodal =
+      strcmp(plan->def.factor, "supernodal") == 0 ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
   c->common.print = 0;
   c->common.error_handler = NULL;
   c->common.final_ll = 1; /* L L', so that a negative pivot stops it */
@@ -68,7 +81,7 @@ static corot_status cholesky_create(const corot_csc *pattern, void **solver) {
                           .dtype = CHOLMOD_DOUBLE,
                           .sorted = 1,
                           .packed = 1};
-  if (!analyze(c)) {
+  if (!analyze(c, plan->order)) {
     corot_status status = failure(c, "analysis");
     cholesky_destroy(c);
     return status;
@@ -76,6 +89,21 @@ static corot_status cholesky_create(const corot_csc *pattern, void **solver) {
   c->A.xtype = CHOLMOD_REAL;
   *solver = c;
   return COROT_OK;
+}
+
+/* Where the diagonal of L is smallest, or not a number. */
+static int smallest_pivot(const cholmod_factor *L) {
+  const int *first = L->is_super ? L->super : NULL, *at = L->is_super ? L->px : L->p;
+  const int *rows = L->pi;
+  const double *x = L->x;
+  double smallest = INFINITY;
+  int where = 0;
+  for (int j = 0, s = 0; j < (int)L->n && !isnan(smallest); j++) {
+    if (first && j == first[s + 1]) s++;
+    double pivot = first ? x[at[s] + (j - first[s]) * (rows[s + 1] - rows[s] + 1)] : x[at[j]];
+    if (!(pivot >= smallest)) smallest = pivot, where = j;
+  }
+  return ((const int *)L->Perm)[where];
 }
 
 static corot_status cholesky_factor(void *solver, const double *value, bool *fresh) {
@@ -88,7 +116,7 @@ static corot_status cholesky_factor(void *solver, const double *value, bool *fre
   double ratio = cholmod_rcond(c->L, &c->common);
   c->factored = ratio >= (double)c->A.nrow * DBL_EPSILON;
   if (c->factored) return COROT_OK;
-  return corot_fail(COROT_ESINGULAR, "cholmod: the matrix is singular (pivot ratio %.1e)", ratio);
+  return corot_linsol_singular(c->pattern, "cholmod", smallest_pivot(c->L), ratio);
 }
 
 static corot_status cholesky_solve(void *solver, double *x) {
@@ -102,5 +130,5 @@ static corot_status cholesky_solve(void *solver, double *x) {
 }
 
 const linsol_ops corot_linsol_cholmod = {
-    "cholmod", COROT_LOWER, cholesky_create, cholesky_factor, cholesky_solve, cholesky_destroy,
-    NULL,      NULL};
+    "cholmod",        COROT_LOWER, cholesky_create, cholesky_factor, cholesky_solve,
+    cholesky_destroy, NULL};

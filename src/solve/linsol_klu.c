@@ -35,8 +35,7 @@ static const char *reason(int status) {
 static corot_status failure(const klu *k, const char *phase) {
   int status = k->common.status;
   if (status == KLU_SINGULAR)
-    return corot_fail(COROT_ESINGULAR, "klu: the matrix is singular at degree of freedom %d",
-                      (int)k->common.singular_col);
+    return corot_linsol_singular(k->pattern, "klu", (int)k->common.singular_col, 0);
   return corot_fail(status == KLU_OUT_OF_MEMORY ? COROT_ENOMEM : COROT_EINVAL, "klu: %s: %s", phase,
                     reason(status));
 }
@@ -49,13 +48,15 @@ static void klu_solver_destroy(void *solver) {
   free(k);
 }
 
-static corot_status klu_solver_create(const corot_csc *pattern, void **solver) {
+static corot_status klu_solver_create(const corot_csc *pattern, const linsol_plan *plan,
+                                      void **solver) {
   klu *k = calloc(1, sizeof *k);
   if (!k) return corot_fail(COROT_ENOMEM, "no memory for klu");
   k->pattern = pattern;
   klu_defaults(&k->common);
   k->common.btf = 0; /* the matrix of a connected mesh is irreducible */
-  k->symbolic = klu_analyze(pattern->n, pattern->colptr, pattern->row, &k->common);
+  k->symbolic = klu_analyze_given(pattern->n, pattern->colptr, pattern->row, plan->order,
+                                  plan->order, &k->common);
   if (!k->symbolic) {
     corot_status status = failure(k, "analysis");
     klu_solver_destroy(k);
@@ -73,9 +74,8 @@ static corot_status check_pivots(klu *k) {
   int smallest = 0;
   for (int j = 1; j < k->pattern->n; j++)
     if (!(fabs(pivot[j]) >= fabs(pivot[smallest]))) smallest = j;
-  corot_status status = corot_fail(
-      COROT_ESINGULAR, "klu: the matrix is singular at degree of freedom %d (pivot ratio %.1e)",
-      k->symbolic->Q[smallest], k->common.rcond);
+  corot_status status =
+      corot_linsol_singular(k->pattern, "klu", k->symbolic->Q[smallest], k->common.rcond);
   klu_free_numeric(&k->numeric, &k->common);
   return status;
 }
@@ -109,4 +109,4 @@ static corot_status klu_solver_solve(void *solver, double *x) {
 
 const linsol_ops corot_linsol_klu = {
     "klu", COROT_FULL, klu_solver_create, klu_solver_factor, klu_solver_solve, klu_solver_destroy,
-    NULL,  NULL};
+    NULL};

@@ -1,6 +1,10 @@
-/* Conjugate gradients with a block-diagonal preconditioner, one block a node: the paper's iterative
-   solver, by way of SUNDIALS' own. Its work grows with the number of unknowns only, and the mass
-   keeps the number of iterations low at small steps. */
+/* Preconditioned conjugate gradients, by way of SUNDIALS' own. The work of an iteration grows with
+   the number of unknowns only, and the mass keeps their number low at small steps.
+
+   The preconditioner C C' or C (I + L)(I + L') C' is applied to the system from both sides, so
+   that what SUNDIALS sees has none: with incomplete Cholesky an iteration then costs one product.
+ */
+#include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
@@ -8,173 +12,169 @@
 #include <sunlinsol/sunlinsol_pcg.h>
 
 #include "solve/linsol.h"
+#include "solve/linsol_nodes.h"
 #include "solve/sun_compat.h"
 
-typedef struct node_block {
-  int n, dof[3];
-  double inverse[9]; /* of the block, n x n in the upper left */
-} node_block;
-
 typedef struct pcg {
-  const corot_csc *A;
-  const double *value; /* NULL: none was accepted */
-  double tolerance;    /* of the residual, relative to the right-hand side */
+  const corot_csc *csc;
+  node_matrix A;
+  bool cholesky; /* or else Jacobi */
+  bool factored;
+  double tolerance; /* of the residual, relative to the right-hand side */
   long iterations;
-  double curvature; /* p' A p of the last direction */
-  double *rhs;      /* [n] */
-  int nblock;
-  node_block *block;
+  double curvature;      /* p' A p of the last direction */
+  double *b, *r, *x, *z; /* [3 nodes] right-hand side, residual, solution, its change; scaled */
   SUNContext ctx;
-  N_Vector x, b;
+  N_Vector from, to;
   SUNLinearSolver cg;
 } pcg;
 
 /* y = A x, and whether x is a direction in which A is positive. */
 static int multiply(void *data, N_Vector x, N_Vector y) {
   pcg *p = data;
-  const corot_csc *A = p->A;
   const double *in = N_VGetArrayPointer(x);
   double *out = N_VGetArrayPointer(y), curvature = 0;
-  for (int j = 0; j < A->n; j++) { /* symmetric: columns are rows */
-    double sum = 0;
-    for (int k = A->colptr[j]; k < A->colptr[j + 1]; k++) sum += p->value[k] * in[A->row[k]];
-    out[j] = sum;
-    curvature += in[j] * sum;
-  }
+  (p->cholesky ? corot_nodes_sandwich : corot_nodes_multiply)(&p->A, in, out);
+  for (int i = 0; i < 3 * p->A.n; i++) curvature += in[i] * out[i];
   p->curvature = curvature;
   return curvature > 0 ? 0 : 1;
-}
-
-static int precondition(void *data, N_Vector r, N_Vector z, sunrealtype tol, int side) {
-  (void)tol, (void)side;
-  const pcg *p = data;
-  const double *in = N_VGetArrayPointer(r);
-  double *out = N_VGetArrayPointer(z);
-  for (int k = 0; k < p->nblock; k++) {
-    const node_block *b = &p->block[k];
-    for (int i = 0; i < b->n; i++) {
-      double sum = 0;
-      for (int j = 0; j < b->n; j++) sum += b->inverse[3 * i + j] * in[b->dof[j]];
-      out[b->dof[i]] = sum;
-    }
-  }
-  return 0;
 }
 
 static void pcg_destroy(void *solver) {
   pcg *p = solver;
   if (!p) return;
   if (p->cg) SUNLinSolFree(p->cg);
-  if (p->x) N_VDestroy(p->x);
-  if (p->b) N_VDestroy(p->b);
+  if (p->from) N_VDestroy(p->from);
+  if (p->to) N_VDestroy(p->to);
   if (p->ctx) SUNContext_Free(&p->ctx);
-  free(p->block);
-  free(p->rhs);
+  corot_nodes_clear(&p->A);
+  free(p->b);
   free(p);
 }
 
-static void list_nodes(const corot_csc *A, pcg *p) {
-  for (int i = 0; i < A->n; i++) {
-    if (i == 0 || A->node[i] != A->node[i - 1]) p->block[p->nblock++].n = 0;
-    node_block *b = &p->block[p->nblock - 1];
-    b->dof[b->n++] = i;
+static corot_status prepare(pcg *p) {
+  COROT_TRY(corot_nodes_create(p->csc, &p->A));
+  int n = 3 * p->A.n;
+  p->b = malloc(4 * (size_t)n * sizeof *p->b);
+  p->r = p->b + n, p->x = p->r + n, p->z = p->x + n;
+  if (sun_context_create(&p->ctx) == 0) {
+    p->to = N_VNewEmpty_Serial(n, p->ctx);
+    p->from = N_VNewEmpty_Serial(n, p->ctx);
+    /* in exact arithmetic n iterations suffice; rounding may ask for some more */
+    if (p->to) p->cg = SUNLinSol_PCG(p->to, SUN_PREC_NONE, 10 * n + 100, p->ctx);
   }
+  if (!p->b || !p->from || !p->cg || SUNLinSolSetATimes(p->cg, p, multiply) ||
+      SUNLinSolInitialize(p->cg))
+    return corot_fail(COROT_ENOMEM, "no memory for pcg on %d unknowns", p->csc->n);
+  return COROT_OK;
 }
 
-static corot_status pcg_create(const corot_csc *pattern, void **solver) {
+static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan, void **solver) {
   pcg *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for pcg");
-  p->A = pattern;
-  p->tolerance = 1e-10;
-  p->block = malloc(pattern->n * sizeof *p->block);
-  p->rhs = malloc(pattern->n * sizeof *p->rhs);
-  if (p->block) list_nodes(pattern, p);
-  if (sun_context_create(&p->ctx) == 0) {
-    p->x = N_VNewEmpty_Serial(pattern->n, p->ctx);
-    p->b = N_VNewEmpty_Serial(pattern->n, p->ctx);
-    /* in exact arithmetic n iterations suffice; rounding may ask for some more */
-    if (p->x) p->cg = SUNLinSol_PCG(p->x, SUN_PREC_LEFT, 10 * pattern->n + 100, p->ctx);
-  }
-  if (!p->block || !p->rhs || !p->b || !p->cg || SUNLinSolSetATimes(p->cg, p, multiply) ||
-      SUNLinSolSetPreconditioner(p->cg, p, NULL, precondition) || SUNLinSolInitialize(p->cg)) {
+  p->csc = pattern;
+  p->tolerance = plan->def.tolerance;
+  p->cholesky = strcmp(plan->def.preconditioner, "incomplete-cholesky") == 0;
+  corot_status status = prepare(p);
+  if (status) {
     pcg_destroy(p);
-    return corot_fail(COROT_ENOMEM, "no memory for pcg on %d unknowns", pattern->n);
+    return status;
   }
   *solver = p;
   return COROT_OK;
 }
 
-static double entry(const pcg *p, int row, int column) {
-  const corot_csc *A = p->A;
-  for (int k = A->colptr[column]; k < A->colptr[column + 1]; k++)
-    if (A->row[k] == row) return p->value[k];
-  return 0;
-}
-
-/* Inverts an n x n symmetric block, n <= 3, by Cholesky's elimination on the identity. */
-static bool invert(int n, double a[9], double inverse[9]) {
-  for (int i = 0; i < 9; i++) inverse[i] = i % 4 == 0;
-  for (int k = 0; k < n; k++) {
-    if (!(a[4 * k] > 0)) return false;
-    double pivot = 1 / a[4 * k];
-    for (int j = 0; j < n; j++) a[3 * k + j] *= pivot, inverse[3 * k + j] *= pivot;
-    for (int i = 0; i < n; i++) {
-      double factor = a[3 * i + k];
-      if (i == k) continue;
-      for (int j = 0; j < n; j++) {
-        a[3 * i + j] -= factor * a[3 * k + j];
-        inverse[3 * i + j] -= factor * inverse[3 * k + j];
-      }
-    }
+/* What is positive definite may have an incomplete factor that is not: then the diagonal is raised
+   until it is (Manteuffel 1980). */
+static bool precondition(pcg *p, const double *value, int *at) {
+  corot_nodes_load(&p->A, p->csc, value);
+  if (!p->cholesky) return corot_nodes_jacobi(&p->A, at);
+  for (double shift = 0; !corot_nodes_cholesky(&p->A, shift, at);) {
+    if (shift > 100) return false;
+    shift = fmax(0.01, 2 * shift);
+    corot_nodes_load(&p->A, p->csc, value);
   }
   return true;
 }
 
 static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
   pcg *p = solver;
-  p->value = value; /* for entry() */
+  int at = 0;
   *fresh = true;
-  for (int k = 0; k < p->nblock; k++) {
-    node_block *b = &p->block[k];
-    double a[9] = {0};
-    for (int i = 0; i < b->n; i++)
-      for (int j = 0; j < b->n; j++) a[3 * i + j] = entry(p, b->dof[i], b->dof[j]);
-    if (!invert(b->n, a, b->inverse)) {
-      p->value = NULL;
-      return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (unknown %d)",
-                        b->dof[0]);
-    }
-  }
+  p->factored = precondition(p, value, &at);
+  if (p->factored) return COROT_OK;
+  int dof = 0;
+  while (p->A.slot[dof] / 3 < at) dof++;
+  return corot_fail(COROT_RETRY,
+                    "pcg: the matrix is not positive definite (degree of freedom %d of node %d)",
+                    dof, p->csc->node[dof]);
+}
+
+/* x += the solution for the residual, as closely as brings |r| from `norm` to `target`. */
+static corot_status improve(pcg *p, double norm, double target) {
+  int n = 3 * p->A.n;
+  double square = 0;
+  if (p->cholesky) corot_nodes_forward(&p->A, p->r);
+  for (int i = 0; i < n; i++) square += p->r[i] * p->r[i];
+  memset(p->z, 0, n * sizeof *p->z);
+  N_VSetArrayPointer(p->z, p->to);
+  N_VSetArrayPointer(p->r, p->from);
+  SUNLinSolSetZeroGuess(p->cg, 1);
+  int status = SUNLinSolSolve(p->cg, NULL, p->to, p->from, target / norm * sqrt(square));
+  p->iterations += SUNLinSolNumIters(p->cg);
+  if (status && !(p->curvature > 0))
+    return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (p'Sp = %.3g)",
+                      p->curvature);
+  if (status)
+    return corot_fail(COROT_RETRY, "pcg: not converged to %g in %d iterations", p->tolerance,
+                      SUNLinSolNumIters(p->cg));
+  if (p->cholesky) corot_nodes_backward(&p->A, p->z);
+  for (int i = 0; i < n; i++) p->x[i] += p->z[i];
   return COROT_OK;
+}
+
+/* r = b - A x, |r| in the caller's units */
+static double residual(pcg *p) {
+  corot_nodes_multiply(&p->A, p->x, p->r);
+  for (int i = 0; i < 3 * p->A.n; i++) p->r[i] = p->b[i] - p->r[i];
+  return corot_nodes_unscaled_norm(&p->A, p->r);
+}
+
+/* Conjugate gradients stop by the residual they see; how large it really is shows afterwards. One
+   that no longer falls is rounding, and no solver would do better. */
+static corot_status iterate(pcg *p) {
+  const double most = sqrt(DBL_EPSILON);
+  size_t bytes = 3 * (size_t)p->A.n * sizeof *p->b;
+  double whole = corot_nodes_unscaled_norm(&p->A, p->b), norm = whole, before;
+  memcpy(p->r, p->b, bytes);
+  memset(p->x, 0, bytes);
+  do {
+    before = norm;
+    COROT_TRY(improve(p, norm, 0.5 * p->tolerance * whole));
+    norm = residual(p);
+  } while (norm > p->tolerance * whole && norm < 0.5 * before);
+  if (norm <= fmax(p->tolerance, most) * whole) return COROT_OK;
+  return corot_fail(COROT_RETRY, "pcg: the residual stays at %.1e of the right-hand side",
+                    norm / whole);
 }
 
 static corot_status pcg_solve(void *solver, double *x) {
   pcg *p = solver;
-  if (!p->value) return corot_fail(COROT_EINVAL, "pcg: solve: there is no factor");
-  int n = p->A->n;
-  double square = 0;
-  for (int i = 0; i < n; i++) square += x[i] * x[i];
-  if (square == 0) return COROT_OK;
-  memcpy(p->rhs, x, n * sizeof *x);
-  memset(x, 0, n * sizeof *x);
-  N_VSetArrayPointer(x, p->x);
-  N_VSetArrayPointer(p->rhs, p->b);
-  SUNLinSolSetZeroGuess(p->cg, 1);
-  int status = SUNLinSolSolve(p->cg, NULL, p->x, p->b, p->tolerance * sqrt(square));
-  p->iterations += SUNLinSolNumIters(p->cg);
-  if (status == 0) return COROT_OK;
-  if (!(p->curvature > 0))
-    return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (p'Sp = %.3g)",
-                      p->curvature);
-  return corot_fail(COROT_RETRY, "pcg: not converged to %g in %d iterations", p->tolerance,
-                    SUNLinSolNumIters(p->cg));
-}
-
-static void pcg_set_tolerance(void *solver, double tolerance) {
-  ((pcg *)solver)->tolerance = tolerance;
+  if (!p->factored) return corot_fail(COROT_EINVAL, "pcg: solve: there is no factor");
+  int n = p->csc->n;
+  bool zero = true;
+  for (int i = 0; i < n && zero; i++) zero = x[i] == 0;
+  if (zero) return COROT_OK;
+  memset(p->b, 0, 3 * p->A.n * sizeof *p->b);
+  for (int i = 0; i < n; i++) p->b[p->A.slot[i]] = x[i];
+  corot_nodes_scale(&p->A, p->b);
+  COROT_TRY(iterate(p));
+  corot_nodes_unscale_transposed(&p->A, p->x);
+  for (int i = 0; i < n; i++) x[i] = p->x[p->A.slot[i]];
+  return COROT_OK;
 }
 
 static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
 
-const linsol_ops corot_linsol_pcg = {"pcg",     COROT_FULL,  pcg_create,        pcg_factor,
-                                     pcg_solve, pcg_destroy, pcg_set_tolerance, pcg_iterations};
+const linsol_ops corot_linsol_pcg = {"pcg",     COROT_LOWER, pcg_create,    pcg_factor,
+                                     pcg_solve, pcg_destroy, pcg_iterations};

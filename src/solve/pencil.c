@@ -6,33 +6,31 @@
 #include "solve/clock.h"
 
 static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
-  if (!(linear->tolerance > 0))
-    return corot_fail(COROT_EINVAL, "linear solver: tolerance = %g is not positive",
-                      linear->tolerance);
-  COROT_TRY(corot_linsol_find(linear->solver, p->n, &p->ops));
-  COROT_TRY(corot_csc_create(p->model, p->ops->triangle, &p->csc));
+  COROT_TRY(corot_linsol_create(p->model, linear, &p->chosen));
+  p->solver = &p->chosen;
+  p->csc = p->chosen.csc;
+  p->S = p->chosen.value;
   size_t nblock = corot_model_nblock(p->model);
   p->K = malloc(nblock * sizeof *p->K);
   p->D = malloc(nblock * sizeof *p->D);
-  p->S = malloc(p->csc->nnz * sizeof *p->S);
-  p->work = malloc(2 * p->n * sizeof *p->work);
-  if (!p->K || !p->D || !p->S || !p->work)
+  p->u = malloc(p->n * sizeof *p->u);
+  p->work = malloc(2 * (size_t)p->n * sizeof *p->work);
+  if (!p->K || !p->D || !p->u || !p->work)
     return corot_fail(COROT_ENOMEM, "no memory for matrices of %d unknowns", p->n);
-  COROT_TRY(p->ops->create(p->csc, &p->solver));
-  if (p->ops->set_tolerance) p->ops->set_tolerance(p->solver, linear->tolerance);
   return COROT_OK;
 }
 
 corot_status corot_pencil_create(const corot_model *model, corot_state *state,
                                  const corot_linear_def *linear, corot_pencil **pencil) {
-  corot_linear_def chosen = linear ? *linear : corot_linear_defaults();
+  corot_linear_def def = linear ? *linear : corot_linear_defaults();
   corot_pencil *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for a pencil");
   p->model = model;
   p->state = state;
   p->n = corot_model_ndof(model);
+  p->role = def.role;
   p->dirty = true;
-  corot_status status = allocate(&chosen, p);
+  corot_status status = allocate(&def, p);
   if (status) {
     corot_pencil_destroy(p);
     return status;
@@ -43,21 +41,23 @@ corot_status corot_pencil_create(const corot_model *model, corot_state *state,
 
 void corot_pencil_destroy(corot_pencil *p) {
   if (!p) return;
-  if (p->solver) p->ops->destroy(p->solver);
-  corot_csc_destroy(p->csc);
+  corot_linsol_clear(&p->chosen);
+  corot_linsol_clear(&p->klu);
   free(p->K);
   free(p->D);
-  free(p->S);
+  free(p->u);
   free(p->work);
   free(p);
 }
 
-const char *corot_pencil_solver(const corot_pencil *p) { return p->ops->name; }
+const char *corot_pencil_solver(const corot_pencil *p) { return p->chosen.name; }
 void corot_pencil_use(corot_pencil *p, corot_tangent tangent) { p->tangent = tangent; }
 void corot_pencil_invalidate(corot_pencil *p) { p->dirty = true; }
+
 corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
   corot_pencil_counts counts = p->counts;
-  if (p->ops->iterations) counts.niteration = p->ops->iterations(p->solver);
+  const linsol *s = &p->chosen;
+  if (s->ops->iterations) counts.niteration = s->ops->iterations(s->solver);
   return counts;
 }
 
@@ -65,34 +65,101 @@ corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, c
   double start = clock_wall();
   corot_status status = corot_jacobian(p->model, p->state, t, u, v, p->tangent, p->K, p->D);
   p->dirty = status != COROT_OK;
+  p->assembled = p->tangent;
+  p->t = t;
+  memcpy(p->u, u, p->n * sizeof *u);
   p->counts.nassembly++;
   p->counts.assembly_s += clock_wall() - start;
   return status;
 }
 
-void corot_pencil_combine(corot_pencil *p, double a, double b, double c) {
+/* K once more, where it was assembled, with another derivative of the frames. */
+static corot_status assemble_again(corot_pencil *p, corot_tangent tangent) {
   double start = clock_wall();
-  corot_csc_combine(p->model, p->csc, a, b, (const double(*)[9])p->D, c, (const double(*)[9])p->K,
-                    p->S);
+  /* K is that of v = 0, so any velocity will do */
+  corot_status status = corot_jacobian(p->model, p->state, p->t, p->u, p->u, tangent, p->K, NULL);
+  p->dirty = p->dirty || status != COROT_OK;
+  p->assembled = tangent;
+  p->counts.nassembly++;
+  p->counts.assembly_s += clock_wall() - start;
+  return status;
+}
+
+/* S for one of the solvers. */
+static void combine(corot_pencil *p, linsol *s) {
+  double start = clock_wall();
+  corot_csc_combine(p->model, s->csc, p->a, p->b, (const double(*)[9])p->D, p->c,
+                    (const double(*)[9])p->K, s->value);
   p->counts.ncombine++;
   p->counts.combine_s += clock_wall() - start;
 }
 
-corot_status corot_pencil_factor(corot_pencil *p) {
+void corot_pencil_combine(corot_pencil *p, double a, double b, double c) {
+  p->a = a, p->b = b, p->c = c;
+  combine(p, &p->chosen);
+}
+
+static corot_status factor(corot_pencil *p, const linsol *s) {
   double start = clock_wall();
   bool fresh = false;
-  corot_status status = p->ops->factor(p->solver, p->S, &fresh);
+  corot_status status = s->ops->factor(s->solver, s->value, &fresh);
+  p->solver = s;
   p->counts.nfactor++;
   p->counts.nfresh += fresh;
-  p->counts.nindefinite += status == COROT_RETRY;
   p->counts.factor_s += clock_wall() - start;
   return status;
+}
+
+static bool no_pivots(corot_status status) {
+  return status == COROT_RETRY || status == COROT_ESINGULAR;
+}
+
+/* With K cut off where it is negative. If that is no help, K is as before. */
+static corot_status factor_clamped(corot_pencil *p) {
+  corot_tangent before = p->assembled;
+  COROT_TRY(assemble_again(p, COROT_TANGENT_CLAMPED));
+  combine(p, &p->chosen);
+  corot_status status = factor(p, &p->chosen);
+  p->counts.nclamped += status == COROT_OK;
+  if (!no_pivots(status)) return status;
+  COROT_TRY(assemble_again(p, before));
+  combine(p, &p->chosen);
+  return status;
+}
+
+/* By a solver that does not mind. */
+static corot_status factor_by_klu(corot_pencil *p) {
+  double start = clock_wall();
+  corot_linear_def def = corot_linear_defaults();
+  def.solver = "klu";
+  if (!p->klu.solver) {
+    linsol made;
+    corot_status status = corot_linsol_create(p->model, &def, &made);
+    p->counts.factor_s += clock_wall() - start;
+    if (status) {
+      corot_linsol_clear(&made);
+      return status;
+    }
+    p->klu = made;
+  }
+  combine(p, &p->klu);
+  corot_status status = factor(p, &p->klu);
+  p->counts.nfallback += status == COROT_OK;
+  return status;
+}
+
+corot_status corot_pencil_factor(corot_pencil *p) {
+  corot_status status = factor(p, &p->chosen);
+  p->counts.nindefinite += status == COROT_RETRY;
+  if (status != COROT_RETRY || p->role == COROT_ROLE_STATIC) return status;
+  if (p->assembled != COROT_TANGENT_CLAMPED) status = factor_clamped(p);
+  return no_pivots(status) ? factor_by_klu(p) : status;
 }
 
 corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
   double start = clock_wall();
   if (x != b) memcpy(x, b, p->n * sizeof *x);
-  corot_status status = p->ops->solve(p->solver, x);
+  corot_status status = p->solver->ops->solve(p->solver->solver, x);
   p->counts.nsolve++;
   p->counts.solve_s += clock_wall() - start;
   return status;

@@ -10,15 +10,20 @@ struct corot_pencil {
   const corot_model *model;
   corot_state *state;
   int n;
-  corot_tangent tangent;
-  bool dirty; /* K and D do not belong to the present frames, or were never assembled */
+  corot_role role;
+  corot_tangent tangent; /* to be used */
+  bool dirty;            /* K and D do not belong to the present frames, or were never assembled */
   double (*K)[9], (*D)[9]; /* [nblock] */
-  corot_csc *csc;
-  double *S;    /* [csc->nnz] */
-  double *work; /* [2 n] */
-  const linsol_ops *ops;
-  void *solver;
-  double gamma; /* of S, as set by corot_sun_linsys */
+  double t, *u;            /* [n] where they were assembled, */
+  corot_tangent assembled; /* and how */
+  double a, b, c;          /* of S */
+  linsol chosen;
+  linsol klu;           /* made when first needed */
+  const linsol *solver; /* which of them holds the factor */
+  const corot_csc *csc; /* of the chosen one */
+  double *S;            /* [csc->nnz] */
+  double *work;         /* [2 n] */
+  double gamma;         /* of S, as set by corot_sun_linsys */
   corot_pencil_counts counts;
 };
 

@@ -30,10 +30,14 @@ lines "all($per_tet for r in d[1:])
 lines "len(d) == 1 and d[0]['tets'] == 6 and d[0]['nst'] > 0 and 'force' in d[0]['phases_s']" \
   run --json --cells 1,1,1 --rtol 1e-2 --repeat 1
 lines "len(d) == 5 and all(0 < r['bytes_per_tet'] for r in d)" memory --json --tets 6
+lines "{r['role'] for r in d[1:]} == {'dynamic', 'static'} and sum(r['auto'] for r in d[1:]) == 2
+  and all(r['ratio'] >= 1 and r['cost_s'] > 0 for r in d[1:])" solvers --json --most 310
 "$bench" --help | grep -q kernels || { echo "FAILED: corot-bench --help"; failed=1; }
 usage
 usage kernel
 usage kernels --tets 0
 usage run --rtol -1
 usage memory extra
+usage solvers --most 0
+usage solvers --role other
 exit $failed

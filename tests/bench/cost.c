@@ -179,13 +179,14 @@ corot_status cost_direct(const corot_csc *full, bool cholesky, solver_cost *out)
 }
 
 solver_cost cost_pcg(const corot_csc *full, double iterations) {
-  double n = full->n, nnz = full->nnz;
-  /* an iteration: a product, the blocks, two dot products and three updates of vectors */
-  double data = 12 * nnz + (24 + 5 * 8) * n;
+  double n = full->n, below = (full->nnz - 3 * n) / 2; /* entries in blocks below the diagonal */
+  double matrix = (8 + 4.0 / 9) * below, diagonal = 8 * 3 * n;
+  /* an iteration: the blocks twice, three dot products and three updates of vectors */
+  double data = matrix + diagonal + 5 * 8 * n;
   return (solver_cost){
-      .factor = {.bytes = 2 * 24.0 * n, .flops = 30 * n},
-      .solve = {.bytes = iterations * (12 * nnz + 24 * n + 13 * 8 * n),
-                .flops = iterations * (2 * nnz + 6 * n + 10 * n),
+      .factor = {.bytes = 2 * (12 * below + diagonal), .flops = 14 * below + 40 * n},
+      .solve = {.bytes = iterations * (2 * matrix + diagonal + 13 * 8 * n),
+                .flops = iterations * (4 * below + 6 * n + 12 * n),
                 .data = data},
   };
 }

@@ -39,7 +39,7 @@ typedef struct solver_cost {
    numbers of everything, an LU factor. */
 corot_status cost_direct(const corot_csc *full, bool cholesky, solver_cost *out);
 
-/* Conjugate gradients with one block a node, after so many iterations. */
+/* Conjugate gradients with incomplete Cholesky, after so many iterations. */
 solver_cost cost_pcg(const corot_csc *full, double iterations);
 
 #endif

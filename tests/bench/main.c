@@ -6,7 +6,7 @@
 
 static const char help[] =
     "usage: corot-bench kernels [--json] [--tets N]... [--large]\n"
-    "       corot-bench solvers [--json]\n"
+    "       corot-bench solvers [--json] [--most N] [--role ROLE]\n"
     "       corot-bench run [--json] [OPTIONS]\n"
     "       corot-bench frames [--json]\n"
     "       corot-bench precision [--json] [OPTIONS]\n"
@@ -14,7 +14,7 @@ static const char help[] =
     "\n"
     "kernels   forces, Jacobians and the rest, per tet, beside the floor set by memory and\n"
     "          arithmetic of this machine\n"
-    "solvers   the linear solvers at several sizes\n"
+    "solvers   every linear solver at several sizes, and whether auto takes the best\n"
     "run       CPU time of a whole simulation and of its phases\n"
     "frames    what frames cost: polar over warp, update over force, Newton over linear\n"
     "precision error against CPU time, for every integrator\n"

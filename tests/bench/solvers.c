@@ -1,59 +1,55 @@
-/* corot-bench solvers: the linear solvers at a few sizes. */
 #include "solvers.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/clock.h"
-#include "bench.h"
 #include "report.h"
-#include "solve/linsol.h"
 
 enum { KLU_MOST = 12000 };
 
-static const char help[] =
-    "usage: corot-bench solvers [--json]\n"
-    "\n"
-    "Factorisation and solution of the matrix of an implicit step by each linear solver, in boxes\n"
-    "of several sizes. KLU is left out beyond 12000 unknowns; pcg solves to a relative residual\n"
-    "of 1e-10. CHOLMOD may use threads of its BLAS, whose time then adds up; with\n"
-    "OPENBLAS_NUM_THREADS=1 in the environment all is done on one core.\n"
-    "\n"
-    "      --json     one JSON object a line\n"
-    "\n"
-    "example: corot-bench solvers\n";
+corot_status problem_create(const solid *s, const corot_linear_def *def, double a, double b,
+                            double c, problem *p) {
+  *p = (problem){0};
+  COROT_TRY(corot_linsol_create(s->model, def, &p->s));
+  p->x = malloc(2 * (size_t)s->n * sizeof *p->x);
+  if (!p->x) return corot_fail(COROT_ENOMEM, "no memory for %d unknowns", s->n);
+  p->b = p->x + s->n;
+  for (int i = 0; i < s->n; i++) p->b[i] = 1 + i % 3;
+  corot_csc_combine(s->model, p->s.csc, a, b, (const double(*)[9])s->D, c, (const double(*)[9])s->K,
+                    p->s.value);
+  return COROT_OK;
+}
 
-typedef struct problem {
-  const linsol_ops *ops;
-  corot_csc *csc;
-  double *S, *x, *b; /* [nnz], [n], [n] */
-  void *solver;
-} problem;
+void problem_clear(problem *p) {
+  corot_linsol_clear(&p->s);
+  free(p->x);
+}
 
-static corot_status refactor(void *data) {
+corot_status problem_factor(void *data) {
   problem *p = data;
   bool fresh;
-  return p->ops->factor(p->solver, p->S, &fresh);
+  return p->s.ops->factor(p->s.solver, p->s.value, &fresh);
 }
 
 /* The right-hand side is new each time, as solutions of solutions would fade away. */
-static corot_status solve(void *data) {
+corot_status problem_solve(void *data) {
   problem *p = data;
-  memcpy(p->x, p->b, p->csc->n * sizeof *p->x);
-  return p->ops->solve(p->solver, p->x);
+  memcpy(p->x, p->b, p->s.csc->n * sizeof *p->x);
+  return p->s.ops->solve(p->s.solver, p->x);
 }
 
 /* First factorisations, each with a solver made for it. */
-static corot_status first_factors(problem *p, timing *time) {
+static corot_status first_factors(const solid *s, const corot_linear_def *def, problem *p,
+                                  timing *time) {
   enum { FEWEST = 3, MOST = 15 };
-  double sample[MOST], spent = 0;
+  double sample[MOST], spent = 0, g = 0.01;
   int n = 0;
   for (; (n < FEWEST && spent < 2) || (n < MOST && spent < 0.5); n++) {
-    if (p->solver) p->ops->destroy(p->solver);
-    p->solver = NULL;
-    COROT_TRY(p->ops->create(p->csc, &p->solver));
+    problem_clear(p);
+    COROT_TRY(problem_create(s, def, 1, g, g * g, p));
     double start = cpu_clock();
-    COROT_TRY(refactor(p));
+    COROT_TRY(problem_factor(p));
     sample[n] = cpu_clock() - start;
     spent += sample[n];
   }
@@ -61,54 +57,31 @@ static corot_status first_factors(problem *p, timing *time) {
   return COROT_OK;
 }
 
-/* S with g = 10 ms, a step that resolves the slow motion. */
-static corot_status prepare(const solid *s, problem *p) {
-  const double g = 0.01;
-  COROT_TRY(corot_csc_create(s->model, p->ops->triangle, &p->csc));
-  p->S = malloc(p->csc->nnz * sizeof *p->S);
-  p->x = malloc(2 * (size_t)s->n * sizeof *p->x);
-  if (!p->S || !p->x) return corot_fail(COROT_ENOMEM, "no memory for a matrix");
-  p->b = p->x + s->n;
-  for (int i = 0; i < s->n; i++) p->b[i] = 1 + i % 3;
-  corot_csc_combine(s->model, p->csc, 1, g, (const double(*)[9])s->D, g * g,
-                    (const double(*)[9])s->K, p->S);
-  return COROT_OK;
-}
-
 /* Once there is a factor. */
 static corot_status least_cost(const corot_csc *full, problem *p, solver_cost *out) {
-  if (!p->ops->iterations) return cost_direct(full, p->ops->triangle == COROT_LOWER, out);
-  long before = p->ops->iterations(p->solver);
-  COROT_TRY(solve(p));
-  *out = cost_pcg(full, (double)(p->ops->iterations(p->solver) - before));
+  const linsol_ops *ops = p->s.ops;
+  if (!ops->iterations) return cost_direct(full, ops->triangle == COROT_LOWER, out);
+  long before = ops->iterations(p->s.solver);
+  COROT_TRY(problem_solve(p));
+  *out = cost_pcg(full, (double)(ops->iterations(p->s.solver) - before));
   return COROT_OK;
 }
 
-static corot_status measure(bool json, const solid *s, const corot_csc *full, problem *p) {
-  row r = {.bench = "factor", .solver = p->ops->name, .ntet = s->ntet, .n = s->n};
+static corot_status measure(bool json, const solid *s, const corot_csc *full,
+                            const corot_linear_def *def, problem *p) {
+  row r = {.bench = "factor", .solver = def->solver, .ntet = s->ntet, .n = s->n};
   solver_cost least;
-  COROT_TRY(first_factors(p, &r.time));
+  COROT_TRY(first_factors(s, def, p, &r.time));
   COROT_TRY(least_cost(full, p, &least));
   r.least = least.factor;
   report_row(json, &r);
   r.bench = "refactor";
-  COROT_TRY(timing_of(refactor, p, &r.time));
+  COROT_TRY(timing_of(problem_factor, p, &r.time));
   report_row(json, &r);
   r.bench = "solve", r.least = least.solve;
-  COROT_TRY(timing_of(solve, p, &r.time));
+  COROT_TRY(timing_of(problem_solve, p, &r.time));
   report_row(json, &r);
   return COROT_OK;
-}
-
-static corot_status one_solver(bool json, const solid *s, const corot_csc *full,
-                               const linsol_ops *ops) {
-  problem p = {.ops = ops};
-  corot_status status = prepare(s, &p);
-  if (!status) status = measure(json, s, full, &p);
-  if (p.solver) ops->destroy(p.solver);
-  corot_csc_destroy(p.csc);
-  free(p.S), free(p.x);
-  return status;
 }
 
 corot_status solvers_measure(bool json, const solid *s) {
@@ -117,38 +90,14 @@ corot_status solvers_measure(bool json, const solid *s) {
   COROT_TRY(corot_csc_create(s->model, COROT_FULL, &full));
   corot_status status = COROT_OK;
   for (int k = 0; k < 3 && !status; k++) {
-    const linsol_ops *ops;
-    if (corot_linsol_find(names[k], s->n, &ops) != COROT_OK) continue; /* not in this build */
+    corot_linear_def def = corot_linear_defaults();
+    def.solver = names[k];
     if (k == 0 && s->n > KLU_MOST) continue;
-    status = one_solver(json, s, full, ops);
+    problem p = {0};
+    status = measure(json, s, full, &def, &p);
+    if (status == COROT_EINVAL && !p.s.ops) status = COROT_OK; /* not in this build */
+    problem_clear(&p);
   }
   corot_csc_destroy(full);
   return status;
-}
-
-static corot_status of_size(bool json, int ntet) {
-  corot_mesh *mesh;
-  solid s = {0};
-  COROT_TRY(solid_mesh(ntet, &mesh));
-  corot_status status = solid_create(mesh, "polar", true, &s);
-  corot_mesh_destroy(mesh);
-  if (status) return status;
-  report_heading(json, s.ntet, s.n);
-  status = corot_jacobian(s.model, s.state, 0, s.u, s.v, COROT_TANGENT_HELD, s.K, s.D);
-  if (!status) status = solvers_measure(json, &s);
-  solid_clear(&s);
-  return status;
-}
-
-int command_solvers(int argc, char **argv) {
-  static const int ntet[] = {288, 2304, 7776, 18432, 36000};
-  bool json;
-  int code = only_json("corot-bench solvers", help, argc, argv, &json);
-  if (code >= 0) return code;
-  report_machine(json);
-  for (size_t k = 0; k < sizeof ntet / sizeof *ntet; k++) {
-    corot_status status = of_size(json, ntet[k]);
-    if (status) return failure(status);
-  }
-  return EXIT_OK;
 }

@@ -84,7 +84,7 @@ static void open_fields_are_chosen(void **state) {
   memset(method, 'x', 5), memset(solver, 'x', 4); /* nothing of the definition is kept */
   corot_integrator_choice c = corot_integrator_chosen(integrator);
   assert_string_equal(c.method, "cvode");
-  assert_string_equal(c.linear_solver, "klu");
+  assert_non_null(strstr(c.linear_solver, ", ")); /* and what it was chosen with */
   assert_close(c.atol_displacement, 1e-6 * corot_model_length(b.model), 1e-15, 0);
   assert_close(c.atol_velocity, c.atol_displacement * corot_model_frequency(b.model), 1e-15, 0);
   corot_integrator_destroy(integrator);
@@ -262,6 +262,7 @@ static void the_two_clocks_of_the_matrix_are_kept(void **state) {
   bar_def of = example2;
   of.ramp = 0.5;
   corot_integrator_def def = corot_integrator_defaults();
+  def.linear.solver = "klu";
   corot_statistics s = run(&of, def, 1).s;
   assert_int_equal(s.nfactor, s.nsetups);
   assert_true(s.nsetups < s.nst / 4 && s.nje <= s.nsetups);

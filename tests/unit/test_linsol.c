@@ -5,63 +5,65 @@
 #include "bar.h"
 #include "solve/linsol.h"
 
-static const char *const names[] = {"klu", "cholmod", "pcg"};
-enum { NSOLVER = 3 };
-
-/* NULL: not in this build. */
-static const linsol_ops *find(const char *name) {
-  const linsol_ops *ops;
-  if (corot_linsol_find(name, 1, &ops) == COROT_OK) return ops;
-  assert_fails(corot_linsol_find("cholmod", 1, &ops), COROT_EINVAL, "COROT_CHOLMOD=ON");
-  return NULL;
-}
+/* Every solver with every choice it has. */
+static const corot_linear_def table[] = {
+    {"klu", "amd", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC},
+    {"klu", "metis", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC},
+    {"cholmod", "amd", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC},
+    {"cholmod", "metis", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC},
+    {"cholmod", "amd", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC},
+    {"cholmod", "metis", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC},
+    {"pcg", "auto", "auto", "block-jacobi", 1e-13, COROT_ROLE_DYNAMIC},
+    {"pcg", "auto", "auto", "incomplete-cholesky", 1e-13, COROT_ROLE_DYNAMIC},
+};
+enum { NSOLVER = sizeof table / sizeof *table };
 
 /* A bar away from rest, its matrices, and one solver on their pattern. */
 typedef struct problem {
   bar bar;
   double (*K)[9], (*D)[9];
-  corot_csc *csc;
-  double *S;
-  const linsol_ops *ops;
-  void *solver;
+  linsol s;
   double *x, *b, *y; /* [n] */
 } problem;
 
-static problem problem_create(const linsol_ops *ops, int across, int along) {
-  problem p = {.ops = ops};
-  bar_def def = example2;
-  def.cells[0] = def.cells[1] = across, def.cells[2] = along;
-  p.bar = bar_create(&def);
-  int n = p.bar.n, nblock = corot_model_nblock(p.bar.model);
-  uint64_t seed = 3;
-  for (int i = 0; i < n; i++) p.bar.u[i] = 1e-3 * noise(&seed);
-  p.K = malloc(2 * nblock * sizeof *p.K);
-  p.D = p.K + nblock;
-  assert_ok(
-      corot_jacobian(p.bar.model, p.bar.state, 0, p.bar.u, p.bar.v, COROT_TANGENT_HELD, p.K, p.D));
-  assert_ok(corot_csc_create(p.bar.model, ops->triangle, &p.csc));
-  p.S = malloc(p.csc->nnz * sizeof *p.S);
-  p.x = malloc(3 * n * sizeof *p.x);
-  p.b = p.x + n, p.y = p.b + n;
-  for (int i = 0; i < n; i++) p.x[i] = noise(&seed);
-  assert_ok(ops->create(p.csc, &p.solver));
-  if (ops->set_tolerance) ops->set_tolerance(p.solver, 1e-14);
-  return p;
+static void problem_destroy(problem *p) {
+  corot_linsol_clear(&p->s);
+  bar_destroy(&p->bar);
+  free(p->K), free(p->x);
 }
 
-static void problem_destroy(problem *p) {
-  p->ops->destroy(p->solver);
-  corot_csc_destroy(p->csc);
-  bar_destroy(&p->bar);
-  free(p->K), free(p->S), free(p->x);
+/* False: not in this build, and the message says how to have it. */
+static bool problem_create(const corot_linear_def *solver, int across, int along, problem *p) {
+  *p = (problem){0};
+  bar_def def = example2;
+  def.cells[0] = def.cells[1] = across, def.cells[2] = along;
+  p->bar = bar_create(&def);
+  int n = p->bar.n, nblock = corot_model_nblock(p->bar.model);
+  uint64_t seed = 3;
+  for (int i = 0; i < n; i++) p->bar.u[i] = 1e-3 * noise(&seed);
+  p->K = malloc(2 * nblock * sizeof *p->K);
+  p->D = p->K + nblock;
+  assert_ok(corot_jacobian(p->bar.model, p->bar.state, 0, p->bar.u, p->bar.v, COROT_TANGENT_HELD,
+                           p->K, p->D));
+  p->x = malloc(3 * n * sizeof *p->x);
+  p->b = p->x + n, p->y = p->b + n;
+  for (int i = 0; i < n; i++) p->x[i] = noise(&seed);
+  corot_status status = corot_linsol_create(p->bar.model, solver, &p->s);
+  if (status == COROT_OK) return true;
+  assert_int_equal(status, COROT_EINVAL);
+  assert_non_null(strstr(corot_error(), "COROT_CHOLMOD=ON"));
+  problem_destroy(p);
+  return false;
 }
+
+static bool is(const problem *p, const char *name) { return strcmp(p->s.ops->name, name) == 0; }
 
 /* S = a M + b D + c K in the columns, and S x in p->b by the blocks. */
 static void set(problem *p, double a, double b, double c) {
   const corot_model *m = p->bar.model;
   const double(*K)[9] = (const double(*)[9])p->K, (*D)[9] = (const double(*)[9])p->D;
   const double *mass = corot_model_mass(m);
-  corot_csc_combine(m, p->csc, a, b, D, c, K, p->S);
+  corot_csc_combine(m, p->s.csc, a, b, D, c, K, p->s.value);
   corot_block_multiply(m, K, p->x, p->b);
   corot_block_multiply(m, D, p->x, p->y);
   for (int i = 0; i < p->bar.n; i++) p->b[i] = a * mass[i] * p->x[i] + b * p->y[i] + c * p->b[i];
@@ -70,8 +72,13 @@ static void set(problem *p, double a, double b, double c) {
 /* The largest error of the solution found for p->b. */
 static double error(problem *p) {
   memcpy(p->y, p->b, p->bar.n * sizeof *p->y);
-  assert_ok(p->ops->solve(p->solver, p->y));
+  assert_ok(p->s.ops->solve(p->s.solver, p->y));
   return difference_of(p->bar.n, p->y, p->x);
+}
+
+static corot_status factor(problem *p) {
+  bool fresh;
+  return p->s.ops->factor(p->s.solver, p->s.value, &fresh);
 }
 
 /* In CVODE's matrices of three steps and in that of statics. The error of the solution is the
@@ -80,15 +87,14 @@ static void solve_to_rounding(void **state) {
   (void)state;
   static const double abc[][3] = {
       {1, 1e-4, 1e-8}, {1, 1e-2, 1e-4}, {1, 1, 1}, {1e4, 1e2, 1}, {0, 0, 1}};
-  for (int s = 0; s < NSOLVER; s++) {
-    const linsol_ops *ops = find(names[s]);
-    if (!ops) continue;
-    problem p = problem_create(ops, 2, 8);
-    for (int k = 0; k < 5; k++) {
+  for (int k = 0; k < NSOLVER; k++) {
+    problem p;
+    if (!problem_create(&table[k], 2, 8, &p)) continue;
+    for (int i = 0; i < 5; i++) {
       bool fresh = false;
-      set(&p, abc[k][0], abc[k][1], abc[k][2]);
-      assert_ok(ops->factor(p.solver, p.S, &fresh));
-      assert_true(fresh || k > 0);
+      set(&p, abc[i][0], abc[i][1], abc[i][2]);
+      assert_ok(p.s.ops->factor(p.s.solver, p.s.value, &fresh));
+      assert_true(fresh || i > 0);
       assert_below(error(&p), 1e-11);
     }
     problem_destroy(&p);
@@ -97,42 +103,38 @@ static void solve_to_rounding(void **state) {
 
 static void factors_with_old_and_new_pivots_agree(void **state) {
   (void)state;
-  for (int s = 0; s < NSOLVER; s++) {
-    const linsol_ops *ops = find(names[s]);
-    if (!ops) continue;
-    problem p = problem_create(ops, 2, 6);
+  for (int k = 0; k < NSOLVER; k++) {
+    problem p, q;
     bool fresh = false;
+    if (!problem_create(&table[k], 2, 6, &p)) continue;
+    assert_true(problem_create(&table[k], 2, 6, &q));
     set(&p, 1, 1e-3, 1e-6);
-    assert_ok(ops->factor(p.solver, p.S, &fresh));
+    assert_ok(p.s.ops->factor(p.s.solver, p.s.value, &fresh));
     assert_true(fresh);
     set(&p, 1, 1e-2, 1e-4);
-    assert_ok(ops->factor(p.solver, p.S, &fresh));
-    if (ops == &corot_linsol_klu) assert_false(fresh);
+    assert_ok(p.s.ops->factor(p.s.solver, p.s.value, &fresh));
+    if (is(&p, "klu")) assert_false(fresh);
     assert_below(error(&p), 1e-12);
-    double *reused = malloc(p.bar.n * sizeof *reused);
-    memcpy(reused, p.y, p.bar.n * sizeof *reused);
 
-    ops->destroy(p.solver);
-    assert_ok(ops->create(p.csc, &p.solver));
-    if (ops->set_tolerance) ops->set_tolerance(p.solver, 1e-14);
-    assert_ok(ops->factor(p.solver, p.S, &fresh));
+    set(&q, 1, 1e-2, 1e-4);
+    assert_ok(q.s.ops->factor(q.s.solver, q.s.value, &fresh));
     assert_true(fresh);
-    assert_below(error(&p), 1e-12);
-    assert_below(difference_of(p.bar.n, p.y, reused), 1e-12);
-    free(reused);
-    problem_destroy(&p);
+    assert_below(error(&q), 1e-12);
+    assert_below(difference_of(p.bar.n, p.y, q.y), 1e-12);
+    problem_destroy(&p), problem_destroy(&q);
   }
 }
 
 /* [[d, 1], [1, d]]: a good matrix whether d is large or small, but not with the same pivots. */
 static void klu_chooses_new_pivots_where_the_old_ones_fail(void **state) {
   (void)state;
-  int colptr[] = {0, 2, 4}, row[] = {0, 1, 0, 1}, diagonal[] = {0, 3};
-  corot_csc csc = {.n = 2, .nnz = 4, .colptr = colptr, .row = row, .diagonal = diagonal};
+  int colptr[] = {0, 2, 4}, row[] = {0, 1, 0, 1}, diagonal[] = {0, 3}, node[] = {0, 0};
+  corot_csc csc = {2, 4, colptr, row, NULL, diagonal, node};
+  linsol_plan plan = {.order = (int[]){1, 0}};
   const double d[] = {4, 3, 1e-14, 0, 5}; /* pivots on the diagonal, but for 1e-14 and 0 */
   const bool expected[] = {true, false, true, false, true};
   void *solver;
-  assert_ok(corot_linsol_klu.create(&csc, &solver));
+  assert_ok(corot_linsol_klu.create(&csc, &plan, &solver));
   for (int k = 0; k < 5; k++) {
     double value[] = {d[k], 1, 1, d[k]}, x[] = {d[k] + 2, 1 + 2 * d[k]};
     bool fresh = !expected[k];
@@ -146,28 +148,51 @@ static void klu_chooses_new_pivots_where_the_old_ones_fail(void **state) {
   corot_linsol_klu.destroy(solver);
 }
 
-/* Without its row and column, a degree of freedom has no pivot; afterwards all is as before. */
+/* Without its row and column, a degree of freedom has no pivot; afterwards all is as before. The
+   dof is free number 7 of a bar whose first layer, of four nodes, is held. */
 static void a_singular_matrix_is_refused(void **state) {
   (void)state;
   enum { GONE = 7 };
-  for (int s = 0; s < NSOLVER; s++) {
-    const linsol_ops *ops = find(names[s]);
-    if (!ops) continue;
-    bool klu = ops == &corot_linsol_klu, fresh;
-    problem p = problem_create(ops, 1, 6);
+  for (int k = 0; k < NSOLVER; k++) {
+    problem p;
+    if (!problem_create(&table[k], 1, 6, &p)) continue;
     set(&p, 1, 1e-2, 1e-4);
-    for (int j = 0; j < p.csc->n; j++)
-      for (int k = p.csc->colptr[j]; k < p.csc->colptr[j + 1]; k++)
-        if (j == GONE || p.csc->row[k] == GONE) p.S[k] = 0;
-    if (klu)
-      assert_fails(ops->factor(p.solver, p.S, &fresh), COROT_ESINGULAR, "degree of freedom 7");
+    const corot_csc *csc = p.s.csc;
+    for (int j = 0; j < csc->n; j++)
+      for (int i = csc->colptr[j]; i < csc->colptr[j + 1]; i++)
+        if (j == GONE || csc->row[i] == GONE) p.s.value[i] = 0;
+    if (is(&p, "klu"))
+      assert_fails(factor(&p), COROT_ESINGULAR, "singular at degree of freedom 7 of node 6");
     else
-      assert_fails(ops->factor(p.solver, p.S, &fresh), COROT_RETRY, "not positive definite");
+      assert_fails(factor(&p), COROT_RETRY, "not positive definite");
+    if (is(&p, "cholmod")) assert_non_null(strstr(corot_error(), "degree of freedom 7 of node 6"));
+    if (is(&p, "pcg")) assert_non_null(strstr(corot_error(), "node 6"));
     set(&p, NAN, 0, 0);
-    assert_int_not_equal(ops->factor(p.solver, p.S, &fresh), COROT_OK);
+    assert_int_not_equal(factor(&p), COROT_OK);
     set(&p, 1, 1e-2, 1e-4);
-    assert_ok(ops->factor(p.solver, p.S, &fresh));
+    assert_ok(factor(&p));
     assert_below(error(&p), 1e-12);
+    problem_destroy(&p);
+  }
+}
+
+/* A pivot that is mere rounding beside the others is none. */
+static void a_vanishing_pivot_is_named(void **state) {
+  (void)state;
+  enum { GONE = 7 };
+  for (int k = 0; k < NSOLVER; k++) {
+    problem p;
+    if (!problem_create(&table[k], 1, 6, &p)) continue;
+    if (is(&p, "cholmod")) { /* klu scales the rows first */
+      set(&p, 1, 1e-2, 1e-4);
+      const corot_csc *csc = p.s.csc;
+      for (int j = 0; j < csc->n; j++)
+        for (int i = csc->colptr[j]; i < csc->colptr[j + 1]; i++) {
+          if (j == GONE || csc->row[i] == GONE) p.s.value[i] = 0;
+          if (j == GONE && csc->row[i] == GONE) p.s.value[i] = 1e-40;
+        }
+      assert_fails(factor(&p), COROT_ESINGULAR, "singular at degree of freedom 7 of node 6");
+    }
     problem_destroy(&p);
   }
 }
@@ -182,44 +207,36 @@ static void a_matrix_singular_to_rounding_is_refused(void **state) {
   double(*K)[9] = malloc(corot_model_nblock(model) * sizeof *K);
   double *u = calloc(free_body.n, sizeof *u);
   assert_ok(corot_jacobian(model, free_body.state, 0, u, u, COROT_TANGENT_HELD, K, NULL));
-  for (int s = 0; s < NSOLVER; s++) {
-    const linsol_ops *ops = find(names[s]);
-    if (!ops || ops->iterations) continue;
-    corot_csc *csc;
-    assert_ok(corot_csc_create(model, ops->triangle, &csc));
-    double *S = malloc(csc->nnz * sizeof *S);
-    corot_csc_combine(model, csc, 0, 0, NULL, 1, (const double(*)[9])K, S);
-    void *solver;
+  for (int k = 0; k < NSOLVER; k++) {
+    linsol s;
     bool fresh;
-    assert_ok(ops->create(csc, &solver));
-    corot_status status = ops->factor(solver, S, &fresh);
-    assert_true(status == COROT_ESINGULAR || status == COROT_RETRY);
-    if (ops == &corot_linsol_klu) assert_int_equal(status, COROT_ESINGULAR);
-    ops->destroy(solver);
-    corot_csc_destroy(csc);
-    free(S);
+    if (corot_linsol_create(model, &table[k], &s) == COROT_OK && !s.ops->iterations) {
+      corot_csc_combine(model, s.csc, 0, 0, NULL, 1, (const double(*)[9])K, s.value);
+      corot_status status = s.ops->factor(s.solver, s.value, &fresh);
+      assert_true(status == COROT_ESINGULAR || status == COROT_RETRY);
+      if (s.ops == &corot_linsol_klu) assert_int_equal(status, COROT_ESINGULAR);
+      assert_non_null(strstr(corot_error(), "degree of freedom"));
+    }
+    corot_linsol_clear(&s);
   }
   free(K), free(u);
   drop_body(&free_body);
 }
 
-/* Small enough for cholmod's column by column factorisation, and large enough for its blocks. */
 static void an_indefinite_matrix_is_for_klu_only(void **state) {
   (void)state;
-  for (int size = 0; size < 2; size++)
-    for (int s = 0; s < NSOLVER; s++) {
-      const linsol_ops *ops = find(names[s]);
-      if (!ops || ops->iterations) continue;
-      bool fresh;
-      problem p = problem_create(ops, size ? 6 : 1, size ? 24 : 3);
+  for (int large = 0; large < 2; large++)
+    for (int k = 0; k < NSOLVER; k++) {
+      problem p;
+      if (!problem_create(&table[k], large ? 5 : 1, large ? 20 : 3, &p)) continue;
       set(&p, -1e4, 0, 1); /* some modes have a frequency below 100/s */
-      if (ops == &corot_linsol_klu) {
-        assert_ok(ops->factor(p.solver, p.S, &fresh));
+      if (is(&p, "klu")) {
+        assert_ok(factor(&p));
         assert_below(error(&p), 1e-9); /* its distance from a mode's frequency is luck */
-      } else {
-        assert_fails(ops->factor(p.solver, p.S, &fresh), COROT_RETRY, "not positive definite");
+      } else if (is(&p, "cholmod")) {
+        assert_fails(factor(&p), COROT_RETRY, "not positive definite");
         set(&p, 1, 0, 1);
-        assert_ok(ops->factor(p.solver, p.S, &fresh));
+        assert_ok(factor(&p));
         assert_below(error(&p), 1e-11);
       }
       problem_destroy(&p);
@@ -228,18 +245,16 @@ static void an_indefinite_matrix_is_for_klu_only(void **state) {
 
 static void there_is_no_solution_without_a_factor(void **state) {
   (void)state;
-  for (int s = 0; s < NSOLVER; s++) {
-    const linsol_ops *ops = find(names[s]);
-    if (!ops) continue;
-    bool fresh;
-    problem p = problem_create(ops, 1, 3);
+  for (int k = 0; k < NSOLVER; k++) {
+    problem p;
+    if (!problem_create(&table[k], 1, 3, &p)) continue;
     set(&p, 1, 1e-2, 1e-4);
-    assert_fails(ops->solve(p.solver, p.b), COROT_EINVAL, "there is no factor");
-    assert_ok(ops->factor(p.solver, p.S, &fresh));
+    assert_fails(p.s.ops->solve(p.s.solver, p.b), COROT_EINVAL, "there is no factor");
+    assert_ok(factor(&p));
     assert_below(error(&p), 1e-12);
     set(&p, NAN, 0, 0);
-    assert_int_not_equal(ops->factor(p.solver, p.S, &fresh), COROT_OK);
-    assert_fails(ops->solve(p.solver, p.b), COROT_EINVAL, "there is no factor");
+    assert_int_not_equal(factor(&p), COROT_OK);
+    assert_fails(p.s.ops->solve(p.s.solver, p.b), COROT_EINVAL, "there is no factor");
     problem_destroy(&p);
   }
 }
@@ -248,47 +263,170 @@ static void there_is_no_solution_without_a_factor(void **state) {
 static void pcg_iterates_to_its_tolerance(void **state) {
   (void)state;
   const double tolerance[] = {1e-3, 1e-6, 1e-9};
-  long before = 0;
-  problem p = problem_create(&corot_linsol_pcg, 2, 8);
-  double *z = malloc(p.bar.n * sizeof *z);
-  bool fresh;
-  set(&p, 1, 1e-2, 1e-4);
-  assert_ok(corot_linsol_pcg.factor(p.solver, p.S, &fresh));
-  for (int k = 0; k < 3; k++) {
-    corot_linsol_pcg.set_tolerance(p.solver, tolerance[k]);
-    set(&p, 1, 1e-2, 1e-4);
-    error(&p);
-    long iterations = corot_linsol_pcg.iterations(p.solver) - before;
-    assert_true(iterations > 2 * (k + 1) && iterations < p.bar.n);
-    before += iterations;
-    memcpy(z, p.b, p.bar.n * sizeof *z); /* residual: b - S y */
-    memcpy(p.x, p.y, p.bar.n * sizeof *z);
-    set(&p, 1, 1e-2, 1e-4);
-    double residual = 0, size = 0;
-    for (int i = 0; i < p.bar.n; i++) residual += (z[i] - p.b[i]) * (z[i] - p.b[i]);
-    for (int i = 0; i < p.bar.n; i++) size += z[i] * z[i];
-    assert_below(sqrt(residual / size), 1.01 * tolerance[k]);
-    assert_above(sqrt(residual / size), 1e-3 * tolerance[k]);
+  for (int k = 0; k < NSOLVER; k++) {
+    long last = 0;
+    for (int i = 0; i < 3; i++) {
+      corot_linear_def def = table[k];
+      def.tolerance = tolerance[i];
+      problem p;
+      if (!problem_create(&def, 2, 8, &p)) continue;
+      if (p.s.ops->iterations) {
+        double *f = malloc(p.bar.n * sizeof *f);
+        set(&p, 1, 1e-2, 1e-4);
+        assert_ok(factor(&p));
+        error(&p);
+        long iterations = p.s.ops->iterations(p.s.solver);
+        assert_true(iterations > last && iterations < p.bar.n);
+        last = iterations;
+        memcpy(f, p.b, p.bar.n * sizeof *f); /* residual: b - S y */
+        memcpy(p.x, p.y, p.bar.n * sizeof *f);
+        set(&p, 1, 1e-2, 1e-4);
+        double residual = 0, size = 0;
+        for (int j = 0; j < p.bar.n; j++) residual += (f[j] - p.b[j]) * (f[j] - p.b[j]);
+        for (int j = 0; j < p.bar.n; j++) size += f[j] * f[j];
+        assert_below(sqrt(residual / size), 1.01 * tolerance[i]);
+        assert_above(sqrt(residual / size), 1e-3 * tolerance[i]);
+        free(f);
+        memset(p.b, 0, p.bar.n * sizeof *p.b);
+        memset(p.x, 0, p.bar.n * sizeof *p.x);
+        assert_true(error(&p) == 0);
+      }
+      problem_destroy(&p);
+    }
   }
-  memset(p.b, 0, p.bar.n * sizeof *p.b);
-  memset(p.x, 0, p.bar.n * sizeof *p.x);
-  assert_true(error(&p) == 0);
-  free(z);
-  problem_destroy(&p);
 }
 
-static void solvers_are_found_by_name_or_size(void **state) {
+/* --- choices --- */
+
+/* The lower triangle of a box's matrix. */
+static corot_csc *box_matrix(int nx, int ny, int nz) {
+  corot_box box = {.size = {0.1 * nx, 0.1 * ny, 0.1 * nz}, .cells = {nx, ny, nz}};
+  corot_mesh *mesh;
+  corot_csc *csc;
+  assert_ok(corot_mesh_box(&box, &mesh));
+  corot_fix fix = {"zmin", {true, true, true}};
+  corot_model_def def = corot_model_defaults();
+  def.nmaterial = 1, def.material = &soft, def.nfix = 1, def.fix = &fix;
+  body b = make_body(mesh, def);
+  assert_ok(corot_csc_create(b.model, COROT_LOWER, &csc));
+  drop_body(&b);
+  return csc;
+}
+
+static const char *choice_of(const corot_linear_def *def, const corot_csc *csc) {
+  linsol_plan plan = {0};
+  assert_ok(corot_linsol_choose(def, csc, &plan));
+  assert_non_null(plan.ops->create);
+  assert_int_equal(strncmp(plan.name, plan.ops->name, strlen(plan.ops->name)), 0);
+  assert_true((plan.order != NULL) || plan.ops->iterations);
+  corot_linsol_plan_clear(&plan);
+  return plan.name;
+}
+
+static bool built(const char *solver) {
+  corot_linear_def def = corot_linear_defaults();
+  def.solver = solver;
+  corot_csc *csc = box_matrix(1, 1, 1);
+  linsol_plan plan = {0};
+  bool answer = corot_linsol_choose(&def, csc, &plan) == COROT_OK;
+  corot_linsol_plan_clear(&plan), corot_csc_destroy(csc);
+  return answer;
+}
+
+/* Slender bodies have little fill and many iterations, compact ones the opposite. */
+static void auto_goes_by_shape_size_and_role(void **state) {
   (void)state;
-  const linsol_ops *ops, *large = find("cholmod") ? find("cholmod") : find("klu");
-  assert_ok(corot_linsol_find("auto", 3000, &ops));
-  assert_string_equal(ops->name, "klu");
-  assert_ok(corot_linsol_find("auto", 3001, &ops));
-  assert_ptr_equal(ops, large);
-  for (int s = 0; s < NSOLVER; s++)
-    if (find(names[s])) assert_string_equal(find(names[s])->name, names[s]);
-  assert_fails(corot_linsol_find("umfpack", 10, &ops), COROT_EINVAL,
-               "'umfpack': auto, klu, cholmod or pcg");
-  assert_fails(corot_linsol_find(NULL, 10, &ops), COROT_EINVAL, "''");
+  static const struct {
+    int cells[3];
+    corot_role role;
+    const char *with, *without; /* cholmod; how the name begins */
+  } cases[] = {
+      {{1, 1, 8}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
+      {{1, 1, 300}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
+      {{6, 6, 6}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
+      {{5, 5, 30}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
+      {{14, 14, 14}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "pcg"},
+      {{1, 1, 8}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
+      {{5, 5, 30}, COROT_ROLE_STATIC, "cholmod supernodal", "klu"},
+      {{20, 20, 20}, COROT_ROLE_STATIC, "pcg", "pcg"},
+  };
+  bool cholmod = built("cholmod");
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    const int *cells = cases[k].cells;
+    corot_csc *csc = box_matrix(cells[0], cells[1], cells[2]);
+    corot_linear_def def = corot_linear_defaults();
+    def.role = cases[k].role;
+    const char *name = choice_of(&def, csc);
+    const char *expected = cholmod ? cases[k].with : cases[k].without;
+    if (strncmp(name, expected, strlen(expected)) != 0)
+      fail_msg("%d x %d x %d: %s, expected %s", cells[0], cells[1], cells[2], name, expected);
+    corot_csc_destroy(csc);
+  }
+}
+
+/* What is named is taken, and what is left open beside it is chosen. */
+static void names_are_obeyed(void **state) {
+  (void)state;
+  corot_csc *csc = box_matrix(6, 6, 6);
+  corot_linear_def def = corot_linear_defaults();
+  def.solver = "klu", def.ordering = "amd";
+  assert_string_equal(choice_of(&def, csc), "klu, amd");
+  def.solver = "pcg", def.role = COROT_ROLE_STATIC;
+  assert_string_equal(choice_of(&def, csc), "pcg, incomplete-cholesky");
+  def.preconditioner = "block-jacobi";
+  assert_string_equal(choice_of(&def, csc), "pcg, block-jacobi");
+  if (built("cholmod")) {
+    def.solver = "cholmod";
+    assert_string_equal(choice_of(&def, csc), "cholmod supernodal, amd");
+    def.factor = "simplicial";
+    assert_string_equal(choice_of(&def, csc), "cholmod simplicial, amd");
+  }
+  corot_csc_destroy(csc);
+}
+
+static void other_names_are_refused(void **state) {
+  (void)state;
+  static const struct {
+    corot_linear_def def;
+    const char *words;
+  } cases[] = {
+      {{"umfpack", "auto", "auto", "auto", 1, 0},
+       "no linear solver 'umfpack': auto, klu, cholmod or pcg"},
+      {{NULL, "auto", "auto", "auto", 1, 0}, "no linear solver ''"},
+      {{"klu", "colamd", "auto", "auto", 1, 0}, "no ordering 'colamd': auto, amd or metis"},
+      {{"klu", "auto", "ldl", "auto", 1, 0}, "no factor 'ldl': auto, simplicial or supernodal"},
+      {{"pcg", "auto", "auto", "ilu", 1, 0},
+       "no preconditioner 'ilu': auto, block-jacobi or incomplete-cholesky"},
+      {{"pcg", "auto", "auto", "auto", 0, 0}, "tolerance = 0 is not positive"},
+      {{"auto", "auto", "auto", "auto", NAN, 0}, "is not positive"},
+  };
+  corot_csc *csc = box_matrix(1, 1, 1);
+  linsol_plan plan = {0};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+    assert_fails(corot_linsol_choose(&cases[k].def, csc, &plan), COROT_EINVAL, cases[k].words);
+  assert_null(plan.ops);
+  corot_csc_destroy(csc);
+}
+
+static void orderings_keep_the_unknowns_of_a_node_together(void **state) {
+  (void)state;
+  corot_csc *csc = box_matrix(3, 2, 5);
+  for (int k = 0; k < 2; k++) {
+    corot_linear_def def = corot_linear_defaults();
+    linsol_plan plan;
+    def.solver = "klu", def.ordering = k ? "metis" : "amd";
+    if (corot_linsol_choose(&def, csc, &plan) != COROT_OK) continue;
+    bool *seen = calloc(csc->n, sizeof *seen);
+    for (int i = 0; i < csc->n; i++) {
+      int j = plan.order[i];
+      assert_true(j >= 0 && j < csc->n && !seen[j]);
+      seen[j] = true;
+      if (i % 3) assert_int_equal(j, plan.order[i - 1] + 1); /* no node is partly held */
+    }
+    free(seen);
+    corot_linsol_plan_clear(&plan);
+  }
+  corot_csc_destroy(csc);
 }
 
 /* SuiteSparse's allocations, counted and failed on demand. */
@@ -314,26 +452,31 @@ static void counting_free(void *p) {
   free(p);
 }
 
-/* Analysis, a factor, another one, a solution. */
-static corot_status make(problem *p) {
+/* Order, analysis, a factor, another one, a solution. */
+static corot_status make(const corot_linear_def *def, const corot_csc *lower, problem *p) {
   bool fresh;
+  linsol_plan plan = {0};
   void *solver = NULL;
-  corot_status status = p->ops->create(p->csc, &solver);
-  for (int k = 0; k < 2 && !status; k++) status = p->ops->factor(solver, p->S, &fresh);
+  corot_status status = corot_linsol_choose(def, lower, &plan);
+  if (!status) status = plan.ops->create(p->s.csc, &plan, &solver);
+  for (int k = 0; k < 2 && !status; k++) status = plan.ops->factor(solver, p->s.value, &fresh);
   memcpy(p->y, p->b, p->bar.n * sizeof *p->y);
-  if (!status) status = p->ops->solve(solver, p->y);
-  if (solver) p->ops->destroy(solver);
+  if (!status) status = plan.ops->solve(solver, p->y);
+  if (solver) plan.ops->destroy(solver);
+  corot_linsol_plan_clear(&plan);
   return status;
 }
 
 static void failed_allocations_are_reported(void **state) {
   (void)state;
   struct SuiteSparse_config_struct saved = SuiteSparse_config;
-  for (int size = 0; size < 2; size++)
+  for (int large = 0; large < 2; large++)
     for (int s = 0; s < NSOLVER; s++) {
-      const linsol_ops *ops = find(names[s]);
-      if (!ops || ops == &corot_linsol_pcg) continue; /* its memory is not SuiteSparse's */
-      problem p = problem_create(ops, size ? 4 : 1, size ? 16 : 3);
+      problem p;
+      if (strcmp(table[s].solver, "pcg") == 0) continue; /* its memory is not SuiteSparse's */
+      if (!problem_create(&table[s], large ? 4 : 1, large ? 16 : 3, &p)) continue;
+      corot_csc *lower;
+      assert_ok(corot_csc_create(p.bar.model, COROT_LOWER, &lower));
       set(&p, 1, 1e-2, 1e-4);
       SuiteSparse_config.malloc_func = failing_malloc;
       SuiteSparse_config.calloc_func = failing_calloc;
@@ -341,11 +484,11 @@ static void failed_allocations_are_reported(void **state) {
       SuiteSparse_config.free_func = counting_free;
       for (long k = 1;; k++) {
         memory.count = memory.live = 0, memory.fail_at = k;
-        corot_status status = make(&p);
+        corot_status status = make(&table[s], lower, &p);
         assert_int_equal(memory.live, 0);
         if (status) {
           assert_int_equal(status, COROT_ENOMEM);
-          assert_non_null(strstr(corot_error(), ops->name));
+          if (!strstr(corot_error(), "memory")) fail_msg("%s: %s", p.s.name, corot_error());
           continue; /* or the solver could do without it, as where a shorter block will do */
         }
         assert_below(difference_of(p.bar.n, p.y, p.x), 1e-12);
@@ -353,6 +496,7 @@ static void failed_allocations_are_reported(void **state) {
       }
       assert_true(memory.count > 10);
       SuiteSparse_config = saved;
+      corot_csc_destroy(lower);
       problem_destroy(&p);
     }
 }
@@ -363,11 +507,15 @@ int main(void) {
       cmocka_unit_test(factors_with_old_and_new_pivots_agree),
       cmocka_unit_test(klu_chooses_new_pivots_where_the_old_ones_fail),
       cmocka_unit_test(a_singular_matrix_is_refused),
+      cmocka_unit_test(a_vanishing_pivot_is_named),
       cmocka_unit_test(a_matrix_singular_to_rounding_is_refused),
       cmocka_unit_test(an_indefinite_matrix_is_for_klu_only),
       cmocka_unit_test(there_is_no_solution_without_a_factor),
       cmocka_unit_test(pcg_iterates_to_its_tolerance),
-      cmocka_unit_test(solvers_are_found_by_name_or_size),
+      cmocka_unit_test(auto_goes_by_shape_size_and_role),
+      cmocka_unit_test(names_are_obeyed),
+      cmocka_unit_test(other_names_are_refused),
+      cmocka_unit_test(orderings_keep_the_unknowns_of_a_node_together),
       cmocka_unit_test(failed_allocations_are_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

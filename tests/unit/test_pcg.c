@@ -4,6 +4,7 @@
 #include "alloc.h"
 #include "bar.h"
 #include "solve/linsol.h"
+#include "solve/linsol_nodes.h"
 #include "solve/pencil.h"
 #include "solver.h"
 
@@ -21,16 +22,26 @@ static body partly_held_bar(int along) {
   return make_body(mesh, def);
 }
 
+static corot_linear_def pcg_with(const char *preconditioner) {
+  corot_linear_def def = corot_linear_defaults();
+  def.solver = "pcg", def.preconditioner = preconditioner, def.tolerance = 1e-12;
+  return def;
+}
+
 /* A pencil on a state off rest. */
-static corot_pencil *pencil_on(const body *b, const char *solver) {
+static corot_pencil *pencil_with(const body *b, const corot_linear_def *def) {
   corot_pencil *p;
   double *u = malloc(2 * b->n * sizeof *u);
   uint64_t seed = 5;
   for (int i = 0; i < 2 * b->n; i++) u[i] = 2e-3 * noise(&seed);
-  assert_ok(corot_pencil_create(b->model, b->state, SOLVER_TO(solver, 1e-12), &p));
+  assert_ok(corot_pencil_create(b->model, b->state, def, &p));
   assert_ok(corot_pencil_assemble(p, 0, u, u + b->n));
   free(u);
   return p;
+}
+
+static corot_pencil *pencil_on(const body *b, const char *solver) {
+  return pencil_with(b, SOLVER_TO(solver, 1e-12));
 }
 
 static long iterations(corot_pencil *p) { return corot_pencil_statistics(p).niteration; }
@@ -101,26 +112,200 @@ static void blocks_of_partly_held_nodes_are_inverted(void **state) {
   }
 }
 
+static const char *const preconditioners[] = {"block-jacobi", "incomplete-cholesky"};
+
 /* K - w^2 M with w above the lowest frequencies: no node's block says so, but a direction does. */
 static void an_indefinite_matrix_is_found_out(void **state) {
   (void)state;
   body b = partly_held_bar(8);
-  corot_pencil *pcg = pencil_on(&b, "pcg");
   double *f = malloc(2 * b.n * sizeof *f), *x = f + b.n;
   random_vector(b.n, f);
-  corot_pencil_combine(pcg, -1e4, 0, 1);
-  assert_ok(corot_pencil_factor(pcg));
-  assert_fails(corot_pencil_solve(pcg, f, x), COROT_RETRY, "not positive definite");
-  assert_true(iterations(pcg) < b.n);
-  corot_pencil_combine(pcg, -1e9, 0, 1);
-  assert_fails(corot_pencil_factor(pcg), COROT_RETRY, "not positive definite (unknown 0)");
-  assert_int_equal(corot_pencil_statistics(pcg).nindefinite, 1);
-  corot_pencil_combine(pcg, 1, 1e-2, 1e-4); /* and forgotten */
-  assert_ok(corot_pencil_factor(pcg));
-  assert_ok(corot_pencil_solve(pcg, f, x));
-  x[0] = NAN;
-  assert_fails(corot_pencil_solve(pcg, x, x), COROT_RETRY, "pcg: ");
-  free(f), corot_pencil_destroy(pcg), drop_body(&b);
+  for (int k = 0; k < 2; k++) {
+    corot_linear_def def = pcg_with(preconditioners[k]);
+    def.role = COROT_ROLE_STATIC; /* as nobody steps in there */
+    corot_pencil *pcg = pencil_with(&b, &def);
+    corot_pencil_combine(pcg, -1e4, 0, 1);
+    assert_ok(corot_pencil_factor(pcg));
+    assert_fails(corot_pencil_solve(pcg, f, x), COROT_RETRY, "not positive definite");
+    assert_true(iterations(pcg) < b.n);
+    corot_pencil_combine(pcg, -1e9, 0, 1);
+    assert_fails(corot_pencil_factor(pcg), COROT_RETRY, "degree of freedom 0 of node 9");
+    assert_int_equal(corot_pencil_statistics(pcg).nindefinite, 1);
+    corot_pencil_combine(pcg, 1, 1e-2, 1e-4); /* and forgotten */
+    assert_ok(corot_pencil_factor(pcg));
+    assert_ok(corot_pencil_solve(pcg, f, x));
+    x[0] = NAN;
+    assert_fails(corot_pencil_solve(pcg, x, x), COROT_RETRY, "pcg: ");
+    corot_pencil_destroy(pcg);
+  }
+  free(f), drop_body(&b);
+}
+
+/* --- incomplete Cholesky --- */
+
+/* The matrix of a step of a pencil by nodes, with its incomplete factor. */
+static node_matrix factored_nodes(corot_pencil *p) {
+  node_matrix A;
+  int at;
+  assert_ok(corot_nodes_create(p->csc, &A));
+  corot_pencil_combine(p, 1, 1e-2, 1e-4);
+  corot_nodes_load(&A, p->csc, p->S);
+  assert_true(corot_nodes_cholesky(&A, 0.1, &at));
+  return A;
+}
+
+static double dot(int n, const double *a, const double *b) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* M^-1 = C^-T (I + L')^-1 (I + L)^-1 C^-1 */
+static void apply_preconditioner(node_matrix *A, const double *x, double *y) {
+  memcpy(y, x, 3 * A->n * sizeof *y);
+  corot_nodes_scale(A, y);
+  corot_nodes_forward(A, y);
+  corot_nodes_backward(A, y);
+  corot_nodes_unscale_transposed(A, y);
+}
+
+static void the_preconditioner_is_symmetric_and_positive(void **state) {
+  (void)state;
+  body b = partly_held_bar(4);
+  corot_pencil *p = pencil_on(&b, "pcg");
+  node_matrix A = factored_nodes(p);
+  int n = 3 * A.n;
+  double *x = malloc(4 * n * sizeof *x), *y = x + n, *Mx = y + n, *My = Mx + n;
+  uint64_t seed = 3;
+  for (int k = 0; k < 20; k++) {
+    for (int i = 0; i < 2 * n; i++) x[i] = noise(&seed);
+    apply_preconditioner(&A, x, Mx);
+    apply_preconditioner(&A, y, My);
+    double scale = sqrt(dot(n, x, Mx) * dot(n, y, My));
+    assert_true(dot(n, x, Mx) > 0 && dot(n, y, My) > 0);
+    assert_close(dot(n, x, My), dot(n, y, Mx), 0, 1e-13 * scale);
+  }
+  free(x), corot_nodes_clear(&A), corot_pencil_destroy(p), drop_body(&b);
+}
+
+/* Eisenstat's arrangement against its definition, (I + L)^-1 (D + L + L') (I + L')^-1. */
+static void the_sandwich_is_what_it_is_made_of(void **state) {
+  (void)state;
+  body b = partly_held_bar(4);
+  corot_pencil *p = pencil_on(&b, "pcg");
+  node_matrix A = factored_nodes(p);
+  int n = 3 * A.n;
+  double *x = malloc(4 * n * sizeof *x), *y = x + n, *z = y + n;
+  random_vector(n, x);
+  memcpy(y, x, n * sizeof *x);
+  corot_nodes_backward(&A, y);
+  corot_nodes_multiply(&A, y, z);
+  corot_nodes_forward(&A, z);
+  corot_nodes_sandwich(&A, x, y);
+  assert_below(difference_of(n, y, z), 1e-13 * norm_max(n, z));
+  free(x), corot_nodes_clear(&A), corot_pencil_destroy(p), drop_body(&b);
+}
+
+/* Where the free nodes are the beads of a string, elimination makes no fill. */
+static void without_fill_the_factor_is_complete(void **state) {
+  (void)state;
+  corot_box box = {.size = {0.1, 0.1, 0.9}, .cells = {1, 1, 9}};
+  corot_mesh *mesh;
+  assert_ok(corot_mesh_box(&box, &mesh));
+  int *rest = malloc(mesh->nnode * sizeof *rest), nrest = 0;
+  for (int i = 0; i < mesh->nnode; i++)
+    if (mesh->x[i][0] > 0 || mesh->x[i][1] > 0) rest[nrest++] = i;
+  assert_int_equal(mesh->nnode - nrest, 10);
+  assert_ok(corot_mesh_group_nodes(mesh, "rest", nrest, rest));
+  free(rest);
+  corot_fix fix = {"rest", {true, true, true}};
+  corot_model_def model = corot_model_defaults();
+  model.nmaterial = 1, model.material = &soft, model.nfix = 1, model.fix = &fix;
+  body b = make_body(mesh, model);
+  double f[30], x[30], y[30];
+  assert_int_equal(b.n, 30);
+  random_vector(30, f);
+  corot_pencil *klu = pencil_on(&b, "klu");
+  corot_pencil_combine(klu, 1, 0.1, 0.01);
+  assert_ok(corot_pencil_factor(klu));
+  assert_ok(corot_pencil_solve(klu, f, x));
+  for (int k = 0; k < 2; k++) {
+    corot_linear_def def = pcg_with(preconditioners[k]);
+    corot_pencil *pcg = pencil_with(&b, &def);
+    corot_pencil_combine(pcg, 1, 0.1, 0.01);
+    assert_ok(corot_pencil_factor(pcg));
+    assert_ok(corot_pencil_solve(pcg, f, y));
+    assert_below(difference_of(30, x, y), 1e-10 * norm_max(30, x));
+    assert_true(k == 1 ? iterations(pcg) == 1 : iterations(pcg) > 5);
+    corot_pencil_destroy(pcg);
+  }
+  corot_pencil_destroy(klu), drop_body(&b);
+}
+
+static void it_halves_the_iterations(void **state) {
+  (void)state;
+  body b = partly_held_bar(8);
+  double *f = malloc(2 * b.n * sizeof *f);
+  const double abc[][3] = {{1, 1e-2, 1e-4}, {0, 0, 1}};
+  random_vector(b.n, f);
+  for (int i = 0; i < 2; i++) {
+    long took[2];
+    for (int k = 0; k < 2; k++) {
+      corot_linear_def def = pcg_with(preconditioners[k]);
+      corot_pencil *pcg = pencil_with(&b, &def);
+      corot_pencil_combine(pcg, abc[i][0], abc[i][1], abc[i][2]);
+      assert_ok(corot_pencil_factor(pcg));
+      assert_ok(corot_pencil_solve(pcg, f, f + b.n));
+      took[k] = iterations(pcg);
+      corot_pencil_destroy(pcg);
+    }
+    assert_true(took[1] < 0.55 * took[0]);
+  }
+  free(f), drop_body(&b);
+}
+
+/* Kershaw's (1978): positive definite, but its incomplete factor has a negative pivot. */
+static void a_factor_that_breaks_down_is_shifted(void **state) {
+  (void)state;
+  int colptr[] = {0, 3, 5, 7, 8}, row[] = {0, 1, 3, 1, 2, 2, 3, 3};
+  int diagonal[] = {0, 3, 5, 7}, node[] = {0, 1, 2, 3}, at;
+  double value[] = {3, -2, 2, 3, -2, 3, -2, 3};
+  corot_csc csc = {4, 8, colptr, row, NULL, diagonal, node};
+  node_matrix A;
+  assert_ok(corot_nodes_create(&csc, &A));
+  corot_nodes_load(&A, &csc, value);
+  assert_false(corot_nodes_cholesky(&A, 0, &at));
+  assert_int_equal(at, 3);
+  corot_nodes_clear(&A);
+
+  linsol_plan plan = {.def = pcg_with("incomplete-cholesky")};
+  void *solver;
+  bool fresh;
+  double x[] = {3 - 4 + 8, -2 + 6 - 6, -4 + 9 - 8, 2 - 6 + 12}; /* of 1, 2, 3, 4 */
+  assert_ok(corot_linsol_pcg.create(&csc, &plan, &solver));
+  assert_ok(corot_linsol_pcg.factor(solver, value, &fresh));
+  assert_ok(corot_linsol_pcg.solve(solver, x));
+  for (int i = 0; i < 4; i++) assert_close(x[i], i + 1, 0, 1e-11);
+  corot_linsol_pcg.destroy(solver);
+}
+
+/* With a right-hand side of which most cancels in the product, rounding keeps the residual above a
+   tolerance this small; what can be had is had. */
+static void rounding_is_no_failure(void **state) {
+  (void)state;
+  body b = partly_held_bar(16);
+  double *f = malloc(2 * b.n * sizeof *f);
+  random_vector(b.n, f);
+  for (int k = 0; k < 2; k++) {
+    corot_linear_def def = pcg_with(preconditioners[k]);
+    def.tolerance = 1e-16;
+    corot_pencil *pcg = pencil_with(&b, &def);
+    corot_pencil_combine(pcg, 0, 0, 1);
+    assert_ok(corot_pencil_factor(pcg));
+    assert_ok(corot_pencil_solve(pcg, f, f + b.n));
+    corot_pencil_destroy(pcg);
+  }
+  free(f), drop_body(&b);
 }
 
 static size_t bytes_in_use(void) {
@@ -132,10 +317,10 @@ static size_t bytes_in_use(void) {
 }
 
 static corot_status make_pcg(void *context) {
-  void *solver;
-  COROT_TRY(corot_linsol_pcg.create(context, &solver));
-  corot_linsol_pcg.destroy(solver);
-  return COROT_OK;
+  linsol s;
+  corot_status status = corot_linsol_create(context, SOLVER("pcg"), &s);
+  corot_linsol_clear(&s);
+  return status;
 }
 
 /* All that is ever needed is allocated at creation: of ours each piece is counted, of SUNDIALS'
@@ -143,9 +328,7 @@ static corot_status make_pcg(void *context) {
 static void memory_is_of_creation_only(void **state) {
   (void)state;
   body b = partly_held_bar(4);
-  corot_csc *csc;
-  assert_ok(corot_csc_create(b.model, COROT_FULL, &csc));
-  assert_int_equal(assert_survives_failed_allocations(make_pcg, csc), 3);
+  assert_true(assert_survives_failed_allocations(make_pcg, b.model) > 10);
 
   corot_pencil *pcg = pencil_on(&b, "pcg");
   double *f = malloc(b.n * sizeof *f);
@@ -159,7 +342,7 @@ static void memory_is_of_creation_only(void **state) {
   }
   assert_int_equal(bytes_in_use(), before);
   assert_int_equal(alloc_count(), 0);
-  free(f), corot_pencil_destroy(pcg), corot_csc_destroy(csc), drop_body(&b);
+  free(f), corot_pencil_destroy(pcg), drop_body(&b);
 }
 
 /* The same steps, and the same way to 1e-8 of it, of the tip of the bar of bar.h. */
@@ -194,6 +377,12 @@ int main(void) {
       cmocka_unit_test(solves_like_klu_in_more_iterations_as_steps_grow),
       cmocka_unit_test(blocks_of_partly_held_nodes_are_inverted),
       cmocka_unit_test(an_indefinite_matrix_is_found_out),
+      cmocka_unit_test(the_preconditioner_is_symmetric_and_positive),
+      cmocka_unit_test(the_sandwich_is_what_it_is_made_of),
+      cmocka_unit_test(without_fill_the_factor_is_complete),
+      cmocka_unit_test(it_halves_the_iterations),
+      cmocka_unit_test(a_factor_that_breaks_down_is_shifted),
+      cmocka_unit_test(rounding_is_no_failure),
       cmocka_unit_test(memory_is_of_creation_only),
       cmocka_unit_test(a_run_takes_the_same_way),
   };
