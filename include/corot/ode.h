@@ -61,6 +61,11 @@ corot_frames corot_state_frames(const corot_state *state);
    cross a kink, the later value is taken. */
 void corot_state_enter(corot_state *state, double t);
 
+/* From now on evaluations are for statics: the loads are `factor` times those of time t; the time
+   of an evaluation says where the supports are, and they have no velocity there, nor has v any
+   effect on r. */
+void corot_state_stand_still(corot_state *state, double t, double factor);
+
 /* r(t, u, v) [N]. COROT_RETRY when a tet is inverted (det F <= 0 or not a number; not asked of
    cauchy, which is linear): the message and corot_state_inverted() name it. */
 corot_status corot_residual(const corot_model *model, corot_state *state, double t, const double *u,
@@ -81,8 +86,9 @@ int corot_state_inverted(const corot_state *state);
 typedef enum corot_tangent {
   COROT_TANGENT_HELD,  /* as if constant: the paper's warped stiffness R K_e R' */
   COROT_TANGENT_EXACT, /* with their own variation dR (polar, hybrid; otherwise the same) */
-  COROT_TANGENT_CLAMPED, /* exact, but what each tet's compression makes negative is cut off: K is
-                            positive semidefinite, and exact wherever it is so by itself */
+  COROT_TANGENT_CLAMPED, /* exact, but in each tet what compression makes negative, of the frames'
+                            part and of the stress's, is cut off: K is positive semidefinite, no
+                            less than the exact one, and the same where nothing is negative */
   COROT_TANGENT_AUTO = -1 /* in definitions: choose */
 } corot_tangent;
 
@@ -94,7 +100,8 @@ corot_status corot_jacobian(const corot_model *model, corot_state *state, double
                             const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
 
 /* The derivative of r in the direction (du, dv): jv = dr/du du + dr/dv dv [N], nothing left out.
-   With COROT_TANGENT_HELD the frames are constant, with COROT_TANGENT_EXACT they follow F. */
+   With COROT_TANGENT_HELD the frames are constant, with EXACT and with CLAMPED, which is for
+   matrices, they follow F. */
 corot_status corot_jvp(const corot_model *model, corot_state *state, double t, const double *u,
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv);

@@ -147,5 +147,10 @@ void corot_csc_combine(const corot_model *m, const corot_csc *csc, double a, dou
     const double *only = d ? d : k, factor = d ? b : c;
     for (int p = 0; p < csc->nnz; p++) value[p] = only ? factor * only[source[p]] : 0;
   }
-  for (int i = 0; i < csc->n; i++) value[csc->diagonal[i]] += a * m->mass[i];
+  if (!m->mass_pair) {
+    for (int i = 0; i < csc->n; i++) value[csc->diagonal[i]] += a * m->mass[i];
+    return;
+  }
+  for (int p = 0; p < csc->nnz; p++) /* of a block, the mass is on the diagonal: 0, 4, 8 */
+    if (source[p] % 9 % 4 == 0) value[p] += a * m->mass_pair[source[p] / 9];
 }

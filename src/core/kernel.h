@@ -30,8 +30,8 @@ int corot_kernel_internal(const corot_model *m, corot_state *state, int strain, 
                           double mu_part, int chunk);
 
 /* Adds the element matrices to K and D, either of which may be NULL, and completes the columns of
-   the nodes that are ready then. `exact`: with the variation of the frames. */
-int corot_kernel_tangent(const corot_model *m, corot_state *state, bool exact, int chunk,
+   the nodes that are ready then. */
+int corot_kernel_tangent(const corot_model *m, corot_state *state, corot_tangent tangent, int chunk,
                          double (*K)[9], double (*D)[9]);
 
 /* --- shared by the loops --------------------------------------------------------------------- */
@@ -44,11 +44,12 @@ COROT_INLINE int chunk_end(const corot_model *m, int chunk) {
 /* Gradient of a nodal field. */
 COROT_INLINE mat3 gradient(const tet_block *block, const double (*x)[4]) {
   mat3 G;
+  vd x0[3], xa[3];
+  vd_gather3(x, block->node[0], x0);
   for (int a = 0; a < 3; a++) {
-    vd edge[3]; /* x_a - x_0 */
-    vd_gather3_difference(x, block->node[a + 1], block->node[0], edge);
+    vd_gather3(x, block->node[a + 1], xa);
     EACH_IJ {
-      vd term = edge[i] * block->g.m[a][j];
+      vd term = (xa[i] - x0[i]) * block->g.m[a][j];
       G.m[i][j] = a == 0 ? term : G.m[i][j] + term;
     }
   }
@@ -78,6 +79,23 @@ COROT_INLINE mat3 frame_in_use(const strain_measure *s, const corot_model *m,
   }
   *inverted |= bad;
   return R;
+}
+
+/* What every loop starts from: the tets of block b in the state's displacement. */
+typedef struct element {
+  const tet_block *block;
+  const material *mat;
+  mat3 F, R;
+  vi inverted;
+} element;
+
+COROT_INLINE element element_at(const strain_measure *s, const corot_model *m,
+                                const corot_state *state, int b) {
+  element e = {.block = &m->tets.block[b]};
+  e.mat = &m->material[e.block->material];
+  e.F = deformation(e.block, (const double(*)[4])state->u);
+  e.R = frame_in_use(s, m, state, b, e.F, &e.inverted);
+  return e;
 }
 
 /* Nodal forces A g_a of block b into the buffer; A is -V P. */

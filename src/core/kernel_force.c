@@ -11,19 +11,15 @@ COROT_INLINE mat3 viscous_stress(const strain_measure *s, bool objective, const 
 COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot_state *state,
                             bool damped, int chunk) {
   for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    const tet_block *block = &m->tets.block[b];
-    const material *mat = &m->material[block->material];
-    vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])state->u);
-    mat3 R = frame_in_use(s, m, state, b, F, &inverted);
-    vd minus = -block->volume;
-    mat3 A = stress(s, minus * mat->lambda, minus * mat->mu, F, R);
+    element e = element_at(s, m, state, b);
+    vd minus = -e.block->volume;
+    mat3 A = stress(s, minus * e.mat->lambda, minus * e.mat->mu, e.F, e.R);
     if (damped) {
-      mat3 V = gradient(block, (const double(*)[4])state->v);
-      A = mat3_add(A, viscous_stress(s, m->objective, mat, minus, F, R, V));
+      mat3 V = gradient(e.block, (const double(*)[4])state->v);
+      A = mat3_add(A, viscous_stress(s, m->objective, e.mat, minus, e.F, e.R, V));
     }
     store_forces(m, state, b, A);
-    if (vi_any(inverted)) return first_inverted(m, b, inverted);
+    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
   }
   return -1;
 }
@@ -49,18 +45,14 @@ COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, coro
                              bool damped, double *elastic, double *power) {
   double sum_elastic = 0, sum_power = 0;
   for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
-    const material *mat = &m->material[block->material];
-    vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])state->u);
-    mat3 R = frame_in_use(s, m, state, b, F, &inverted);
-    if (vi_any(inverted)) return first_inverted(m, b, inverted);
-    sum_elastic +=
-        vd_sum(block->volume * strain_energy(s, vd_all(mat->lambda), vd_all(mat->mu), F, R));
+    element e = element_at(s, m, state, b);
+    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
+    vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
+    sum_elastic += vd_sum(e.block->volume * strain_energy(s, lambda, mu, e.F, e.R));
     if (!damped) continue;
-    mat3 V = gradient(block, (const double(*)[4])state->v);
-    mat3 P = viscous_stress(s, m->objective, mat, vd_all(1), F, R, V);
-    sum_power += vd_sum(block->volume * mat3_dot(P, V));
+    mat3 V = gradient(e.block, (const double(*)[4])state->v);
+    mat3 P = viscous_stress(s, m->objective, e.mat, vd_all(1), e.F, e.R, V);
+    sum_power += vd_sum(e.block->volume * mat3_dot(P, V));
   }
   *elastic = sum_elastic;
   *power = sum_power;

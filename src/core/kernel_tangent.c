@@ -101,31 +101,27 @@ COROT_INLINE void complete_columns(const pattern *p, int first, int last, double
 }
 
 COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                              bool exact, int chunk, double (*K)[9], double (*D)[9]) {
+                              corot_tangent tangent, int chunk, double (*K)[9], double (*D)[9]) {
+  bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
   for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    const tet_block *block = &m->tets.block[b];
-    const material *mat = &m->material[block->material];
     const int(*place)[W] = (const int(*)[W])m->pattern.place[b];
-    vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])state->u);
-    mat3 R = frame_in_use(s, m, state, b, F, &inverted);
-    if (vi_any(inverted)) return first_inverted(m, b, inverted);
+    element e = element_at(s, m, state, b);
+    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
 
-    vd lambda = block->volume * mat->lambda, mu = block->volume * mat->mu;
-    vd dlambda = block->volume * mat->damping_lambda, dmu = block->volume * mat->damping_mu;
-    tangent_terms t = tangent_terms_of(s, exact, lambda, mu, F, R);
-    node_vectors n = node_vectors_of(block, &t);
+    vd lambda = e.block->volume * e.mat->lambda, mu = e.block->volume * e.mat->mu;
+    vd dlambda = e.block->volume * e.mat->damping_lambda, dmu = e.block->volume * e.mat->damping_mu;
+    tangent_terms t = tangent_terms_of(s, tangent, lambda, mu, e.F, e.R);
+    node_vectors n = node_vectors_of(e.block, &t);
     bool objective = D && m->objective && s->frame == FRAME_POLAR;
     node_rates rates;
-    if (objective) rates = node_rates_of(block, F, R);
+    if (objective) rates = node_rates_of(e.block, e.F, e.R);
     for (int k = 0; k < NPAIR; k++) {
       int a = pair_row[k], c = pair_col[k];
       vd gg = vec3_dot(n.g[a], n.g[c]);
-      mat3 A = constant_bases(lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
+      mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
       if (s->pressure == BY_GRADIENT)
         A = mat3_add_identity(A, vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
-      if (exact && s->frame == FRAME_POLAR)
-        A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
+      if (turning) A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
       if (K) scatter(K, place[k], A);
       if (objective)
         scatter(D, place[k], objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
@@ -140,36 +136,36 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
   return -1;
 }
 
-COROT_CLONES int corot_kernel_tangent(const corot_model *m, corot_state *state, bool exact,
-                                      int chunk, double (*K)[9], double (*D)[9]) {
-  return tangent_loop(&strain_measures[m->strain], m, state, exact, chunk, K, D);
+COROT_CLONES int corot_kernel_tangent(const corot_model *m, corot_state *state,
+                                      corot_tangent tangent, int chunk, double (*K)[9],
+                                      double (*D)[9]) {
+  const strain_measure *s = &strain_measures[m->strain];
+  if (tangent == COROT_TANGENT_CLAMPED) /* compiled apart, so as not to burden the others */
+    return tangent_loop(s, m, state, COROT_TANGENT_CLAMPED, chunk, K, D);
+  return tangent_loop(s, m, state, tangent, chunk, K, D);
 }
 
 COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, corot_state *state,
                                  bool exact, int chunk) {
   for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    const tet_block *block = &m->tets.block[b];
-    const material *mat = &m->material[block->material];
-    vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])state->u);
-    mat3 R = frame_in_use(s, m, state, b, F, &inverted);
-    if (vi_any(inverted)) return first_inverted(m, b, inverted);
+    element e = element_at(s, m, state, b);
+    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
 
-    mat3 dF = gradient(block, (const double(*)[4])state->du);
-    mat3 dR = mat3_scale(vd_all(0), R);
+    mat3 dF = gradient(e.block, (const double(*)[4])state->du);
+    mat3 dR = mat3_scale(vd_all(0), e.R);
     if (exact && s->frame != FRAME_IDENTITY) {
       const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
-      dR = frame_derivative(s->frame, F, Q0, R, dF);
+      dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
     }
-    vd minus = -block->volume;
-    mat3 dA = stress_derivative(s, minus * mat->lambda, minus * mat->mu, F, R, dF, dR);
+    vd minus = -e.block->volume;
+    mat3 dA = stress_derivative(s, minus * e.mat->lambda, minus * e.mat->mu, e.F, e.R, dF, dR);
     if (m->damped) {
-      mat3 V = gradient(block, (const double(*)[4])state->v);
-      mat3 dV = gradient(block, (const double(*)[4])state->dv);
-      vd lambda = minus * mat->damping_lambda, mu = minus * mat->damping_mu;
+      mat3 V = gradient(e.block, (const double(*)[4])state->v);
+      mat3 dV = gradient(e.block, (const double(*)[4])state->dv);
+      vd lambda = minus * e.mat->damping_lambda, mu = minus * e.mat->damping_mu;
       dA = mat3_add(dA, m->objective && s->frame == FRAME_POLAR
-                            ? stress_objective_derivative(s, lambda, mu, F, R, V, dF, dR, dV)
-                            : stress_viscous_derivative(s, lambda, mu, F, R, V, dF, dR, dV));
+                            ? stress_objective_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV)
+                            : stress_viscous_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV));
     }
     store_forces(m, state, b, dA);
   }

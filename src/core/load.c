@@ -146,11 +146,12 @@ static double amplitude_at(const load *l, double t) {
   return (1 - s) * value[k - 1] + s * value[k];
 }
 
-void corot_loads_force(const corot_model *m, double t, const double (*u)[4], double *f) {
+void corot_loads_force(const corot_model *m, double t, double scale, const double (*u)[4],
+                       double *f) {
   memset(f, 0, m->ndof * sizeof *f);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = amplitude_at(l, t);
+    double factor = scale * amplitude_at(l, t);
     if (factor == 0) continue;
     if (l->force)
       for (int i = 0; i < m->ndof; i++) f[i] += factor * l->force[i];
@@ -163,11 +164,11 @@ void corot_loads_force(const corot_model *m, double t, const double (*u)[4], dou
   }
 }
 
-void corot_loads_derivative(const corot_model *m, double t, const double (*u)[4],
+void corot_loads_derivative(const corot_model *m, double t, double scale, const double (*u)[4],
                             const double (*du)[4], double *f) {
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = amplitude_at(l, t);
+    double factor = scale * amplitude_at(l, t);
     for (int j = 0; j < l->ntri; j++) { /* d(a x b) = da x b + a x db */
       const int *n = l->tri[j];
       double a[3], b[3], da[3], db[3], first[3], second[3];

@@ -108,39 +108,6 @@ static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
   return COROT_OK;
 }
 
-/* Row-sum lumping: a quarter of each tet's mass, and of its mass damping, to each of its nodes. */
-static corot_status lump_mass(corot_model *m) {
-  int nnode = m->mesh->nnode;
-  double(*nodal)[2] = calloc(nnode, sizeof *nodal);
-  m->mass = malloc(m->ndof * sizeof *m->mass);
-  m->inverse_mass = malloc(m->ndof * sizeof *m->inverse_mass);
-  if (m->mass_damped) m->mass_damping = malloc(m->ndof * sizeof *m->mass_damping);
-  if (!nodal || !m->mass || !m->inverse_mass || (m->mass_damped && !m->mass_damping)) {
-    free(nodal);
-    return corot_fail(COROT_ENOMEM, "no memory for the mass of %d nodes", nnode);
-  }
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
-    const material *mat = &m->material[block->material];
-    for (int l = 0; l < block->ntet; l++)
-      for (int a = 0; a < 4; a++) {
-        double quarter = mat->density * block->volume[l] / 4;
-        nodal[block->node[a][l]][0] += quarter;
-        nodal[block->node[a][l]][1] += quarter * mat->damping_mass;
-      }
-  }
-  for (int n = 0; n < nnode; n++)
-    for (int c = 0; c < 3; c++) {
-      int i = m->dof[n][c];
-      if (i < 0) continue;
-      m->mass[i] = nodal[n][0];
-      m->inverse_mass[i] = 1 / nodal[n][0];
-      if (m->mass_damped) m->mass_damping[i] = nodal[n][1];
-    }
-  free(nodal);
-  return COROT_OK;
-}
-
 static int by_time(const void *a, const void *b) {
   double d = *(const double *)a - *(const double *)b;
   return (d > 0) - (d < 0);
@@ -218,10 +185,10 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   COROT_TRY(status);
 
   COROT_TRY(number_dofs(def, m));
-  COROT_TRY(lump_mass(m));
+  COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->pattern));
+  COROT_TRY(corot_mass_create(def, m));
   COROT_TRY(corot_loads_create(def, m));
   COROT_TRY(list_kinks(m));
-  COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->pattern));
   find_scales(m);
   return COROT_OK;
 }
@@ -248,6 +215,8 @@ void corot_model_destroy(corot_model *m) {
   free(m->mass);
   free(m->inverse_mass);
   free(m->mass_damping);
+  free(m->mass_pair);
+  free(m->damping_pair);
   corot_tets_clear(&m->tets);
   corot_pattern_clear(&m->pattern);
   corot_mesh_destroy(m->mesh);
@@ -306,6 +275,8 @@ size_t corot_model_bytes(const corot_model *m) {
              m->motion[k].nspan * sizeof *m->motion[k].span;
   bytes += m->nkink * sizeof *m->kink;
   if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
+  if (m->mass_pair) bytes += p->nblock * sizeof *m->mass_pair;
+  if (m->damping_pair) bytes += p->nblock * sizeof *m->damping_pair;
   bytes += t->nblock * (sizeof *t->block + W * sizeof *t->number);
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
   bytes +=

@@ -49,9 +49,13 @@ struct corot_model {
 
   int ndof;
   int (*dof)[3];        /* [nnode] or -1 */
-  double *mass;         /* [ndof] [kg] */
+  double *mass;         /* [ndof] lumped, whichever is in use [kg] */
   double *inverse_mass; /* [ndof] */
   double *mass_damping; /* [ndof] force per velocity [kg/s]; NULL unless mass_damped */
+  double *mass_pair;    /* [pattern.nblock] a consistent mass between two nodes, the same in each
+                           component [kg]; NULL: lumped */
+  double *damping_pair; /* [pattern.nblock] of the mass damping the same [kg/s], NULL as well unless
+                           mass_damped */
   double length, frequency, damping_time;
 
   int nload;
@@ -83,15 +87,25 @@ void corot_model_velocity(const corot_model *m, double phase, double t, const do
 /* The free values alone: zero on every held component. */
 void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride);
 
+/* Mass and mass damping, once degrees of freedom, motions and pattern are known. */
+corot_status corot_mass_create(const corot_model_def *def, corot_model *m);
+
+/* f -= C v for the matrix C of the mass damping; nothing if there is none. */
+void corot_mass_damp(const corot_model *m, const double *v, double *f);
+
+/* D [pattern.nblock] += C. */
+void corot_mass_damping_matrix(const corot_model *m, double (*D)[9]);
+
 /* m->load from the definition, once the degrees of freedom and the mass are known. */
 corot_status corot_loads_create(const corot_model_def *def, corot_model *m);
 void corot_loads_destroy(corot_model *m);
 
-/* f [ndof] = external force at time t on the body displaced by u [nnode]. */
-void corot_loads_force(const corot_model *m, double t, const double (*u)[4], double *f);
+/* f [ndof] = `scale` times the external force of time t, on the body displaced by u [nnode]. */
+void corot_loads_force(const corot_model *m, double t, double scale, const double (*u)[4],
+                       double *f);
 
 /* f += its change in the direction du. */
-void corot_loads_derivative(const corot_model *m, double t, const double (*u)[4],
+void corot_loads_derivative(const corot_model *m, double t, double scale, const double (*u)[4],
                             const double (*du)[4], double *f);
 
 /* m->motion from the definition; marks the nodes' components in `held`. */

@@ -38,19 +38,35 @@ static corot_status sum_forces(const corot_model *m, corot_state *s, double t, f
   return COROT_OK;
 }
 
+/* f = the loads on the body where it is in s->u. */
+static void external_force(const corot_model *m, const corot_state *s, double t, double *f) {
+  double when = s->still ? s->load_time : t, scale = s->still ? s->load_factor : 1;
+  corot_loads_force(m, when, scale, (const double(*)[4])s->u, f);
+}
+
+/* f += their change in the direction s->du. */
+static void external_derivative(const corot_model *m, const corot_state *s, double t, double *f) {
+  double when = s->still ? s->load_time : t, scale = s->still ? s->load_factor : 1;
+  corot_loads_derivative(m, when, scale, (const double(*)[4])s->u, (const double(*)[4])s->du, f);
+}
+
 corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, double *r) {
   corot_state_displace(m, s, t, u);
-  if (m->damped) corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
-  corot_loads_force(m, t, (const double(*)[4])s->u, s->r);
-  if (m->mass_damped)
-    for (int i = 0; i < m->ndof; i++) s->r[i] -= m->mass_damping[i] * v[i];
-  return sum_forces(m, s, t, corot_kernel_force, m->damped, r);
+  bool damped = m->damped && !s->still;
+  if (damped) corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  external_force(m, s, t, s->r);
+  if (!s->still) corot_mass_damp(m, v, s->r);
+  return sum_forces(m, s, t, corot_kernel_force, damped, r);
 }
 
 corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
                        double *ydot) {
   int n = m->ndof;
+  if (m->mass_pair)
+    return corot_fail(COROT_EINVAL,
+                      "the right-hand side takes a factor of the consistent mass: "
+                      "use corot_residual and corot_mass_solve");
   COROT_TRY(corot_residual(m, s, t, y, y + n, ydot + n));
   memcpy(ydot, y + n, n * sizeof *ydot);
   for (int i = 0; i < n; i++) ydot[n + i] *= m->inverse_mass[i];
@@ -65,13 +81,11 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
   size_t bytes = m->pattern.nblock * sizeof *K;
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
-  if (D && m->mass_damped)
-    for (int n = 0; n < m->mesh->nnode; n++)
-      for (int c = 0; c < 3; c++)
-        if (m->dof[n][c] >= 0) D[m->pattern.colptr[n]][4 * c] = m->mass_damping[m->dof[n][c]];
-  bool exact = tangent == COROT_TANGENT_EXACT;
+  if (tangent == COROT_TANGENT_AUTO) tangent = COROT_TANGENT_HELD;
   for (int c = 0; c < m->pattern.nchunk; c++)
-    COROT_TRY(corot_state_check(s, corot_kernel_tangent(m, s, exact, c, K, m->damped ? D : NULL)));
+    COROT_TRY(
+        corot_state_check(s, corot_kernel_tangent(m, s, tangent, c, K, m->damped ? D : NULL)));
+  if (D) corot_mass_damping_matrix(m, D);
   return COROT_OK;
 }
 
@@ -79,24 +93,46 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
   corot_state_displace(m, s, t, u);
-  corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  if (s->still) { /* v plays no part, and neither does dv */
+    memset(s->v, 0, s->nnode * sizeof *s->v);
+    memset(s->dv, 0, s->nnode * sizeof *s->dv);
+  } else {
+    corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+    corot_model_spread(m, dv, s->dv[0], 4);
+  }
   corot_model_spread(m, du, s->du[0], 4);
-  corot_model_spread(m, dv, s->dv[0], 4);
   memset(s->r, 0, m->ndof * sizeof *s->r);
-  corot_loads_derivative(m, t, (const double(*)[4])s->u, (const double(*)[4])s->du, s->r);
-  if (m->mass_damped)
-    for (int i = 0; i < m->ndof; i++) s->r[i] -= m->mass_damping[i] * dv[i];
-  return sum_forces(m, s, t, corot_kernel_derivative, tangent == COROT_TANGENT_EXACT, jv);
+  external_derivative(m, s, t, s->r);
+  if (!s->still) corot_mass_damp(m, dv, s->r);
+  return sum_forces(m, s, t, corot_kernel_derivative, tangent > COROT_TANGENT_HELD, jv);
 }
 
-void corot_mass_multiply(const corot_model *m, const double *x, double *y) {
-  for (int i = 0; i < m->ndof; i++) y[i] = m->mass[i] * x[i];
+static void add_cross(double a[3], const double x[3], const double p[3]) {
+  a[0] += x[1] * p[2] - x[2] * p[1];
+  a[1] += x[2] * p[0] - x[0] * p[2];
+  a[2] += x[0] * p[1] - x[1] * p[0];
 }
 
-static void add_cross(double a[3], double m, const double x[3], const double v[3]) {
-  a[0] += m * (x[1] * v[2] - x[2] * v[1]);
-  a[1] += m * (x[2] * v[0] - x[0] * v[2]);
-  a[2] += m * (x[0] * v[1] - x[1] * v[0]);
+static double dot(int n, const double *a, const double *b) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* Kinetic energy and momenta from M v, which goes through s->r. */
+static void add_inertia(const corot_model *m, corot_state *s, const double *v, corot_energies *e) {
+  corot_mass_multiply(m, v, s->r);
+  e->kinetic = 0.5 * dot(m->ndof, v, s->r);
+  for (int n = 0; n < m->mesh->nnode; n++) {
+    double x[3], p[3];
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      x[c] = m->mesh->x[n][c] + s->u[n][c];
+      p[c] = i >= 0 ? s->r[i] : 0;
+      e->momentum[c] += p[c];
+    }
+    add_cross(e->angular_momentum, x, p);
+  }
 }
 
 /* Power of the internal and viscous forces on moving supports: what the supports put in. Components
@@ -122,23 +158,14 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
   COROT_TRY(
       corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
   if (m->nmotion) COROT_TRY(support_power(m, s, &e.power_external));
-  corot_loads_force(m, t, (const double(*)[4])s->u, s->r);
-  for (int i = 0; i < m->ndof; i++) {
-    e.kinetic += 0.5 * m->mass[i] * v[i] * v[i];
-    e.power_external += s->r[i] * v[i];
-    if (m->mass_damped) e.power_dissipated += m->mass_damping[i] * v[i] * v[i];
+  external_force(m, s, t, s->r);
+  e.power_external += dot(m->ndof, s->r, v);
+  if (m->mass_damped) {
+    memset(s->r, 0, m->ndof * sizeof *s->r);
+    corot_mass_damp(m, v, s->r);
+    e.power_dissipated -= dot(m->ndof, s->r, v);
   }
-  for (int n = 0; n < m->mesh->nnode; n++) {
-    double x[3], velocity[3] = {0, 0, 0}, mass = 0;
-    for (int c = 0; c < 3; c++) {
-      int i = m->dof[n][c];
-      x[c] = m->mesh->x[n][c] + s->u[n][c];
-      if (i < 0) continue;
-      mass = m->mass[i], velocity[c] = v[i];
-      e.momentum[c] += mass * v[i];
-    }
-    add_cross(e.angular_momentum, mass, x, velocity);
-  }
+  add_inertia(m, s, v, &e);
   *energies = e;
   return COROT_OK;
 }

@@ -95,8 +95,7 @@ COROT_INLINE mat3 gram_schmidt(mat3 A) {
       vd d = vec3_dot(q[0], q[1]);
       for (int i = 0; i < 3; i++) q[1].v[i] -= d * q[0].v[i];
     }
-    vd n = vec3_dot(q[c], q[c]);
-    for (int l = 0; l < W; l++) n[l] = sqrt(n[l]);
+    vd n = vd_sqrt(vec3_dot(q[c], q[c]));
     for (int i = 0; i < 3; i++) q[c].v[i] /= n;
   }
   for (int i = 0; i < 3; i++) {

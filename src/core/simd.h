@@ -38,6 +38,13 @@ COROT_INLINE vd vd_all(double x) { return (vd){x, x, x, x, x, x, x, x}; }
 /* mask ? a : b */
 COROT_INLINE vd vd_select(vi mask, vd a, vd b) { return (vd)((mask & (vi)a) | (~mask & (vi)b)); }
 
+COROT_INLINE vd vd_max(vd a, vd b) { return vd_select(a > b, a, b); }
+
+COROT_INLINE vd vd_sqrt(vd a) {
+  for (int l = 0; l < W; l++) a[l] = sqrt(a[l]);
+  return a;
+}
+
 /* Halves are folded onto each other, so that a few instructions do. */
 COROT_INLINE int vi_any(vi mask) {
   typedef long long vi4 __attribute__((vector_size(32)));
@@ -73,13 +80,10 @@ COROT_INLINE vd vd_join(vd4 low, vd4 high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-/* Rows x[a] - x[b] of four (three used) for eight lanes become three vectors. */
-COROT_INLINE void vd_gather3_difference(const double (*x)[4], const int *a, const int *b,
-                                        vd out[3]) {
+/* Rows x[a] of four (three used) for eight lanes become three vectors. */
+COROT_INLINE void vd_gather3(const double (*x)[4], const int *a, vd out[3]) {
   vd r[4];
-  for (int k = 0; k < 4; k++)
-    r[k] = vd_join(vd4_load(x[a[k]]), vd4_load(x[a[k + 4]])) -
-           vd_join(vd4_load(x[b[k]]), vd4_load(x[b[k + 4]]));
+  for (int k = 0; k < 4; k++) r[k] = vd_join(vd4_load(x[a[k]]), vd4_load(x[a[k + 4]]));
   vd xz01 = __builtin_shufflevector(r[0], r[1], 0, 8, 2, 10, 4, 12, 6, 14);
   vd xz23 = __builtin_shufflevector(r[2], r[3], 0, 8, 2, 10, 4, 12, 6, 14);
   vd y01 = __builtin_shufflevector(r[0], r[1], 1, 9, 3, 11, 5, 13, 7, 15);

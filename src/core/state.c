@@ -64,6 +64,12 @@ corot_frames corot_state_frames(const corot_state *s) { return s->frames; }
 int corot_state_inverted(const corot_state *s) { return s->inverted; }
 void corot_state_enter(corot_state *s, double t) { s->phase = t; }
 
+void corot_state_stand_still(corot_state *s, double t, double factor) {
+  s->still = true;
+  s->load_time = t;
+  s->load_factor = factor;
+}
+
 void corot_state_displace(const corot_model *m, corot_state *s, double t, const double *u) {
   s->elapsed = t - s->t_update;
   corot_model_displacement(m, s->phase, t, u, s->u[0], 4);

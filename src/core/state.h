@@ -9,17 +9,20 @@
 struct corot_state {
   int nnode, nblock, window, ndof; /* of the model */
   corot_frames frames;
-  int inverted;    /* tet number in the mesh, or -1 */
-  double phase;    /* motions follow the law in force just after this time; NaN: after t */
-  double t_update; /* when the held frames were found */
-  double elapsed;  /* since then, in the present evaluation */
-  mat3 *R;         /* [nblock] the held frames */
-  vec3 *spin;      /* [nblock] their angular velocity, for extrapolation [rad/s] */
-  mat3 *now_R;     /* [nblock] extrapolated frames, to compare with */
-  mat3 *new_R;     /* [nblock] those of an update, until it is known to succeed */
-  double (*u)[4];  /* [nnode] displacement of all nodes, padded for the gather */
-  double (*v)[4];  /* [nnode] velocity */
-  double (*du)[4]; /* [nnode] directions of a derivative */
+  int inverted;       /* tet number in the mesh, or -1 */
+  double phase;       /* motions follow the law in force just after this time; NaN: after t */
+  bool still;         /* nothing has a velocity, and the loads are those */
+  double load_time;   /* of this time, not of the evaluation's */
+  double load_factor; /* times this */
+  double t_update;    /* when the held frames were found */
+  double elapsed;     /* since then, in the present evaluation */
+  mat3 *R;            /* [nblock] the held frames */
+  vec3 *spin;         /* [nblock] their angular velocity, for extrapolation [rad/s] */
+  mat3 *now_R;        /* [nblock] extrapolated frames, to compare with */
+  mat3 *new_R;        /* [nblock] those of an update, until it is known to succeed */
+  double (*u)[4];     /* [nnode] displacement of all nodes, padded for the gather */
+  double (*v)[4];     /* [nnode] velocity */
+  double (*du)[4];    /* [nnode] directions of a derivative */
   double (*dv)[4];
   vd (*force)[4][3]; /* [window][local node][component] element forces, see pattern.h */
   double *r;         /* [ndof] */

@@ -11,6 +11,9 @@
 #ifndef COROT_CORE_STRAIN_H
 #define COROT_CORE_STRAIN_H
 
+#include <corot/ode.h>
+
+#include "core/eigen.h"
 #include "core/polar.h"
 
 typedef enum basis { BY_FRAME, BY_GRADIENT } basis;
@@ -190,27 +193,50 @@ COROT_INLINE mat3 stress_viscous_derivative(const strain_measure *s, vd lambda, 
    + (g_a . Z g_b) I                                    the stress on a basis F that turns with it
    + [s_a]x' H [s_b]x                                   the variation of an exact polar frame
    with Z = lambda tr(e_p) I for Bp = F, plus 2 mu e_s for Bs = F, and H = R h R' (so that all is in
-   spatial axes), h = lambda tr(e_p) G^-1 for Bp = R, plus mu I - 2 mu G^-1 for Bs = R. The damping
-   matrix is the first line with the damping coefficients. */
+   spatial axes), h = mu I + c G^-1, c = lambda tr(e_p) for Bp = R (else 0) - 2 mu. The damping
+   matrix is the first line with the damping coefficients.
+
+   Each line is a quadratic form of its own in dF. The first is positive semidefinite (hybrid, whose
+   bases differ: while lambda |F|^2 >= -2 mu), the others are so while Z and H are. Clamped, Z loses
+   its negative eigenvalues, and c and lambda stop where H and the first line become singular. */
 typedef struct tangent_terms {
   mat3 Bp, Bs, BsBs, Z, H;
+  vd lambda;
 } tangent_terms;
 
-COROT_INLINE tangent_terms tangent_terms_of(const strain_measure *s, int exact, vd lambda, vd mu,
-                                            mat3 F, mat3 R) {
-  tangent_terms k = {.Bp = basis_of(s->pressure, F, R), .Bs = basis_of(s->shear, F, R)};
-  k.BsBs = s->shear == BY_GRADIENT ? mat3_gram(mat3_transpose(F)) : mat3_identity();
-  vd p = lambda * dilatation_of(s->pressure, F, R);
-  if (s->pressure == BY_GRADIENT) k.Z = mat3_scale(p, mat3_identity());
-  if (s->shear == BY_GRADIENT)
-    k.Z = mat3_add(k.Z, mat3_scale(2 * mu, strain_of(BY_GRADIENT, F, R)));
-  if (exact && s->frame == FRAME_POLAR) {
-    vd c = -2 * mu;
-    if (s->pressure == BY_FRAME) c += p;
-    mat3 h = mat3_scale(c, polar_inverse_g(mat3_tmul(R, F)));
-    h = mat3_add(h, mat3_scale(mu, mat3_identity()));
-    k.H = mat3_mul(R, mat3_mul(h, mat3_transpose(R)));
+/* H. The eigenvalues of h are mu + c / g_k with those of G: for c < 0 the smallest g_k, tr(S) less
+   the largest eigenvalue of S, decides. It is positive in a frame that is F's own; beside a frame
+   held too long there is nothing to go by, and clamped H is zero. */
+COROT_INLINE mat3 frame_variation(int clamped, vd mu, vd c, mat3 F, mat3 R) {
+  mat3 S = mat3_sym_tmul(R, F);
+  vd least = vd_all(1);
+  if (clamped) {
+    least = mat3_trace(S) - largest_eigenvalue(S);
+    c = vd_max(c, -mu * least);
   }
+  mat3 h = mat3_add_identity(mat3_scale(c, polar_inverse_g(S)), mu);
+  if (clamped) h = mat3_select(least > vd_all(0), h, mat3_scale(vd_all(0), R));
+  return mat3_mul(R, mat3_mul(h, mat3_transpose(R)));
+}
+
+COROT_INLINE tangent_terms tangent_terms_of(const strain_measure *s, corot_tangent tangent,
+                                            vd lambda, vd mu, mat3 F, mat3 R) {
+  tangent_terms k = {.Bp = basis_of(s->pressure, F, R), .Bs = basis_of(s->shear, F, R)};
+  int clamped = tangent == COROT_TANGENT_CLAMPED;
+  k.BsBs = s->shear == BY_GRADIENT ? mat3_gram(mat3_transpose(F)) : mat3_identity();
+  k.lambda = lambda;
+  vd p = lambda * dilatation_of(s->pressure, F, R), c = -2 * mu;
+  if (s->pressure == BY_FRAME) {
+    c += p;
+  } else if (s->shear == BY_FRAME) {
+    k.Z = mat3_scale(clamped ? vd_max(p, vd_all(0)) : p, mat3_identity());
+    if (clamped) k.lambda = vd_max(lambda, -2 * mu / mat3_dot(F, F));
+  } else {
+    mat3 Z = mat3_add_identity(mat3_scale(2 * mu, strain_of(BY_GRADIENT, F, R)), p);
+    k.Z = clamped ? positive_part(Z) : Z;
+  }
+  if (tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR)
+    k.H = frame_variation(clamped, mu, c, F, R);
   return k;
 }
 

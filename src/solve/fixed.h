@@ -33,11 +33,11 @@ typedef struct scheme {
   void (*finish)(fixed *f);
 } scheme;
 
-enum { NHISTORY = 4, NVECTOR = 2 * NHISTORY + 8 };
+enum { NHISTORY = 4, NVECTOR = 2 * NHISTORY + 10 };
 
 struct fixed {
   const scheme *scheme;
-  const double *mass;
+  const double *lumped; /* [n] the lumped mass */
   int n;
   double t0, h; /* t = t0 + count h */
   long count;
@@ -46,6 +46,7 @@ struct fixed {
   double *u[NHISTORY], *v[NHISTORY];     /* [n] present and earlier states, latest first */
   double *a;                             /* [n] acceleration of the Newmark family */
   double *U, *V, *W, *w, *trial, *G, *d; /* [n] of the stage */
+  double *apart, *inertia;               /* [n] trial - W and M times that */
   double *memory;
   stage factored;                        /* coefficients the factor belongs to; s = 0: none */
   double power[2], work[2], old_work[2]; /* dissipated and external: rate and integral at t */

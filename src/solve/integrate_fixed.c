@@ -12,18 +12,20 @@
 
 /* --- one step -------------------------------------------------------------------------------- */
 
-/* G(w) at w = f->trial; *norm = G' M^-1 G. */
+/* G(w) at w = f->trial; *norm = G' L^-1 G with the lumped mass L. */
 static corot_status evaluate(corot_integrator *self, const stage *g, double *norm) {
   fixed *f = self->method;
   double *u = f->u[NHISTORY - 1], *v = f->v[NHISTORY - 1], start = clock_wall(), sum = 0;
   for (int i = 0; i < f->n; i++) {
     u[i] = f->U[i] + g->p * f->trial[i];
     v[i] = f->V[i] + g->q * f->trial[i];
+    f->apart[i] = f->trial[i] - f->W[i];
   }
+  corot_mass_multiply(self->model, f->apart, f->inertia);
   corot_status status = corot_residual(self->model, self->state, g->t, u, v, f->G);
   for (int i = 0; i < f->n; i++) {
-    f->G[i] = g->s * f->mass[i] * (f->trial[i] - f->W[i]) - g->k * f->G[i];
-    sum += f->G[i] * f->G[i] / f->mass[i];
+    f->G[i] = g->s * f->inertia[i] - g->k * f->G[i];
+    sum += f->G[i] * f->G[i] / f->lumped[i];
   }
   f->counts.nfe++;
   self->force_s += clock_wall() - start;
@@ -278,7 +280,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
     return corot_fail(COROT_EINVAL, "%s: spectral_radius = %g is not in %g to 1", d->method,
                       d->spectral_radius, lowest);
   size_t n = f->n = corot_model_ndof(self->model);
-  f->mass = corot_model_mass(self->model);
+  f->lumped = corot_model_mass(self->model);
   f->t0 = self->t, f->h = d->step;
   corot_scheme_set_family(f, d->spectral_radius);
 
@@ -286,7 +288,8 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   if (!f->memory) return corot_fail(COROT_ENOMEM, "no memory for %s", d->method);
   double *next = f->memory;
   for (int j = 0; j < NHISTORY; j++, next += 2 * n) f->u[j] = next, f->v[j] = next + n;
-  double **const vectors[] = {&f->a, &f->U, &f->V, &f->W, &f->w, &f->trial, &f->G, &f->d};
+  double **const vectors[] = {&f->a,     &f->U, &f->V, &f->W,     &f->w,
+                              &f->trial, &f->G, &f->d, &f->apart, &f->inertia};
   for (int k = 0; k < NVECTOR - 2 * NHISTORY; k++, next += n) *vectors[k] = next;
   memcpy(f->u[0], u, n * sizeof *u);
   memcpy(f->v[0], v, n * sizeof *v);
@@ -295,7 +298,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   if (f->scheme->needs_acceleration) { /* a = M^-1 r at the start */
     COROT_TRY(corot_residual(self->model, self->state, self->t, u, v, f->a));
     f->counts.nfe++;
-    for (size_t i = 0; i < n; i++) f->a[i] /= f->mass[i];
+    COROT_TRY(corot_mass_solve(self->mass, f->a, f->a));
   }
   return add_work(self, self->t, 0);
 }

@@ -8,6 +8,7 @@
    becomes (M + g D + g^2 K) dv = M r_v - g K r_u, then du = r_u + g dv, with the g of the set-up.
  */
 #include <nvector/nvector_serial.h>
+#include <string.h>
 
 #include "solve/clock.h"
 #include "solve/pencil.h"
@@ -57,11 +58,12 @@ static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b,
   corot_pencil *p = LS->content;
   int n = p->n;
   double start = clock_wall(), g = p->gamma;
-  const double *mass = corot_model_mass(p->model), *ru = N_VGetArrayPointer(b), *rv = ru + n;
+  const double *ru = N_VGetArrayPointer(b), *rv = ru + n;
   double *du = N_VGetArrayPointer(x), *dv = du + n, *Kru = p->work, *rhs = Kru + n;
 
   corot_block_multiply(p->model, (const double(*)[9])p->K, ru, Kru);
-  for (int i = 0; i < n; i++) rhs[i] = mass[i] * rv[i] - g * Kru[i];
+  corot_mass_multiply(p->model, rv, rhs);
+  for (int i = 0; i < n; i++) rhs[i] -= g * Kru[i];
   p->counts.solve_s += clock_wall() - start;
   corot_status status = corot_pencil_solve(p, rhs, rhs);
   if (status) return status;
@@ -107,7 +109,17 @@ int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunboo
 
 int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
   const corot_sun_data *data = user_data;
-  return corot_rhs(data->model, data->state, t, N_VGetArrayPointer(y), N_VGetArrayPointer(ydot));
+  int n = corot_model_ndof(data->model);
+  const double *u = N_VGetArrayPointer(y), *v = u + n;
+  double *du = N_VGetArrayPointer(ydot), *dv = du + n;
+  if (corot_model_mass_kind(data->model) == COROT_MASS_LUMPED)
+    return corot_rhs(data->model, data->state, t, u, du);
+  if (!data->mass)
+    return corot_fail(COROT_EINVAL,
+                      "corot_sun_rhs: consistent mass needs a corot_mass_solver in corot_sun_data");
+  COROT_TRY(corot_residual(data->model, data->state, t, u, v, dv));
+  memcpy(du, v, n * sizeof *du);
+  return corot_mass_solve(data->mass, dv, dv);
 }
 
 const char *corot_sundials_version(void) {

@@ -29,8 +29,8 @@ static inline void advance(corot_integrator *integrator, double t) {
    decides between modes of like frequency: K x = omega^2 M x. On return x' M x = 1; the value is
    omega [1/s], right to 1e-10. */
 static inline double lowest_mode(const body *b, double *x) {
-  const double *mass = corot_model_mass(b->model);
-  double *zero = calloc(3 * b->n, sizeof *zero), *y = zero + 2 * b->n, square = 0, last = 1;
+  double *zero = calloc(4 * b->n, sizeof *zero), *y = zero + 2 * b->n, *My = y + b->n;
+  double square = 0, last = 1;
   corot_pencil *pencil;
   assert_ok(corot_pencil_create(b->model, b->state, NULL, &pencil));
   assert_ok(corot_pencil_assemble(pencil, 0, zero, zero + b->n));
@@ -38,18 +38,18 @@ static inline double lowest_mode(const body *b, double *x) {
   assert_ok(corot_pencil_factor(pencil));
   for (int k = 0; fabs(square - last) > 1e-11 * square; k++) {
     assert_true(k < 500);
-    double xMx = 0, xMy = 0;
-    for (int i = 0; i < b->n; i++) y[i] = mass[i] * x[i], xMx += x[i] * y[i];
-    for (int i = 0; i < b->n; i++) x[i] /= sqrt(xMx), y[i] /= sqrt(xMx);
+    corot_mass_multiply(b->model, x, y);
+    double size = sqrt(inner(b->n, x, y));
+    for (int i = 0; i < b->n; i++) x[i] /= size, y[i] /= size;
     assert_ok(corot_pencil_solve(pencil, y, y));
-    for (int i = 0; i < b->n; i++) xMy += mass[i] * x[i] * y[i];
+    corot_mass_multiply(b->model, y, My);
     last = square;
-    square = 1 / xMy; /* Rayleigh quotient of K^-1: its error is that of x squared */
+    square = 1 / inner(b->n, x, My); /* Rayleigh quotient of K^-1: its error is that of x squared */
     memcpy(x, y, b->n * sizeof *x);
   }
-  double xMx = 0;
-  for (int i = 0; i < b->n; i++) xMx += mass[i] * x[i] * x[i];
-  for (int i = 0; i < b->n; i++) x[i] /= sqrt(xMx);
+  corot_mass_multiply(b->model, x, My);
+  double size = sqrt(inner(b->n, x, My));
+  for (int i = 0; i < b->n; i++) x[i] /= size;
   corot_pencil_destroy(pencil);
   free(zero);
   return sqrt(square);
