@@ -8,16 +8,34 @@
 #include <sundials/sundials_version.h>
 
 /* Error handlers: one function of these arguments, installed on an integrator's memory in 6.4 by
-   the integrator's own setter, on the context in 7.x. `text` and `data` are what both have. */
+   the integrator's own setter, on the context in 7.x. `data` and SUN_ERROR_TEXT are what both
+   have. */
 #if SUNDIALS_VERSION_MAJOR >= 7
+#include <sundials/sundials_errors.h>
+#include <sundials/sundials_logger.h>
+
+/* ARKStepX and ERKStepX are deprecated from 7.1 on for ARKodeX, which 6.4 lacks. */
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+#endif
+
 typedef SUNErrCode sun_status; /* of an operation of our own */
+
+/* A context that prints nothing. As it comes it has a handler that writes errors to stderr, which
+   one of ours would not replace but precede; and its logger writes warnings to stdout. */
 static inline int sun_context_create(SUNContext *ctx) {
-  return SUNContext_Create(SUN_COMM_NULL, ctx);
+  SUNLogger logger = NULL;
+  if (SUNContext_Create(SUN_COMM_NULL, ctx)) return -1;
+  SUNContext_ClearErrHandlers(*ctx);
+  SUNContext_GetLogger(*ctx, &logger);
+  if (logger) SUNLogger_SetWarningFilename(logger, "/dev/null");
+  return 0;
 }
 #define SUN_ERROR_HANDLER_ARGUMENTS                                                                \
   int line, const char *function, const char *file, const char *text, SUNErrCode code, void *data, \
       SUNContext ctx
 #define SUN_ERROR_HANDLER_UNUSED (void)line, (void)function, (void)file, (void)code, (void)ctx
+#define SUN_ERROR_TEXT (text ? text : SUNGetErrMsg(code))
 #define SUN_CATCH_ERRORS(setter, memory, ctx, handler, data) \
   SUNContext_PushErrHandler(ctx, handler, data)
 #else
@@ -26,6 +44,7 @@ static inline int sun_context_create(SUNContext *ctx) { return SUNContext_Create
 #define SUN_ERROR_HANDLER_ARGUMENTS \
   int code, const char *module, const char *function, char *text, void *data
 #define SUN_ERROR_HANDLER_UNUSED (void)code, (void)module, (void)function
+#define SUN_ERROR_TEXT text
 #define SUN_CATCH_ERRORS(setter, memory, ctx, handler, data) setter(memory, handler, data)
 #endif
 

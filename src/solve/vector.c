@@ -50,7 +50,7 @@ COROT_CLONES static double loop_square(long n, const double *x, const double *w)
   return vd_sum(even + odd) + rest;
 }
 
-static long length(N_Vector x) { return (long)N_VGetLength_Serial(x); }
+static long length(N_Vector x) { return (long)NV_LENGTH_S(x); }
 static double *data(N_Vector x) { return NV_DATA_S(x); }
 
 static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {

@@ -6,6 +6,10 @@
 
 #include "bar.h"
 
+#ifndef SUN_COMM_NULL /* SUNDIALS before 7 */
+#define SUN_COMM_NULL NULL
+#endif
+
 static void sun(int flag, const char *call) {
   if (flag >= 0) return;
   fprintf(stderr, "%s: %d\n", call, flag);
@@ -22,7 +26,7 @@ int main(void) {
   corot_sun_data data = {model, state, NULL};
 
   SUNContext ctx;
-  SUN(SUNContext_Create(0, &ctx));
+  SUN(SUNContext_Create(SUN_COMM_NULL, &ctx));
   N_Vector y = N_VNew_Serial(2 * corot_model_ndof(model), ctx);
   N_VConst(0, y);
   SUNMatrix A = corot_sun_matrix(pencil, ctx);
