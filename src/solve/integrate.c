@@ -18,7 +18,8 @@ corot_integrator_def corot_integrator_defaults(void) {
                                 .spectral_radius = 0.8};
 }
 
-static const integrator_ops *const controlled[] = {&corot_integrator_cvode, &corot_integrator_ida};
+static const integrator_ops *const controlled[] = {&corot_integrator_cvode, &corot_integrator_ida,
+                                                 &corot_integrator_arkode, &corot_integrator_erk};
 
 bool corot_integrator_controls_error(const char *method) {
   for (size_t k = 0; k < sizeof controlled / sizeof *controlled; k++)

@@ -1,0 +1,308 @@
+/* SUNDIALS before 6.6.1 has a defect: after a stop time has been reached by a call whose tout
+   equals it, the next call returns at once without advancing. advance() takes single steps, and its
+   tout always lies beyond the stop time.
+
+   The interpolant is our own: u by Hermite's polynomial of degree 5 through u, v and the
+   acceleration at both ends, v its derivative. That of ARKODE does not know that v = du/dt, and is
+   only of degree order - 1. */
+#include "solve/runge_kutta.h"
+
+#include <arkode/arkode.h>
+#include <float.h>
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+corot_status corot_rk_open(runge_kutta *m, corot_integrator *self, const rk_api *api, int order,
+                           const double *u, const double *v) {
+  m->api = api;
+  m->order = order;
+  m->npoint = order <= 2 ? 1 : order <= 4 ? 2 : order <= 6 ? 3 : RK_MOST_POINTS;
+  m->t_stop = NAN;
+  driver *d = &m->driver;
+  COROT_TRY(corot_driver_open(d, self, u, v));
+  N_Vector *const like_y[] = {&m->start.y,  &m->start.rate, &m->end.y,
+                              &m->end.rate, &m->error,      &m->weight};
+  bool short_of_memory = !(m->power = N_VNew_Serial(2, d->ctx));
+  for (size_t k = 0; k < sizeof like_y / sizeof *like_y; k++)
+    short_of_memory = !(*like_y[k] = N_VClone(d->y)) || short_of_memory;
+  if (short_of_memory)
+    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name,
+                      2 * corot_model_ndof(self->model));
+  m->end.t = self->t;
+  N_VScale(1, d->y, m->end.y);
+  return COROT_OK;
+}
+
+void corot_rk_close(void *method) {
+  runge_kutta *m = method;
+  if (m->memory) m->api->release(&m->memory);
+  corot_explicit_limit_destroy(m->limit);
+  N_Vector const vectors[] = {m->start.y, m->start.rate, m->end.y, m->end.rate,
+                              m->error,   m->weight,     m->power};
+  for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
+    if (vectors[k]) N_VDestroy(vectors[k]);
+  corot_driver_close(&m->driver);
+  free(m);
+}
+
+/* --- A step ---------------------------------------------------------------------------------- */
+
+static corot_status reset(runge_kutta *m, double h) {
+  driver *d = &m->driver;
+  m->t_stop = NAN;
+  m->stale = false;
+  if (m->api->reset(m->memory, d->self->t, d->y) || m->api->set_first_step(m->memory, h))
+    return corot_driver_refuse(d, "restart");
+  return COROT_OK;
+}
+
+/* After a jump of r the next step is as long as it would have been: nothing of the past goes into
+   it, and error control sees to the rest. */
+static corot_status begin_afresh(runge_kutta *m) {
+  double h = m->first_step;
+  if (h == 0) m->api->next_step(m->memory, &h);
+  m->first_step = 0;
+  return reset(m, h);
+}
+
+/* One attempt; *flag is SUNDIALS' answer. */
+static corot_status attempt(runge_kutta *m, double t_stop, double *t, int *flag) {
+  driver *d = &m->driver;
+  if (t_stop != m->t_stop && m->api->set_stop_time(m->memory, t_stop))
+    return corot_driver_refuse(d, "stop time");
+  m->t_stop = t_stop;
+  d->message[0] = 0;
+  double beyond = t_stop + (t_stop - d->self->t);
+  *flag = m->api->advance(m->memory, beyond, d->y, t, ARK_ONE_STEP);
+  if (*flag == ARK_TSTOP_RETURN) {
+    *t = t_stop;
+    m->t_stop = NAN; /* reaching it disarms it */
+  }
+  return COROT_OK;
+}
+
+/* Whether ARKODE took a state that cannot be evaluated for the end, where a shorter step helps: all
+   of an explicit method's stages, and the end of the step of any. */
+static bool too_long(const driver *d, int flag) {
+  bool refused =
+      flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR || flag == ARK_RHSFUNC_FAIL;
+  return refused && d->refusal[0] && d->refused == d->self->nst;
+}
+
+static corot_status advance(runge_kutta *m, double t_stop, double *t) {
+  driver *d = &m->driver;
+  double t_now = d->self->t, h = 0, least = 100 * DBL_EPSILON * fabs(t_now);
+  int flag;
+  for (;;) {
+    COROT_TRY(attempt(m, t_stop, t, &flag));
+    if (!too_long(d, flag)) break;
+    if (h == 0) m->api->next_step(m->memory, &h);
+    h = fmin(h, t_stop - t_now) / 4;
+    if (!(h > least && h > 1e-9 * d->longest && h >= d->self->def.min_step)) break;
+    N_VScale(1, m->start.y, d->y);
+    COROT_TRY(reset(m, h));
+  }
+  if (flag == ARK_LSETUP_FAIL || flag == ARK_LSOLVE_FAIL)
+    corot_driver_refuse_trial(d, flag, corot_error());
+  if (flag < 0) {
+    N_VScale(1, m->start.y, d->y);
+    return corot_driver_give_up(d, d->message);
+  }
+  corot_driver_watch(d, *t - t_now, *t == t_stop);
+  return COROT_OK;
+}
+
+/* (v, M^-1 r) at an end: ARKODE has it at that of its last step, but shows it only through an
+   interpolant of degree 2 or more, and evaluates r for one above 3. */
+static corot_status find_rate(runge_kutta *m, rk_end *e, bool of_last_step) {
+  driver *d = &m->driver;
+  if (e->rate_known) return COROT_OK;
+  if (of_last_step && m->order > 2) {
+    if (m->api->interpolate(m->memory, e->t, 1, e->rate))
+      return corot_driver_refuse(d, "interpolant");
+  } else {
+    m->nfe++;
+    if (corot_driver_rhs(e->t, e->y, e->rate, d))
+      return corot_driver_give_up(d, "in the state reached");
+  }
+  e->rate_known = true;
+  return COROT_OK;
+}
+
+/* --- Inside a step --------------------------------------------------------------------------- */
+
+/* y at the fraction s of the last step. */
+static void interpolate(const runge_kutta *m, double s, double *u, double *v) {
+  const corot_integrator *self = m->driver.self;
+  int n = corot_model_ndof(self->model);
+  double h = m->end.t - m->start.t, r = 1 - s;
+  const double *u0 = N_VGetArrayPointer(m->start.y), *v0 = u0 + n;
+  const double *u1 = N_VGetArrayPointer(m->end.y), *v1 = u1 + n;
+  const double *a0 = N_VGetArrayPointer(m->start.rate) + n;
+  const double *a1 = N_VGetArrayPointer(m->end.rate) + n;
+
+  /* of u1 - u0, h v, h^2 a, and their derivatives by s */
+  double p = s * s * s * (10 - 15 * s + 6 * s * s), dp = 30 * s * s * r * r;
+  double q0 = s * r * r * r * (1 + 3 * s), dq0 = r * r * (1 - 3 * s) * (1 + 5 * s);
+  double q1 = -r * s * s * s * (1 + 3 * r), dq1 = s * s * (1 - 3 * r) * (1 + 5 * r);
+  double k0 = s * s * r * r * r / 2, dk0 = s * r * r * (2 - 5 * s) / 2;
+  double k1 = r * r * s * s * s / 2, dk1 = -r * s * s * (2 - 5 * r) / 2;
+  for (int i = 0; u && i < n; i++)
+    u[i] = u0[i] + p * (u1[i] - u0[i]) + h * (q0 * v0[i] + q1 * v1[i]) +
+           h * h * (k0 * a0[i] + k1 * a1[i]);
+  for (int i = 0; v && i < n; i++)
+    v[i] = dp * (u1[i] - u0[i]) / h + dq0 * v0[i] + dq1 * v1[i] + h * (dk0 * a0[i] + dk1 * a1[i]);
+}
+
+/* Gauss' points and weights on (0, 1). */
+static const double gauss[RK_MOST_POINTS][RK_MOST_POINTS][2] = {
+    {{0.5, 1}},
+    {{0.2113248654051871, 0.5}, {0.7886751345948129, 0.5}},
+    {{0.1127016653792583, 5. / 18}, {0.5, 4. / 9}, {0.8872983346207417, 5. / 18}},
+    {{0.06943184420297371, 0.1739274225687269},
+     {0.3300094782075719, 0.3260725774312731},
+     {0.6699905217924281, 0.3260725774312731},
+     {0.9305681557970263, 0.1739274225687269}},
+};
+
+/* The powers at Gauss' points of the last step, whose rule is of the method's order or above. Where
+   the interpolant cannot be evaluated the end of the step stands in. */
+static corot_status measure_work(runge_kutta *m) {
+  driver *d = &m->driver;
+  int n = corot_model_ndof(d->self->model);
+  N_Vector y = m->error;
+  double *u = N_VGetArrayPointer(y), h = m->end.t - m->start.t;
+  const double *power = N_VGetArrayPointer(m->power), (*rule)[2] = gauss[m->npoint - 1];
+  double work[2] = {m->work_end[0], m->work_end[1]};
+  for (int k = 0; k < m->npoint; k++) {
+    interpolate(m, rule[k][0], u, u + n);
+    m->nfeQ++;
+    if (corot_driver_work_rate(m->start.t + rule[k][0] * h, y, m->power, d) &&
+        corot_driver_work_rate(m->end.t, m->end.y, m->power, d))
+      return corot_driver_give_up(d, corot_error());
+    for (int c = 0; c < 2; c++) {
+      m->powers[k][c] = power[c];
+      work[c] += rule[k][1] * h * power[c];
+    }
+  }
+  memcpy(m->work_start, m->work_end, sizeof work);
+  memcpy(m->work_end, work, sizeof work);
+  return COROT_OK;
+}
+
+corot_status corot_rk_at(corot_integrator *self, double t, double *u, double *v) {
+  const runge_kutta *m = self->method;
+  int n = corot_model_ndof(self->model);
+  if (t < m->end.t) {
+    interpolate(m, (t - m->start.t) / (m->end.t - m->start.t), u, v);
+    return COROT_OK;
+  }
+  const double *y = N_VGetArrayPointer(m->end.y);
+  if (u) memcpy(u, y, n * sizeof *u);
+  if (v) memcpy(v, y + n, n * sizeof *v);
+  return COROT_OK;
+}
+
+/* The integral from 0 to s of the polynomial that is 1 at Gauss' point k and 0 at the others, by
+   Gauss' own rule. */
+static double part_of_weight(const double (*rule)[2], int npoint, int k, double s) {
+  double sum = 0;
+  for (int j = 0; j < npoint; j++) {
+    double value = 1;
+    for (int i = 0; i < npoint; i++)
+      if (i != k) value *= (s * rule[j][0] - rule[i][0]) / (rule[k][0] - rule[i][0]);
+    sum += s * rule[j][1] * value;
+  }
+  return sum;
+}
+
+corot_status corot_rk_work(corot_integrator *self, double t, double *dissipated, double *external) {
+  const runge_kutta *m = self->method;
+  double work[2] = {m->work_end[0], m->work_end[1]}, h = m->end.t - m->start.t;
+  if (t < m->end.t) {
+    memcpy(work, m->work_start, sizeof work);
+    for (int k = 0; k < m->npoint; k++) {
+      double w = h * part_of_weight(gauss[m->npoint - 1], m->npoint, k, (t - m->start.t) / h);
+      for (int c = 0; c < 2; c++) work[c] += w * m->powers[k][c];
+    }
+  }
+  *dissipated = work[0];
+  *external = work[1];
+  return COROT_OK;
+}
+
+/* --- The operations -------------------------------------------------------------------------- */
+
+/* From m->start to m->end. */
+static corot_status cross(runge_kutta *m, double t_stop) {
+  driver *d = &m->driver;
+  if (m->stale) COROT_TRY(begin_afresh(m));
+  COROT_TRY(find_rate(m, &m->start, false));
+  COROT_TRY(advance(m, t_stop, &m->end.t));
+  N_VScale(1, d->y, m->end.y);
+  m->end.rate_known = false;
+  if (m->api->local_errors(m->memory, m->error) || m->api->error_weights(m->memory, m->weight))
+    return corot_driver_refuse(d, "statistics");
+  return find_rate(m, &m->end, true);
+}
+
+corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *step) {
+  runge_kutta *m = self->method;
+  driver *d = &m->driver;
+  COROT_TRY(corot_driver_check(d));
+  if (m->limit) corot_explicit_limit_follow(m->limit, self->t, N_VGetArrayPointer(d->y));
+  rk_end before = m->start;
+  m->start = m->end;
+  m->start.t = self->t; /* which may have moved on by rounding */
+  m->end = before;
+  corot_status status = cross(m, t_stop);
+  double error = status ? 0 : N_VWrmsNorm(m->error, m->weight);
+  if (!status) status = measure_work(m);
+  if (status) { /* of the step before only its end is left */
+    m->end = m->start;
+    m->start = before;
+    self->before = self->t;
+    return status;
+  }
+  long nni = 0;
+  if (m->api->nni) m->api->nni(m->memory, &nni);
+  *step =
+      (corot_step){.t = m->end.t, .order = m->order, .error = error, .newton = (int)(nni - m->nni)};
+  m->nni = nni;
+  return COROT_OK;
+}
+
+/* A method of one step has no history to lose but its interpolant: all it needs is r anew, which
+   it gets before the next step. */
+corot_status corot_rk_changed(corot_integrator *self, corot_history history) {
+  runge_kutta *m = self->method;
+  if (self->nst == 0) return COROT_OK;
+  m->stale = true;
+  m->end.rate_known = false;
+  if (history != COROT_HISTORY_RESTART || self->before == self->t) return COROT_OK;
+  m->first_step = self->def.first_step;
+  m->nrestart++;
+  m->driver.collapsed = false;
+  self->before = self->t;
+  return COROT_OK;
+}
+
+void corot_rk_statistics(const corot_integrator *self, corot_statistics *s) {
+  const runge_kutta *m = self->method;
+  const struct {
+    rk_count *get;
+    long *count;
+  } counts[] = {{m->api->nfe, &s->nfe},
+                {m->api->netf, &s->netf},
+                {m->api->nsetups, &s->nsetups},
+                {m->api->nni, &s->nni},
+                {m->api->ncfn, &s->ncfn}};
+  for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
+    if (counts[k].get) counts[k].get(m->memory, counts[k].count);
+  s->nfe += m->nfe;
+  s->nfeQ = m->nfeQ;
+  s->nrestart = m->nrestart;
+}
