@@ -1,0 +1,81 @@
+/* Slender bodies against theory: the elastica, and the column of Euler. Linear tets are too stiff
+   in bending, by a part that falls with the square of their size. */
+#include "strip.h"
+
+/* Mean displacement of the tip over the length; along and across. */
+static void bend(const char *strain, double alpha, int fineness, double tip[2]) {
+  strip_def of = {strain, 20, {40 << fineness, 2 << fineness}, {0, alpha}, 0};
+  body b = strip_create(&of);
+  corot_statics_def def = corot_statics_defaults();
+  corot_statics *s = begin(&b, &def);
+  double *u = malloc(b.n * sizeof *u);
+  assert_ok(corot_statics_solve(s));
+  corot_statics_at(s, u);
+  strip_tip(&b, u, tip);
+  free(u);
+  corot_statics_destroy(s);
+  drop_body(&b);
+}
+
+/* Cantilever with a dead load P at its tip, alpha = P L^2 / (E I) (Bisshopp & Drucker 1945;
+   Mattiasson 1981): deflection and shortening over L. The strip is 20 times as long as high and,
+   unlike the elastica, gives way to shear, alpha (h/L)^2 / 5 of its length, and to stretch. */
+static void the_elastica_is_approached(void **state) {
+  (void)state;
+  static const struct {
+    double alpha, down, back;
+  } table[] = {{1, 0.301721, 0.056433}, {2, 0.493457, 0.160642}, {4, 0.669964, 0.328941}};
+  const char *exact[] = {"polar", "green"};
+  for (int m = 0; m < 2; m++)
+    for (int k = 0; k < 3; k++) {
+      double tip[3][2];
+      for (int f = 0; f < 3; f++) bend(exact[m], table[k].alpha, f + 1, tip[f]);
+      double theory[2] = {-table[k].back, table[k].down};
+      /* What extrapolation leaves is shear and stretch. */
+      double slack = table[k].alpha / (5 * 20 * 20);
+      for (int c = 0; c < 2; c++) {
+        double coarse = fabs(theory[c] - tip[0][c]), middle = fabs(theory[c] - tip[1][c]);
+        double fine = fabs(theory[c] - tip[2][c]);
+        double limit = tip[2][c] + (tip[2][c] - tip[1][c]) / 3;
+        assert_above(coarse / middle, 3.2);
+        assert_above(middle / fine, 3.8);
+        assert_close(limit, theory[c], 0, 1.2 * slack);
+      }
+      assert_above(tip[2][1] + (tip[2][1] - tip[1][1]) / 3, theory[1] + 0.5 * slack);
+    }
+}
+
+/* The load, over Euler's pi^2 E I / (4 L^2), at which a clamped column loses its stability. */
+static double buckling_load(const char *strain, int fineness) {
+  const double euler = 2.4674011002723395, pressed = 1.6;
+  strip_def of = {strain, 20, {40 << fineness, 2 << fineness}, {-pressed * euler, 0}, 0};
+  body b = strip_create(&of);
+  corot_statics_def def = corot_statics_defaults();
+  corot_statics *s = begin(&b, &def);
+  double below, above;
+  assert_fails(corot_statics_solve(s), COROT_EINTEGRATE, "buckling");
+  corot_statics_critical(s, &below, &above);
+  assert_close(corot_statics_at(s, NULL), below, 0, 0);
+  assert_true(below < above && above - below <= 1e-3 * above);
+  corot_statics_destroy(s);
+  drop_body(&b);
+  return pressed * above;
+}
+
+static void a_column_buckles_under_eulers_load(void **state) {
+  (void)state;
+  const char *exact[] = {"polar", "hybrid", "green"};
+  for (int m = 0; m < 3; m++) {
+    double coarse = buckling_load(exact[m], 1), fine = buckling_load(exact[m], 2);
+    assert_true(coarse > fine && fine > 1 && fine < 1.06);
+    assert_close(fine - (coarse - fine) / 3, 1, 5e-3, 0);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_elastica_is_approached),
+      cmocka_unit_test(a_column_buckles_under_eulers_load),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
