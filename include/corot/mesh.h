@@ -77,7 +77,8 @@ typedef struct corot_box {
 } corot_box;
 
 /* Kuhn's split: the six tets of a cell are the paths from its low to its high corner along the
-   axes, so that neighbouring cells match and each octasection is again a Kuhn split (Bey 1995).
+   axes, so that neighbouring cells match. Octasection along the consistent diagonal is the Kuhn
+   split of cells of half the size (Bey 1995).
    Node (i,j,k) has the number i + (nx+1)(j + (ny+1)k). The six sides are groups
    xmin xmax ymin ymax zmin zmax. */
 corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
@@ -121,6 +122,51 @@ typedef struct corot_mesh_quality {
 } corot_mesh_quality;
 
 corot_mesh_quality corot_mesh_measure(const corot_mesh *mesh);
+
+/* Octasection: every tet is cut into eight of equal volume. The middles of its edges cut off four
+   corners; what remains is an octahedron, cut into four along one of its three diagonals. */
+typedef enum corot_diagonal {
+  /* Bey's (1995): inherited, so that a tet has descendants of at most three shapes, however often
+     and in however many calls it is refined. It is from the middle of edge 02 to that of edge 13;
+     or, where the tet's node numbers are an odd permutation of ascending ones, from edge 01 to 23.
+     Children have their nodes in such an order. */
+  COROT_DIAGONAL_CONSISTENT,
+  /* The shortest; the consistent one where no other is shorter. Better shapes on the average, but
+     more of them with every level. */
+  COROT_DIAGONAL_SHORTEST,
+} corot_diagonal;
+
+/* How a refined mesh descends from the unrefined one, level 0. */
+typedef struct corot_refinement {
+  int nlevel;
+  int *nnode; /* [nlevel + 1] the nodes of level l are those below nnode[l], of all finer levels */
+  int *ntet;  /* [nlevel + 1] ntet[0] times 8^l */
+  int (*parent)[2]; /* [nnode[nlevel] - nnode[0]] ends of the edge of which node nnode[0] + i is the
+                       middle: nodes of a coarser level, ascending */
+} corot_refinement;
+
+/* Refines `nlevel` >= 0 times; 0 copies. Neighbouring tets still share whole faces.
+
+   Nodes keep their numbers, and their positions to the last bit; the middles of the edges follow,
+   level by level, in ascending order of their two ends. Children 8 e to 8 e + 7 come from tet e,
+   the first four from its corners: node k of child 8 e + k is node k of e. New nodes lie on
+   straight edges: a curved surface stays as faceted as it was.
+
+   Groups keep their order. The children of a tet or triangle are in the groups of their parent,
+   and wind as it does. A new node is in the groups of which both its parents are nodes, with two
+   exceptions. Where both parents belong to triangles or tets of the group, their edge must be one
+   of these. Elsewhere in a group with no node inside the mesh, their edge must be on the boundary.
+   So a part of the surface does not spread across the inside, even if it is given by nodes alone;
+   but a section of a body so thin that it has no node inside is not filled up either: add such a
+   group to the refined mesh.
+
+   `refinement` may be NULL. COROT_EINVAL: there would be too many tets, or ones so flat that they
+   are none. Needs up to 50 bytes a tet of the result while it works. */
+corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel, corot_diagonal diagonal,
+                               corot_mesh **fine, corot_refinement **refinement);
+
+/* Takes NULL. */
+void corot_refinement_destroy(corot_refinement *refinement);
 
 #ifdef __cplusplus
 }

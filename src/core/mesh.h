@@ -63,6 +63,9 @@ corot_status corot_mesh_check_counts(int nnode, int ntet);
 corot_status corot_mesh_check(const corot_mesh *mesh, const corot_mesh_names *names,
                               corot_mesh_place *place, corot_face **face);
 
+/* Whether all tets have a positive volume and are not flat. */
+corot_status corot_mesh_check_volumes(const corot_mesh *mesh);
+
 /* Whether a group may be called so: 1 to 127 bytes, no double quotes, no control characters. */
 corot_status corot_group_name_check(const char *name);
 

@@ -91,6 +91,14 @@ static corot_status check_volume(const check *c, int e) {
   return COROT_OK;
 }
 
+corot_status corot_mesh_check_volumes(const corot_mesh *mesh) {
+  const corot_mesh_names names = {.tet = "tet"};
+  corot_mesh_place place;
+  check c = {mesh, &names, &place};
+  for (int e = 0; e < mesh->ntet; e++) COROT_TRY(check_volume(&c, e));
+  return COROT_OK;
+}
+
 static corot_status check_use(const check *c) {
   char *used;
   COROT_TRY(COROT_ALLOC(used, c->mesh->nnode));
