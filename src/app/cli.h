@@ -19,11 +19,13 @@ enum {
 /* Each gets the arguments from its own name on, prints data on stdout and messages on stderr, and
    returns the exit code. */
 int command_run(int argc, char **argv);
+int command_static(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_schema(int argc, char **argv);
 int command_mesh(int argc, char **argv);
 int command_mesh_box(int argc, char **argv);
 int command_mesh_info(int argc, char **argv);
+int command_mesh_refine(int argc, char **argv);
 
 typedef struct command {
   const char *name;

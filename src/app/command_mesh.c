@@ -9,11 +9,13 @@
 static const char help[] =
     "usage: corot mesh box ...\n"
     "       corot mesh info FILE\n"
+    "       corot mesh refine FILE ...\n"
     "\n"
     "example: corot mesh box --size 0.1,0.1,0.6 --cells 2,2,12 -o bar.msh\n";
 
 int command_mesh(int argc, char **argv) {
-  static const command table[] = {{"box", command_mesh_box}, {"info", command_mesh_info}, {0}};
+  static const command table[] = {
+      {"box", command_mesh_box}, {"info", command_mesh_info}, {"refine", command_mesh_refine}, {0}};
   return dispatch("corot mesh", help, table, argc, argv);
 }
 

@@ -111,8 +111,9 @@ static void print_uses(const scenario *s, const char *group, FILE *out) {
 
 static void print_mesh(const scenario *s, const facts *f, FILE *out) {
   const corot_mesh_quality *q = &f->quality;
-  fprintf(out, "mesh           %s: %d nodes, %d tets, %.6g m^3\n",
-          s->mesh_file ? s->mesh_file : "box", f->mesh->nnode, f->mesh->ntet, q->volume);
+  fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "box");
+  if (s->refine > 0) fprintf(out, ", refine %d", s->refine);
+  fprintf(out, ": %d nodes, %d tets, %.6g m^3\n", f->mesh->nnode, f->mesh->ntet, q->volume);
   fprintf(out, "extent         [%g, %g] x [%g, %g] x [%g, %g] m\n", q->min[0], q->max[0], q->min[1],
           q->max[1], q->min[2], q->max[2]);
   fprintf(out, "shape          mean %.3f, worst %.3f (tet %d)\n", q->shape_mean, q->shape_min,
@@ -221,6 +222,7 @@ static json_t *mesh_json(const scenario *s, const facts *f) {
   json_t *j = json_pack("{s:i, s:i, s:f}", "nodes", f->mesh->nnode, "tets", f->mesh->ntet, "volume",
                         q->volume);
   j = json_text_with(j, "file", s->mesh_file ? json_text_string(s->mesh_file) : json_null());
+  j = json_text_with(j, "refine", json_integer(s->refine));
   j = json_text_with(j, "min", json_pack("[f, f, f]", q->min[0], q->min[1], q->min[2]));
   j = json_text_with(j, "max", json_pack("[f, f, f]", q->max[0], q->max[1], q->max[2]));
   return json_text_with(j, "shape",

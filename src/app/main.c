@@ -13,10 +13,12 @@ static const char help[] =
     "usage: corot COMMAND ...\n"
     "\n"
     "  run MODEL.yaml       integrate a scenario and write its tables and fields\n"
+    "  static MODEL.yaml    find its equilibrium under the full loads instead\n"
     "  check MODEL.yaml     say what is wrong with a scenario, or what it amounts to\n"
     "  schema [KEY]         every key of a scenario: type, unit, default, meaning\n"
     "  mesh box             generate the mesh of a box\n"
     "  mesh info FILE       size, shape and groups of a mesh\n"
+    "  mesh refine FILE     cut every tet into eight\n"
     "\n"
     "  corot COMMAND --help, corot --version\n"
     "\n"
@@ -40,8 +42,13 @@ static void hold_standard_streams(void) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},   {"check", command_check},     {"schema", command_schema},
-      {"mesh", command_mesh}, {"--version", print_version}, {0},
+      {"run", command_run},
+      {"static", command_static},
+      {"check", command_check},
+      {"schema", command_schema},
+      {"mesh", command_mesh},
+      {"--version", print_version},
+      {0},
   };
   hold_standard_streams();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */

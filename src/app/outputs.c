@@ -160,6 +160,8 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
   COROT_TRY(take_energies(o, state, now, &row));
   if (frame) COROT_TRY(take_fields(o, state, now));
   corot_nodal(o->model, now->t, now->u, now->v, o->value.displacement, o->value.velocity);
+  if (now->still)
+    memset(o->value.velocity, 0, corot_model_mesh(o->model)->nnode * sizeof *o->value.velocity);
 
   o->ledger = row;
   o->count++;

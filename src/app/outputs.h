@@ -13,6 +13,7 @@ typedef struct instant {
   const double *u, *v;              /* [n] */
   double dissipated, external_work; /* from the start to t [J] */
   double frame_energy;              /* put in by frame updates so far [J] */
+  bool still;                       /* nothing moves, whatever supports do at t */
 } instant;
 
 /* Makes `dir`, removes what an earlier run left there, and begins the files. Scenario and model

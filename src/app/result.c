@@ -7,6 +7,7 @@
 
 #include "folder.h"
 #include "json_text.h"
+#include "result_statics.h"
 
 #if defined(__clang__)
 #define COMPILER "clang " __clang_version__
@@ -159,15 +160,18 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
                          json_t **out) {
   const hashes *h = &run->hashes;
   json_t *result = json_pack(
-      "{s:o, s:s, s:o, s:i, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o,"
+      "{s:o, s:s, s:o, s:i, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o,"
       " s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "exit_code",
       run->exit_code, "t_reached", real(run->t_reached), "t_end", real(s->t_end), "strain",
       corot_model_strain(run->model), "mesh", mesh_part(s, run->model), "frames",
-      frames_part(s, run), "integrator", integrator_part(s, &run->chosen), "statistics",
-      statistics_part(run), "timings", timings_part(run), "memory", memory_part(run), "probes",
-      probes_part(o), "energy", energy_part(o), "versions", versions_part(), "hashes", "scenario",
-      h->scenario, "mesh", h->mesh, "run", h->run, "scenario", s->resolved);
+      run->statics ? json_null() : frames_part(s, run), "integrator",
+      run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
+      run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
+      run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
+      timings_part(run), "memory", memory_part(run), "probes", probes_part(o), "energy",
+      energy_part(o), "versions", versions_part(), "hashes", "scenario", h->scenario, "mesh",
+      h->mesh, "run", h->run, "scenario", s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
   return COROT_OK;

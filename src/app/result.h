@@ -12,6 +12,15 @@ typedef struct frame_totals {
   double energy;                /* put in [J] */
 } frame_totals;
 
+/* What a search for an equilibrium has to say beside that. */
+typedef struct statics_summary {
+  corot_statics_counts counts;
+  const char *linear_solver;
+  double factor;           /* reached */
+  double stable, unstable; /* load factors between which stability was lost; NaN: nowhere */
+  json_t *steps;           /* a list with an object for each load step */
+} statics_summary;
+
 /* What a run has to say when it is over. */
 typedef struct run_summary {
   const char *status; /* "ok", "failed", "interrupted" */
@@ -23,6 +32,8 @@ typedef struct run_summary {
   corot_statistics statistics;
   corot_integrator_choice chosen;
   frame_totals frames;
+  const statics_summary *statics; /* NULL: a run; else `statistics` has the timings only, `chosen`
+                                     and `frames` nothing */
   double setup_s, frames_s, output_s, wall_s, cpu_s; /* [s] */
   hashes hashes;
 } run_summary;

@@ -1,8 +1,6 @@
 #include "run.h"
 
-#include <locale.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,9 +10,9 @@
 #include "outputs.h"
 #include "progress.h"
 #include "result.h"
+#include "run_common.h"
 #include "schedule.h"
-
-enum { EXIT_SIGNAL = 128 }; /* and the number of the signal that ended the run */
+#include "static.h"
 
 typedef struct run {
   const scenario *scenario;
@@ -34,10 +32,6 @@ typedef struct run {
   double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
 } run;
 
-static volatile sig_atomic_t stop_signal;
-
-void run_interrupt(int signal_number) { stop_signal = signal_number; }
-
 /* Before the first step: nothing is written yet. */
 
 static corot_status start_integrator(run *r) {
@@ -48,6 +42,7 @@ static corot_status start_integrator(run *r) {
   if (!r->u || !r->v) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
 
   COROT_TRY(corot_state_create(r->model, &r->state));
+  if (s->start_at_equilibrium) COROT_TRY(static_start(s, r->model, r->u));
   corot_state_enter(r->state, 0);
   COROT_TRY(schedule_create(r->model, s->t_end, s->output_step, &r->schedule));
   COROT_TRY(
@@ -172,7 +167,7 @@ static corot_status handle_events(run *r, step_row *row) {
 
 static corot_status integrate(run *r) {
   COROT_TRY(write_outputs(r, 0));
-  while (!schedule_over(r->schedule, r->t) && !stop_signal) {
+  while (!schedule_over(r->schedule, r->t) && !run_stop_signal()) {
     corot_step step;
     double stop = schedule_stop(r->schedule, corot_frame_clock_stop(r->clock));
     prepare_step(r);
@@ -191,13 +186,6 @@ static corot_status integrate(run *r) {
 }
 
 /* After the last step. */
-
-static int exit_code(corot_status status) {
-  if (status == COROT_OK) return EXIT_OK;
-  if (status == COROT_EINVAL || status == COROT_EFORMAT) return EXIT_SCENARIO;
-  if (status == COROT_ENOMEM || status == COROT_EIO) return EXIT_SYSTEM;
-  return EXIT_INTEGRATOR;
-}
 
 /* How far the answer goes. */
 static double reached(const run *r) { return fmin(r->t, r->scenario->t_end); }
@@ -225,20 +213,6 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
   return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
 }
 
-static corot_status write_result(const run *r, const run_summary *summary) {
-  json_t *result = NULL;
-  COROT_TRY(result_make(r->scenario, r->outputs, summary, &result));
-  char *text = NULL;
-  corot_status status = result_text(result, &text);
-  json_decref(result);
-  COROT_TRY(status);
-  status = result_write(r->options->dir, text);
-  if (r->options->json && (fputs(text, stdout) == EOF || fflush(stdout) == EOF))
-    status = corot_fail(COROT_EIO, "stdout: cannot write");
-  free(text);
-  return status;
-}
-
 static void tell(const run *r, const run_summary *summary) {
   const char *path = r->scenario->path, *dir = r->options->dir;
   if (summary->reason)
@@ -253,14 +227,13 @@ static void tell(const run *r, const run_summary *summary) {
 /* Closes the books after a run that ended with `status`; returns the exit code. */
 static int conclude(run *r, corot_status status) {
   char reason[1024] = "";
-  int code = exit_code(status);
+  int code = run_exit_code(status);
   if (code != 0) {
     snprintf(reason, sizeof reason, "%s", corot_error());
-  } else if (stop_signal && !schedule_over(r->schedule, r->t)) {
-    snprintf(reason, sizeof reason, "interrupted by signal %d", (int)stop_signal);
-    code = EXIT_SIGNAL + stop_signal;
+  } else if (run_stop_signal() && !schedule_over(r->schedule, r->t)) {
+    code = run_interrupted(sizeof reason, reason);
   }
-  stop_signal = 0;
+  run_forget_signal();
   progress_clear(&r->progress);
 
   /* What could be written before can be written now; if it cannot, the first reason stands. */
@@ -269,19 +242,19 @@ static int conclude(run *r, corot_status status) {
   corot_status closed = outputs_close(r->outputs);
   if (late == COROT_OK) late = closed;
   if (code == 0 && late != COROT_OK) {
-    code = exit_code(late);
+    code = run_exit_code(late);
     snprintf(reason, sizeof reason, "%s", corot_error());
   }
 
   run_summary summary;
   late = summarize(r, reason, code, &summary);
-  if (late == COROT_OK) late = write_result(r, &summary);
+  if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) fprintf(stderr, "%s\n", corot_error());
   tell(r, &summary);
-  return late != COROT_OK && code == 0 ? exit_code(late) : code;
+  return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
 }
 
-static int run_in_c_locale(const scenario *s, const run_options *options) {
+static int integrate_scenario(const scenario *s, const run_options *options) {
   run r = {.scenario = s, .options = options, .shown = -1};
   r.wall_at_start = wall_clock();
   r.cpu_at_start = cpu_clock();
@@ -290,10 +263,11 @@ static int run_in_c_locale(const scenario *s, const run_options *options) {
   corot_status status = prepare(&r);
   if (status != COROT_OK) {
     fprintf(stderr, "%s\n", corot_error());
-    code = status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
+    bool lost = status == COROT_EINTEGRATE; /* no equilibrium to start from */
+    code = lost ? EXIT_INTEGRATOR : status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
   } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
     fprintf(stderr, "%s\n", corot_error());
-    code = exit_code(status);
+    code = run_exit_code(status);
   } else {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
     code = conclude(&r, integrate(&r));
@@ -303,14 +277,5 @@ static int run_in_c_locale(const scenario *s, const run_options *options) {
 }
 
 int run_scenario(const scenario *s, const run_options *options) {
-  locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-  if (!plain) {
-    fprintf(stderr, "out of memory\n");
-    return EXIT_SYSTEM;
-  }
-  locale_t before = uselocale(plain);
-  int code = run_in_c_locale(s, options);
-  uselocale(before);
-  freelocale(plain);
-  return code;
+  return run_in_c_locale(integrate_scenario, s, options);
 }

@@ -23,6 +23,7 @@ static const char *beside(config *tree, const char *path, const char *file) {
 static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root;
   config_node *box = config_find(root, "mesh.box");
+  s->refine = (int)number_at(root, "mesh.refine");
   if (!box) {
     config_node *file = config_find(root, "mesh.file");
     if (!*file->text) return config_fail(file, "the name is empty");
@@ -209,6 +210,7 @@ static corot_status read_all(scenario *s, const char *path, int noverride, char 
   COROT_TRY(scenario_read_conditions(s));
   COROT_TRY(read_time(s));
   COROT_TRY(scenario_read_method(s));
+  COROT_TRY(scenario_read_statics(s));
   COROT_TRY(read_compare(s));
   COROT_TRY(read_probes(s));
   read_output(s);

@@ -3,6 +3,7 @@
 #define COROT_APP_SCENARIO_H
 
 #include <corot/integrate.h>
+#include <corot/statics.h>
 #include <jansson.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -32,6 +33,7 @@ typedef struct scenario {
 
   const char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
   corot_box box;
+  int refine; /* times */
   int ngroup;
   const group_def *group;
 
@@ -55,6 +57,8 @@ typedef struct scenario {
   double t_end;       /* [s] */
   double output_step; /* [s] */
   corot_integrator_def integrator;
+  corot_statics_def statics;
+  bool start_at_equilibrium; /* of the loads at t = 0; else at rest */
 
   int ncompare;
   const char *const *compare; /* measures whose forces are held against those of green */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "config.h"
+#include "refine.h"
 #include "scenario.h"
 #include "suggest.h"
 
@@ -31,9 +32,11 @@ static corot_status add_group(const group_def *g, corot_mesh *mesh) {
   }
 }
 
-static corot_status add_groups(const scenario *s, corot_mesh *mesh) {
+/* Those by numbers of nodes, or the others. */
+static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *mesh) {
   const config_node *node = place(s, "groups")->child;
   for (int i = 0; i < s->ngroup; i++, node = node->next) {
+    if ((s->group[i].kind == GROUP_NODES) != by_number) continue;
     corot_status status = add_group(&s->group[i], mesh);
     if (status == COROT_ENOMEM) return status;
     if (status != COROT_OK) return config_fail_key(node, "%s", corot_error());
@@ -41,10 +44,20 @@ static corot_status add_groups(const scenario *s, corot_mesh *mesh) {
   return COROT_OK;
 }
 
+static corot_status refine(const scenario *s, corot_mesh **mesh) {
+  if (s->refine == 0) return COROT_OK;
+  corot_status status = refine_mesh(s->refine, COROT_DIAGONAL_CONSISTENT, mesh);
+  if (status == COROT_OK || status == COROT_ENOMEM) return status;
+  return config_fail(place(s, "mesh.refine"), "%s", corot_error());
+}
+
+/* Numbers of nodes are those of the unrefined mesh, and the refined one inherits their groups. */
 static corot_status build_mesh(const scenario *s, corot_mesh **out) {
   corot_mesh *mesh = NULL;
   COROT_TRY(load_mesh(s, &mesh));
-  corot_status status = add_groups(s, mesh);
+  corot_status status = add_groups(s, true, mesh);
+  if (status == COROT_OK) status = refine(s, &mesh);
+  if (status == COROT_OK) status = add_groups(s, false, mesh);
   if (status == COROT_OK)
     *out = mesh;
   else

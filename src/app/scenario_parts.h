@@ -15,6 +15,9 @@ corot_status scenario_read_conditions(scenario *s);
 /* viscosity, frames, integrator and linear_solver */
 corot_status scenario_read_method(scenario *s);
 
+/* start and statics, after linear_solver */
+corot_status scenario_read_statics(scenario *s);
+
 static inline corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 static inline double number_at(config_node *node, const char *path) {

@@ -39,7 +39,6 @@ typedef enum schema_range {
   SCHEMA_ORDER,        /* 1 to 5 */
   SCHEMA_STAGE_ORDER,  /* 2 to 8 */
   SCHEMA_POISSON,      /* > -1 and < 0.5 */
-  SCHEMA_ZERO_FOR_NOW, /* 0; anything else is not yet supported */
 } schema_range;
 
 typedef struct schema_key {
@@ -50,7 +49,6 @@ typedef struct schema_key {
   const char *unit;     /* "" without one */
   const char *fallback; /* the default in YAML; NULL: none */
   const char *words;    /* "a|b|c", see schema_type */
-  const char *not_yet;  /* words that are refused for now, likewise */
   const char *doc;
 } schema_key;
 

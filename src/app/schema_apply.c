@@ -109,8 +109,6 @@ static corot_status check_number(config_node *node, schema_range range) {
     return expected(node,
                     digits ? "a finite number in decimal, such as 1.5 or 1.0e-3" : "a number");
   }
-  if (range == SCHEMA_ZERO_FOR_NOW && node->number != 0)
-    return config_fail(node, "%s is not yet supported; only 0 is", node->text);
   if (!in_range(node->number, range))
     return config_fail(node, "must be %s, found %s", schema_range_words(range), node->text);
   return COROT_OK;
@@ -155,8 +153,6 @@ static corot_status check_choice(const config_node *node, const schema_key *key)
   comma_list(key->words, sizeof list, list);
   if (node->kind != CONFIG_SCALAR) return expected(node, list);
   if (among(node->text, key->words)) return COROT_OK;
-  if (among(node->text, key->not_yet))
-    return config_fail(node, "%s is not yet supported; for now: %s", node->text, list);
   suggest_among(node->text, key->words, sizeof near, near);
   if (*near) return config_fail(node, "unknown: %.40s; did you mean %s?", node->text, near);
   return config_fail(node, "expected one of %s; found %.40s", list, node->text);

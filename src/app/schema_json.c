@@ -30,8 +30,6 @@ static json_t *ranged(const char *type, schema_range range) {
     case SCHEMA_POISSON:
       return json_text_with(json_text_with(s, "exclusiveMinimum", json_integer(-1)),
                             "exclusiveMaximum", json_real(0.5));
-    case SCHEMA_ZERO_FOR_NOW:
-      return json_text_with(s, "const", json_integer(0));
     default:
       return s;
   }

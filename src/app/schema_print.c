@@ -72,7 +72,6 @@ static void print_key(const schema_key *key, FILE *out) {
     bool alternative = key->type == SCHEMA_NUMBER || key->type == SCHEMA_INTEGER;
     fputs(alternative ? " [or " : " [", out);
     print_words(key->words, out);
-    if (key->not_yet) fputs("; not yet: ", out), print_words(key->not_yet, out);
     fputc(']', out);
   }
   fputc('\n', out);

@@ -203,9 +203,9 @@ const char *const frame_reason_words[FRAME_REASONS] = {
 };
 
 static void add_events(table *t, unsigned events) {
-  static const char *const word[] = {"kink", "frames", "restart", "failed"};
+  static const char *const word[] = {"kink", "frames", "restart", "failed", "rejected"};
   char cell[64] = "";
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 5; i++) {
     if (!(events & 1u << i)) continue;
     if (cell[0]) strcat(cell, "+");
     strcat(cell, word[i]);

@@ -28,7 +28,8 @@ corot_status probes_row(table *probes, double t, int nprobe, const int *node,
      kinetic        at t [J]
      elastic        at t [J]
      dissipated     by damping, from the start to t [J]
-     external_work  by loads, from the start to t [J]
+     external_work  by loads and moving supports, from the start to t [J]; of statics, by the
+                    trapezoidal rule over the load steps, to which `balance` then belongs
      balance        kinetic + elastic + dissipated - external_work - frame_energy, less what there
                     was at the start [J]: the integration's error in energy
      frame_energy   put in by the updates of held frames, from the start to t [J]: an error of the
@@ -56,12 +57,14 @@ corot_status energy_row(table *energy, const ledger *row);
                       frames    the held or extrapolated frames were updated
                       restart   the integrator dropped its history
                       failed    the update failed, and the run ended
+                      rejected  longer steps were tried before, and refused (statics)
      angle_max, angle_mean       largest and mean turn of a frame in that update [rad]
      frame_energy   elastic energy that update put in [J]
      reason         of the update: step, interval, angle, cap (as far as an extrapolation may
                     go) or hook; the last four are empty without one */
 
-enum { EVENT_KINK = 1, EVENT_FRAMES = 2, EVENT_RESTART = 4, EVENT_FAILED = 8 };
+enum { EVENT_KINK = 1, EVENT_FRAMES = 2, EVENT_RESTART = 4, EVENT_FAILED = 8,
+       EVENT_REJECTED = 16 };
 
 typedef struct step_row {
   double t, h;

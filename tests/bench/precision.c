@@ -69,6 +69,7 @@ typedef struct result {
 static corot_integrator_def with_order(const char *method, int max_order, int order) {
   corot_integrator_def def = corot_integrator_defaults();
   def.method = method, def.max_order = max_order, def.order = order;
+  def.newton_tolerance = 1e-7; /* of the methods of constant step: below any error shown */
   return def;
 }
 

@@ -29,6 +29,13 @@ out "base: 4 nodes, 2 triangles, 0 tets; rotated"; out "0 tets; pressure"
 out "frames: extrapolate, beyond 0.5 rad"
 out "bdf2, steps of 0.01 s, one linear solve each, linear solver pcg"
 
+# Refined: groups by position see the new nodes.
+expect 0 check model.yaml --set mesh.refine=1; no_err
+out "box, refine 1: 45 nodes, 96 tets, 0.002 m^3"; out "base: 9 nodes, 8 triangles"
+out "mass           2 kg"
+expect 0 check model.yaml --set mesh.refine=2 --json
+json 'd["mesh"]["refine"] == 2 and d["mesh"]["tets"] == 768'
+
 # A mesh lies beside its scenario, wherever the tool is called from.
 mkdir sub
 expect 0 mesh box --size 0.1,0.1,0.2 --cells 1,1,2 -o sub/block.msh
@@ -49,7 +56,8 @@ expect 3 check bad.yaml; err "bad.yaml:7:34: boundary[0].rotate.axis: [0, 0, 0] 
 sed '7a\  - {group: xmin, translate: {velocity: [1, 0, 0]}}' model.yaml >bad.yaml
 expect 3 check bad.yaml; no_out
 err "bad.yaml:8:13: boundary[1].group: node 0 of xmin cannot be moved: it is in base, too"
-expect 3 check model.yaml --set mesh.refine=1; err "not yet supported"
+expect 3 check model.yaml --set mesh.refine=20; no_out
+err "--set mesh.refine=20: mesh.refine: refining 12 tets 20 times makes 1.38e+19"
 printf 'mesh: {file: none.msh}\n' >bad.yaml
 sed 1,2d model.yaml >>bad.yaml
 expect 3 check bad.yaml; no_out; err "bad.yaml:1:14: mesh.file: none.msh"; err "  mesh: {file: none.msh}"

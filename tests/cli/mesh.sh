@@ -17,6 +17,29 @@ expect 2 mesh box --size 1,1,1 --cells 1,1,1 -o x.msh y; err "unexpected: y"
 expect 5 mesh box --size 1,1,1 --cells 1,1,1 -o none/x.msh; err "none/x.msh"
 [ ! -e x.msh ] || complain "x.msh was written"
 
+expect 0 mesh refine box.msh --levels 2 -o fine.msh; no_out
+err "box.msh: 117 nodes, 288 tets; shape mean 0."; err "fine.msh: 3969 nodes, 18432 tets; shape"
+expect 0 mesh info fine.msh
+out "[-1, -0.9] x [0, 0.1] x [0.1, 0.7]"; out "zmax: 81 nodes, 128 triangles"
+expect 0 mesh refine box.msh -o once.msh
+expect 0 mesh refine once.msh -o twice.msh
+cmp -s fine.msh twice.msh || complain "twice one level is not two levels"
+expect 0 mesh refine box.msh --diagonal shortest -o fine.msh; err "2304 tets"
+expect 0 mesh refine --help; no_err; out "example: corot mesh refine"
+
+rm fine.msh
+expect 2 mesh refine box.msh; err "-o FILE is missing"
+expect 2 mesh refine -o fine.msh; err "expected one mesh file, found 0"
+expect 2 mesh refine box.msh --levels -1 -o fine.msh; err "--levels -1: expected a whole number >= 0"
+expect 2 mesh refine box.msh --levels 1.5 -o fine.msh; err "--levels 1.5"
+expect 2 mesh refine box.msh --diagonal long -o fine.msh
+err "--diagonal long: expected consistent or shortest"
+expect 3 mesh refine box.msh --levels 7 -o fine.msh
+err "box.msh: refining 288 tets 7 times makes 6.04e+08, "
+expect 3 mesh refine none.msh -o fine.msh; err "none.msh"; no_out
+[ ! -e fine.msh ] || complain "fine.msh was written"
+expect 5 mesh refine box.msh -o none/fine.msh; err "none/fine.msh"
+
 expect 3 mesh info none.msh; err "none.msh"; no_out
 echo garbage >bad.msh
 expect 3 mesh info bad.msh; err "bad.msh"; no_out

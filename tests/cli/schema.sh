@@ -1,7 +1,7 @@
 . "$(dirname "$0")/lib.sh"
 
 expect 0 schema; no_err
-out "integrator.rtol"; out "kg/m^3"; out "not yet"; out "cauchy, green, polar, warp, hybrid"
+out "integrator.rtol"; out "kg/m^3"; out "cauchy, green, polar, warp, hybrid"
 out "frames.max_angle"; out "boundary[].rotate.axis"; out "generalized-alpha"; out "compare"
 expect 0 schema integrator.atol; no_err
 out "integrator.atol.velocity"

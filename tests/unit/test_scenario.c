@@ -78,6 +78,9 @@ static const char everything[] =
     "  jacobian: {tangent: exact, reassembly: 3, refactorisation: 4, gamma_change: 0.5},\n"
     "  solution: linear, newton: {tolerance: 1e-7, iterations: 9}, spectral_radius: 0.25}\n"
     "linear_solver: {name: pcg, tolerance: 1e-3}\n"
+    "start: equilibrium\n"
+    "statics: {frames: held, tolerance: 1e-8, max_iterations: 33, first_step: 0.5,\n"
+    "  min_step: 1e-3, max_step: 0.75}\n"
     "compare: [polar, cauchy]\n"
     "probes:\n"
     "  corner: {point: [1, 2, 3]}\n"
@@ -117,6 +120,20 @@ static void all_keys(void **state) {
   assert_string_equal(s->compare[0], "polar");
   assert_string_equal(s->compare[1], "cauchy");
   assert_string_equal(s->compare[2], "hybrid"); /* the run's own */
+  scenario_destroy(s);
+}
+
+static void all_keys_of_statics(void **state) {
+  (void)state;
+  scenario *s = accept(everything);
+  assert_true(s->start_at_equilibrium);
+  assert_string_equal(s->statics.linear.solver, "pcg");
+  assert_int_equal(s->statics.frames, COROT_FRAMES_HELD);
+  assert_close(s->statics.tolerance, 1e-8, 0, 0);
+  assert_int_equal(s->statics.max_iterations, 33);
+  assert_close(s->statics.first_step, 0.5, 0, 0);
+  assert_close(s->statics.min_step, 1e-3, 0, 0);
+  assert_close(s->statics.max_step, 0.75, 0, 0);
   scenario_destroy(s);
 }
 
@@ -433,6 +450,8 @@ static void resolved_values(void **state) {
       "\"auto\","
       "\"gamma_change\":\"auto\",\"convergence\":\"auto\"}},\"linear_solver\":{\"name\":\"auto\","
       "\"ordering\":\"auto\",\"factor\":\"auto\",\"preconditioner\":\"auto\",\"tolerance\":1e-10},"
+      "\"start\":\"rest\",\"statics\":{\"frames\":\"exact\",\"tolerance\":1e-10,"
+      "\"max_iterations\":20,\"first_step\":1.0,\"min_step\":0.0001,\"max_step\":1.0},"
       "\"probes\":{},\"output\":{\"fields\":"
       "\"vtu\",\"every\":1}}");
   free(text);
@@ -646,6 +665,7 @@ int main(void) {
       cmocka_unit_test(defaults),
       cmocka_unit_test(all_keys),
       cmocka_unit_test(all_keys_of_loads_and_run),
+      cmocka_unit_test(all_keys_of_statics),
       cmocka_unit_test(all_keys_of_boundary),
       cmocka_unit_test(frame_policies),
       cmocka_unit_test(methods_of_constant_step),

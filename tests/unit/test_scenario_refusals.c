@@ -129,6 +129,9 @@ static void out_of_range(void **state) {
        "1:24: mesh.box.size[1]: must be > 0"},
       {"mesh: {box: {size: [1, 1, 1], cells: [1, 0, 1]}}\n" MATERIAL TIME,
        "1:42: mesh.box.cells[1]: must be > 0"},
+      {"mesh: {file: a.msh, refine: -1}\n" MATERIAL TIME,
+       "1:29: mesh.refine: must be >= 0, found -1"},
+      {"mesh: {file: a.msh, refine: 0.5}\n" MATERIAL TIME, "1:29: mesh.refine: expected a whole"},
       {MINIMAL "loads: [{gravity: [0, 0, 1], amplitude: [[0, 0], [0, 1]]}]",
        "4:51: loads[0].amplitude[1][0]: times must increase, but 0 follows 0"},
       {MINIMAL "loads: [{gravity: [0, 0, 1], amplitude: [[0, 0, 1]]}]",
@@ -243,14 +246,21 @@ static void motions_together(void **state) {
   refuse_all(sizeof r / sizeof *r, r);
 }
 
-static void not_yet(void **state) {
+static void methods_and_their_orders(void **state) {
   (void)state;
   static const refusal r[] = {
-      {"mesh: {file: a.msh, refine: 1}\n" MATERIAL TIME,
-       "1:29: mesh.refine: 1 is not yet supported; only 0 is"},
-      {MINIMAL "integrator: {method: arkode}",
-       "4:22: integrator.method: arkode is not yet supported; for now: cvode, ida, backward-euler, "
-       "bdf2, bdf3, midpoint, newmark, hht, generalized-alpha"},
+      {MINIMAL "integrator: {method: cvode, max_order: 6}",
+       "4:40: integrator.max_order: must be 1 to 5, found 6"},
+      {MINIMAL "integrator: {method: arkode, max_order: 4}",
+       "4:30: integrator.max_order: arkode has one order: see integrator.order"},
+      {MINIMAL "integrator: {method: arkode, order: 6}",
+       "4:37: integrator.order: must be 2 to 5 for arkode, found 6"},
+      {MINIMAL "integrator: {method: erk, order: 9}",
+       "4:34: integrator.order: must be 2 to 8, found 9"},
+      {MINIMAL "integrator: {method: erk, order: 4, table: ARKODE_ZONNEVELD_5_3_4}",
+       "4:37: integrator.table: has an order of its own: give order or table"},
+      {MINIMAL "integrator: {method: ida, step: 0.1}",
+       "4:27: integrator.step: ida chooses its own steps; see first_step, max_step"},
   };
   for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
     scenario *s = NULL;
@@ -343,7 +353,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(unknown_keys),     cmocka_unit_test(wrong_types),
       cmocka_unit_test(out_of_range),     cmocka_unit_test(keys_together),
-      cmocka_unit_test(motions_together), cmocka_unit_test(not_yet),
+      cmocka_unit_test(motions_together), cmocka_unit_test(methods_and_their_orders),
       cmocka_unit_test(malformed),        cmocka_unit_test(hostile),
       cmocka_unit_test(excerpts),
   };

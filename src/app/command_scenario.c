@@ -1,0 +1,83 @@
+#include "command_scenario.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
+    {"quiet", no_argument, NULL, 'q'},        {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},         {0},
+};
+
+/* "out/NAME" for "some/folder/NAME.yaml"; the caller's to free. */
+static char *default_folder(const char *path) {
+  const char *slash = strrchr(path, '/');
+  const char *name = slash ? slash + 1 : path;
+  const char *dot = strrchr(name, '.');
+  size_t length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+  char *folder = malloc(length + sizeof "out/");
+  if (folder) snprintf(folder, length + sizeof "out/", "out/%.*s", (int)length, name);
+  return folder;
+}
+
+/* A second signal ends the program at once. */
+static void heed_signals(void) {
+  struct sigaction action = {.sa_handler = run_interrupt, .sa_flags = SA_RESTART | SA_RESETHAND};
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+static int read_and_go(scenario_action *go, const char *path, int noverride, char **override,
+                       run_options *o) {
+  scenario *s = NULL;
+  if (scenario_read(path, noverride, override, &s)) {
+    failure(COROT_EFORMAT);
+    return EXIT_SCENARIO;
+  }
+  char *folder = o->dir ? NULL : default_folder(path);
+  if (folder) o->dir = folder;
+  int code = EXIT_SYSTEM;
+  if (o->dir) {
+    heed_signals();
+    code = go(s, o);
+  } else {
+    fputs("out of memory\n", stderr);
+  }
+  free(folder);
+  scenario_destroy(s);
+  return code;
+}
+
+int command_scenario(const char *program, const char *help, scenario_action *go, int argc,
+                     char **argv) {
+  run_options o = {.progress = true};
+  char **override = calloc((size_t)argc, sizeof *override);
+  if (!override) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
+  int noverride = 0, code = -1;
+  opterr = 0;
+  for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":o:qh", options, NULL)) != -1;) {
+    if (answer == 'o')
+      o.dir = optarg;
+    else if (answer == 's')
+      override[noverride++] = optarg;
+    else if (answer == 'q')
+      o.quiet = true, o.progress = false;
+    else if (answer == 'j')
+      o.json = true;
+    else if (answer == 'h')
+      fputs(help, stdout), code = EXIT_OK;
+    else
+      code = option_error(program, answer, argv, options);
+  }
+  if (code < 0 && argc - optind != 1)
+    code = usage_error(program, "expected one scenario, found %d", argc - optind);
+  if (code < 0 && o.dir && !*o.dir) code = usage_error(program, "--output: the name is empty");
+  if (code < 0) code = read_and_go(go, argv[optind], noverride, override, &o);
+  free(override);
+  return code;
+}

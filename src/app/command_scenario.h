@@ -1,0 +1,14 @@
+/* What the commands that carry out a scenario share: their options. */
+#ifndef COROT_APP_COMMAND_SCENARIO_H
+#define COROT_APP_COMMAND_SCENARIO_H
+
+#include "run.h"
+
+/* Writes a folder and returns an exit code; run_scenario is one. */
+typedef int scenario_action(const scenario *s, const run_options *options);
+
+/* "PROGRAM MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--quiet] [--json]". */
+int command_scenario(const char *program, const char *help, scenario_action *go, int argc,
+                     char **argv);
+
+#endif

@@ -1,0 +1,26 @@
+#include "cli.h"
+#include "command_scenario.h"
+#include "static.h"
+
+static const char help[] =
+    "usage: corot static MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--quiet] [--json]\n"
+    "\n"
+    "Finds the equilibrium of a scenario under its full loads, those of time.end, by load steps,\n"
+    "and writes the folder that a run would leave: a row of probes.csv, energy.csv and steps.csv\n"
+    "for each load step, the last one the equilibrium, fields for ParaView, and result.json. The\n"
+    "column t is the load factor times time.end; supports stand where they are at that time.\n"
+    "\n"
+    "Each load step is told on stderr with the residual of each Newton iteration, relative to the\n"
+    "largest force on a node. Exit code 4: there is no equilibrium within reach, or it becomes\n"
+    "unstable (the body buckles) at the load factor that is named.\n"
+    "\n"
+    "  -o, --output DIR     the folder, made if need be; default: out/MODEL in this folder\n"
+    "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
+    "  -q, --quiet          nothing on stderr but errors\n"
+    "      --json           result.json on stdout as well\n"
+    "\n"
+    "example: corot static bar.yaml -o out/hanging --set statics.max_step=0.1\n";
+
+int command_static(int argc, char **argv) {
+  return command_scenario("corot static", help, static_scenario, argc, argv);
+}

@@ -1,0 +1,117 @@
+/* Scenarios with mesh.refine: what it does to groups and probes, and how far it may go. */
+#define TEST_NAME "test_scenario_refine"
+#include "alloc.h"
+#include "app/refine.h"
+#include "check.h"
+#include "scenario_text.h"
+
+/* MINIMAL refined so many times, with nothing else said of the mesh. */
+#define REFINED(times) \
+  "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: " times "}\n" MATERIAL TIME
+
+static void build(const char *text, corot_mesh **mesh, corot_model **model) {
+  scenario *s = accept(text);
+  assert_ok(scenario_build(s, mesh, model));
+  scenario_destroy(s);
+}
+
+static void groups_are_those_of_the_refined_mesh(void **state) {
+  (void)state;
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL;
+  build(REFINED("2")
+        "groups: {base: {plane: {axis: z, at: 0}}, tip: {box: {min: [0, 0, 1.75], max: [1, 1, 2]}},"
+        " slice: {plane: {axis: z, at: 0.25}}, top: {nodes: [8, 9, 10, 11]}, corner: {nodes: [3]}}\n"
+        "boundary: [{group: base, fix: [x, y, z]}]\n"
+        "loads: [{group: top, traction: [0, 0, 1]}]\n",
+        &mesh, &model);
+  assert_int_equal(mesh->ntet, 12 * 64);
+  assert_int_equal(mesh->nnode, 5 * 5 * 9);
+  assert_int_equal(corot_mesh_find_group(mesh, "base")->nnode, 25);
+  assert_int_equal(corot_mesh_find_group(mesh, "zmin")->ntri, 32);
+  assert_int_equal(corot_mesh_find_group(mesh, "tip")->nnode, 50);
+  assert_int_equal(corot_mesh_find_group(mesh, "tip")->ntet, 16 * 6);
+  assert_int_equal(corot_mesh_find_group(mesh, "slice")->nnode, 25); /* of new nodes alone */
+  assert_int_equal(corot_mesh_find_group(mesh, "top")->nnode, 25);
+  assert_int_equal(corot_mesh_find_group(mesh, "top")->ntri, 32);
+  assert_int_equal(corot_mesh_find_group(mesh, "corner")->nnode, 1);
+  assert_int_equal(corot_model_ndof(model), 3 * (225 - 25));
+  corot_model_destroy(model);
+  corot_mesh_destroy(mesh);
+}
+
+static void refine_0_changes_nothing(void **state) {
+  (void)state;
+  corot_mesh *mesh[2] = {NULL};
+  corot_model *model[2] = {NULL};
+  build(MINIMAL, &mesh[0], &model[0]);
+  build(REFINED("0"), &mesh[1], &model[1]);
+  assert_int_equal(mesh[0]->nnode, mesh[1]->nnode);
+  assert_int_equal(mesh[0]->ntet, mesh[1]->ntet);
+  assert_memory_equal(mesh[0]->x, mesh[1]->x, (size_t)mesh[0]->nnode * sizeof *mesh[0]->x);
+  assert_memory_equal(mesh[0]->tet, mesh[1]->tet, (size_t)mesh[0]->ntet * sizeof *mesh[0]->tet);
+  for (int i = 0; i < 2; i++) {
+    corot_model_destroy(model[i]);
+    corot_mesh_destroy(mesh[i]);
+  }
+}
+
+static void refusals_of_a_build(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {REFINED("9"), "1:58: mesh.refine: refining 12 tets 9 times makes 1.61e+09, "},
+      {REFINED("2147483647"), "1:58: mesh.refine: refining 12 tets 2147483647 times makes inf, "},
+      {REFINED("1") "groups: {a: {nodes: [12]}}",
+       "4:10: groups.a: group 'a': node 12 does not exist, the last is 11"},
+      {REFINED("1") "groups: {a: {plane: {axis: z, at: 0.25}}}",
+       "4:10: groups.a: group 'a': no node is there"},
+      {REFINED("1") "probes: {a: {node: 45}}", "4:20: probes.a.node: the mesh has 45 nodes"},
+  };
+  for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
+    corot_mesh *mesh = NULL;
+    corot_model *model = NULL;
+    scenario *s = accept(r[i].text);
+    assert_fails(scenario_build(s, &mesh, &model), COROT_EFORMAT, r[i].message);
+    assert_true(!mesh && !model);
+    scenario_destroy(s);
+  }
+}
+
+static void memory_is_counted(void **state) {
+  (void)state;
+  assert_ok(refine_fits(1000, 2, 64000 * 50));
+  assert_fails(
+      refine_fits(1000, 2, 64000 * 50 - 1), COROT_EINVAL,
+      "refining 1000 tets 2 times makes 6.4e+04, which need 0.0032 GB of memory, and there "
+      "are 0.0032: at most 1");
+  assert_fails(refine_fits(1000, 5, 1e9), COROT_EINVAL,
+               "makes 3.28e+07, which need 1.64 GB of memory, and there are 1: at most 4");
+  assert_ok(refine_fits(1000, 30, INFINITY));
+}
+
+static corot_status build_scenario(void *context) {
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL;
+  COROT_TRY(scenario_build(context, &mesh, &model));
+  corot_model_destroy(model);
+  corot_mesh_destroy(mesh);
+  return COROT_OK;
+}
+
+static void failed_allocations(void **state) {
+  (void)state;
+  scenario *s = accept(REFINED("1") "groups: {two: {nodes: [0, 1]}}\n");
+  assert_true(assert_survives_failed_allocations(build_scenario, s) >= 50);
+  scenario_destroy(s);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(groups_are_those_of_the_refined_mesh),
+      cmocka_unit_test(refine_0_changes_nothing),
+      cmocka_unit_test(refusals_of_a_build),
+      cmocka_unit_test(memory_is_counted),
+      cmocka_unit_test(failed_allocations),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
