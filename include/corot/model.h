@@ -80,6 +80,42 @@ typedef struct corot_motion {
   double from, to;  /* [s] from < to; to may be INFINITY */
 } corot_motion;
 
+/* A strain measure of its own for level 0 of a refined mesh: nonlinear where the mesh is coarse,
+   and on the finest level the model's, linear in frames that a coarser tet hands down to all its
+   descendants (Hauth & Strasser 2004, their hierarchical simulation; the paper leaves the combined
+   system open). It is that of the energy
+
+     E(u) = E_coarse(u_0) + E_fine(u; R) - E_linear(u_0),
+
+   u_0 the displacement of the nodes of level 0; E_coarse of level 0 under the coarse measure;
+   E_fine of the finest level under the model's measure in the frames R, which are those of the tets
+   of the frame level; E_linear of level 0 under the model's measure, with frames of its own. The
+   viscous forces are put together from the same three.
+
+   Where the whole body moves as level 0 does (the differences of corot/hierarchy.h are zero), the
+   fine and the linear term cancel and E is that of the coarse mesh. With the same measure on both,
+   and frame level = nlevel, E is that of the plain model on the refined mesh. With nlevel = 0 the
+   model is the plain one of the coarse measure.
+
+   E_coarse - E_linear is of third order in the strains of level 0, times lambda, and negative in
+   compression: for strains there well below mu / lambda it is small beside E_fine. Beyond, green and
+   hybrid on level 0 may leave no equilibrium, and tets invert; polar on level 0 does not. */
+typedef struct corot_hierarchy_def {
+  const corot_refinement *refinement; /* how the model's mesh was made, by corot_mesh_refine; the
+                                         descendants of a tet of level 0 have one material */
+  const char *coarse_strain;          /* any */
+  int frame_level;                    /* 0 to nlevel; 0: one frame for a tet of level 0; for warp,
+                                         whose frames depend on a tet's edges, 0 only */
+  /* The elastic force is the gradient of E, with the part by which R follows u: energy, momentum
+     and angular momentum are conserved. False: that part is left out, as the paper does; a little
+     cheaper, and off by the product of strain and difference, in a torque on each frame's tet.
+     Without meaning where frames are held. Needs polar (or cauchy, whose frames do not turn). */
+  bool conservative;
+} corot_hierarchy_def;
+
+/* Coarse strain green, frame level 0, conservative; no refinement. */
+corot_hierarchy_def corot_hierarchy_defaults(void);
+
 /* What a model is made of; everything in it is copied. */
 typedef struct corot_model_def {
   const corot_mesh *mesh;
@@ -94,6 +130,9 @@ typedef struct corot_model_def {
   const corot_load *load; /* [nload] */
   corot_viscosity viscosity;
   corot_mass mass;
+  const corot_hierarchy_def *hierarchy; /* NULL: `strain` everywhere. Else `strain` is that of the
+                                           finest level, which must be linear in a given frame:
+                                           cauchy, warp or polar; viscosity COROTATED */
 } corot_model_def;
 
 /* Strain polar, mass lumped, nothing else. */
@@ -111,7 +150,7 @@ void corot_model_destroy(corot_model *model);
 /* The model's copy of the mesh. */
 const corot_mesh *corot_model_mesh(const corot_model *model);
 
-/* The name of the strain measure. */
+/* The name of the strain measure; with a hierarchy both, as "green+polar". */
 const char *corot_model_strain(const corot_model *model);
 
 /* Number n of free degrees of freedom: the length of u, v and r everywhere. */

@@ -20,6 +20,9 @@
 
    The viscous stress is the same law with the damping coefficients on sym(B' dF/dt).
 
+   A model with a hierarchy (corot/model.h) has two measures: the first in its name on level 0, the
+   other on the finest level, in frames handed down.
+
    Frames are EXACT, found anew from F in every evaluation, so that r is a smooth function of
    (t, u, v); or HELD, those of the last corot_frames_update (the paper's linear systems); or
    EXTRAPOLATED, those turned on at the spin they had then, which r sees as a dependence on t. */
@@ -79,7 +82,8 @@ corot_status corot_rhs(const corot_model *model, corot_state *state, double t, c
 /* y = M x [n]; they may not overlap. */
 void corot_mass_multiply(const corot_model *model, const double *x, double *y);
 
-/* The tet (number in the mesh) whose inversion made the last evaluation fail; -1: none did. */
+/* The tet (number in the mesh) whose inversion made the last evaluation fail; -1: none did. With a
+   hierarchy, for a tet of a coarser level its first descendant. */
 int corot_state_inverted(const corot_state *state);
 
 /* How the frames enter the derivative of the elastic force. */
@@ -95,7 +99,9 @@ typedef enum corot_tangent {
 /* Elastic stiffness K = -dr/du at v = 0 and damping D = -dr/dv, both symmetric, as 3x3 blocks
    [corot_model_nblock()][9] on the model's pattern (below). Either may be NULL.
    What K leaves out, so as to stay symmetric: the change of the viscous force with u, and the
-   variation of a warp frame; the turning of a pressure. corot_jvp has them. */
+   variation of a warp frame; the turning of a pressure. With a hierarchy `tangent` is for level 0,
+   and the frames handed down are held: their variation would couple all nodes below a tet of the
+   frame level. corot_jvp has them. */
 corot_status corot_jacobian(const corot_model *model, corot_state *state, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
 
@@ -148,8 +154,9 @@ corot_status corot_energy(const corot_model *model, corot_state *state, double t
 void corot_nodal(const corot_model *model, double t, const double *u, const double *v,
                  double (*displacement)[3], double (*velocity)[3]);
 
-/* Fields of the tets, in the mesh's order [ntet]; any may be NULL. Symmetric tensors are stored
-   xx yy zz xy yz xz (not doubled). */
+/* Fields of the tets, in the mesh's order [ntet]; any may be NULL. With a hierarchy, frames are
+   those handed down, strain and stress those of the finest level alone. Symmetric tensors are
+   stored xx yy zz xy yz xz (not doubled). */
 typedef struct corot_element_fields {
   double (*frame)[9];  /* R, row-major: the frame the model uses now */
   double (*strain)[6]; /* shear-term strain e_s, in the frame (B = R) or material axes (B = F) */
@@ -161,8 +168,12 @@ typedef struct corot_element_fields {
 corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
                             const corot_element_fields *fields);
 
-/* Internal force of any strain measure with its own exact frames, whatever the model's is, on all
-   nodes [nnode][3] [N]: f = lambda_part * (lambda term) + mu_part * (mu term). COROT_RETRY as for
+/* Elastic force of the model on all nodes [nnode][3] [N], held ones included, with exact frames.
+   COROT_RETRY as for corot_residual. */
+corot_status corot_elastic_force(const corot_model *model, corot_state *state, double t,
+                                 const double *u, double (*f)[3]);
+
+/* The same of any one strain measure on the model's mesh, whatever the model's is: f = lambda_part * (lambda term) + mu_part * (mu term). COROT_RETRY as for
    corot_residual. */
 corot_status corot_internal_force(const corot_model *model, corot_state *state, double t,
                                   const double *u, const char *strain, double lambda_part,

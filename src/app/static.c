@@ -70,8 +70,7 @@ static void release(equilibrium_run *r) {
 
 /* Internal forces act on free nodes as the loads do, and on held ones as the supports do. */
 static corot_status add_work(equilibrium_run *r, double t) {
-  const char *strain = corot_model_strain(r->model);
-  COROT_TRY(corot_internal_force(r->model, r->state, t, r->u, strain, 1, 1, r->f));
+  COROT_TRY(corot_elastic_force(r->model, r->state, t, r->u, r->f));
   corot_nodal(r->model, t, r->u, r->v, r->x, r->velocity);
   for (int n = 0; n < r->mesh->nnode; n++)
     for (int c = 0; c < 3; c++)

@@ -1,5 +1,6 @@
 /* What a run shows of a state: nodal vectors, and tensors of the tets. */
 #include "core/kernel.h"
+#include "core/levels.h"
 
 void corot_nodal(const corot_model *m, double t, const double *u, const double *v,
                  double (*displacement)[3], double (*velocity)[3]) {
@@ -56,5 +57,7 @@ static COROT_CLONES int elements_loop(const corot_model *m, const corot_state *s
 corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
                             const corot_element_fields *fields) {
   corot_state_displace(m, s, t, u);
-  return corot_state_check(s, elements_loop(m, s, fields));
+  corot_status above = m->levels ? corot_levels_hand_down(m, s, t) : COROT_OK;
+  corot_status status = corot_state_check(s, elements_loop(m, s, fields));
+  return status ? status : above;
 }

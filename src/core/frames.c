@@ -1,5 +1,6 @@
 /* Held and extrapolated frames: their update, and how far they have drifted since. */
 #include "core/kernel.h"
+#include "core/levels.h"
 
 /* Largest and mean angle between two sets of frames: |A - B| = sqrt(8) sin of half the angle, which
    keeps its digits where the angle is small. */
@@ -59,11 +60,17 @@ static corot_status find_new(const corot_model *m, corot_state *s, double t, con
 
 corot_status corot_frames_drift(const corot_model *m, corot_state *s, double t, const double *u,
                                 corot_frames_change *drift) {
-  return find_new(m, s, t, u, drift);
+  if (!m->levels) return find_new(m, s, t, u, drift);
+  corot_state_displace(m, s, t, u);
+  return corot_levels_frames_drift(m, s, t, drift);
 }
 
 corot_status corot_frames_update(const corot_model *m, corot_state *s, double t, const double *u,
                                  corot_frames_change *change) {
+  if (m->levels) {
+    corot_state_displace(m, s, t, u);
+    return corot_levels_frames_update(m, s, t, change);
+  }
   COROT_TRY(find_new(m, s, t, u, change));
   mat3 *old = s->R;
   s->R = s->new_R;
@@ -78,6 +85,7 @@ corot_status corot_frames_spin(const corot_model *m, corot_state *s, double t, c
   double square = 0;
   corot_state_displace(m, s, t, u);
   corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  if (m->levels) return corot_levels_frames_spin(m, s, t, spin_max);
   COROT_TRY(corot_state_check(s, corot_kernel_spin(m, s, s->spin)));
   for (int b = 0; b < m->tets.nblock; b++) {
     vd w2 = vec3_dot(s->spin[b], s->spin[b]);

@@ -6,6 +6,17 @@
 
 #include "core/state.h"
 
+/* A kernel of element forces. */
+typedef int force_kernel(const corot_model *m, corot_state *state, bool option, int chunk);
+
+/* s->r += the forces that the kernel finds, on free degrees of freedom. */
+corot_status corot_sum_forces(const corot_model *m, corot_state *s, double t, force_kernel *kernel,
+                              bool option);
+
+/* f [nnode] = these forces on all nodes; the fourth column is not set. */
+corot_status corot_nodal_forces(const corot_model *m, corot_state *s, force_kernel *kernel,
+                                bool option, double (*f)[4]);
+
 /* state->force = -(internal + viscous force) for state->u and, if `damped`, state->v. */
 int corot_kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk);
 
@@ -33,6 +44,25 @@ int corot_kernel_internal(const corot_model *m, corot_state *state, int strain, 
    the nodes that are ready then. */
 int corot_kernel_tangent(const corot_model *m, corot_state *state, corot_tangent tangent, int chunk,
                          double (*K)[9], double (*D)[9]);
+
+/* Of a hierarchical model, whose frames are in state->R: the force as corot_kernel_force, and
+   state->moment = V vee(R'F sigma) of the elastic stress. */
+int corot_kernel_handed_force(const corot_model *m, corot_state *state, bool damped, int chunk);
+
+/* The changes of both for state->du, state->dv and state->dR; and the moment. */
+int corot_kernel_handed_derivative(const corot_model *m, corot_state *state, bool damped,
+                                   int chunk);
+
+/* Of the part whose polar frames, state->now_R, have been handed down: state->force = -(the force
+   by which they turn), from the moments of the descendants summed in state->moment. */
+int corot_kernel_turning_force(const corot_model *m, corot_state *state, bool unused, int chunk);
+
+/* Its change for state->du, state->dR and state->dmoment. */
+int corot_kernel_turning_derivative(const corot_model *m, corot_state *state, bool unused,
+                                    int chunk);
+
+/* state->dR = the change of the frames state->now_R for state->du. */
+void corot_kernel_frames_change(const corot_model *m, corot_state *state);
 
 /* --- shared by the loops --------------------------------------------------------------------- */
 

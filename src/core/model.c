@@ -1,8 +1,12 @@
-#include "core/model.h"
+#include "core/levels.h"
 
 #include <stdlib.h>
 
 corot_model_def corot_model_defaults(void) { return (corot_model_def){.strain = "polar"}; }
+
+corot_hierarchy_def corot_hierarchy_defaults(void) {
+  return (corot_hierarchy_def){.coarse_strain = "green", .conservative = true};
+}
 
 corot_status corot_model_find_strain(const char *name, int *strain) {
   for (int k = 0; k < NSTRAIN; k++)
@@ -166,13 +170,22 @@ static void find_scales(corot_model *m) {
   }
 }
 
-static corot_status build(const corot_model_def *def, corot_model *m) {
-  if (!def->mesh) return corot_fail(COROT_EINVAL, "the model has no mesh");
-  COROT_TRY(corot_model_find_strain(def->strain, &m->strain));
+/* The measure of the mesh's own tets: of a hierarchy without finer levels the coarse one. */
+static corot_status choose_strain(const corot_model_def *def, corot_model *m) {
+  const corot_hierarchy_def *h = def->hierarchy;
+  if (h) COROT_TRY(corot_levels_check(h, def->mesh));
+  const char *name = h && h->refinement->nlevel == 0 ? h->coarse_strain : def->strain;
+  COROT_TRY(corot_model_find_strain(name, &m->strain));
   m->objective = def->viscosity == COROT_OBJECTIVE;
   if (m->objective && strain_measures[m->strain].frame != FRAME_POLAR)
     return corot_fail(COROT_EINVAL, "the objective viscous law needs a polar frame, not strain %s",
-                      def->strain);
+                      name);
+  return COROT_OK;
+}
+
+static corot_status build(const corot_model_def *def, corot_model *m) {
+  if (!def->mesh) return corot_fail(COROT_EINVAL, "the model has no mesh");
+  COROT_TRY(choose_strain(def, m));
   COROT_TRY(corot_mesh_copy(def->mesh, &m->mesh));
 
   int *of_tet = malloc(m->mesh->ntet * sizeof *of_tet);
@@ -181,11 +194,15 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   if (!status)
     status = corot_tets_create(m->mesh, m->nmaterial, of_tet,
                                strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
+  if (!status && def->hierarchy && def->hierarchy->refinement->nlevel > 0)
+    status = corot_levels_create(def->hierarchy, of_tet, m);
   free(of_tet);
   COROT_TRY(status);
 
   COROT_TRY(number_dofs(def, m));
-  COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->pattern));
+  const pattern *coarse = m->levels ? &m->levels->coarse->pattern : NULL;
+  COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, coarse, &m->pattern));
+  if (m->levels) COROT_TRY(corot_levels_place(m));
   COROT_TRY(corot_mass_create(def, m));
   COROT_TRY(corot_loads_create(def, m));
   COROT_TRY(list_kinks(m));
@@ -217,6 +234,7 @@ void corot_model_destroy(corot_model *m) {
   free(m->mass_damping);
   free(m->mass_pair);
   free(m->damping_pair);
+  corot_levels_destroy(m->levels);
   corot_tets_clear(&m->tets);
   corot_pattern_clear(&m->pattern);
   corot_mesh_destroy(m->mesh);
@@ -242,7 +260,11 @@ int corot_model_kinks(const corot_model *m, double t0, double t1, int max, doubl
 }
 
 const corot_mesh *corot_model_mesh(const corot_model *m) { return m->mesh; }
-const char *corot_model_strain(const corot_model *m) { return strain_measures[m->strain].name; }
+
+const char *corot_model_strain(const corot_model *m) {
+  return m->levels ? m->levels->name : strain_measures[m->strain].name;
+}
+
 int corot_model_ndof(const corot_model *m) { return m->ndof; }
 const int (*corot_model_dof(const corot_model *m))[3] { return (const int(*)[3])m->dof; }
 const double *corot_model_mass(const corot_model *m) { return m->mass; }
@@ -282,5 +304,6 @@ size_t corot_model_bytes(const corot_model *m) {
   bytes +=
       (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) * sizeof(int) +
       t->nblock * sizeof *p->place;
+  if (m->levels) bytes += corot_levels_bytes(m);
   return bytes;
 }

@@ -38,6 +38,8 @@ typedef struct motion {
   motion_span *span; /* [nspan] */
 } motion;
 
+struct levels;
+
 struct corot_model {
   corot_mesh *mesh;
   int strain; /* index into strain_measures */
@@ -67,6 +69,8 @@ struct corot_model {
 
   tets tets;
   pattern pattern;
+
+  struct levels *levels; /* NULL: one strain measure on one mesh; see levels.h */
 };
 
 /* Index into strain_measures by name. */

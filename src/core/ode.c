@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/kernel.h"
+#include "core/levels.h"
 
 /* Adds to s->r the element forces of nodes first to last - 1, each node's own in the order of the
    tets. Returns the sum of these r, which is finite only if they are. */
@@ -21,11 +22,8 @@ static double collect(const corot_model *m, const corot_state *s, int first, int
   return check;
 }
 
-typedef int force_kernel(const corot_model *m, corot_state *state, bool option, int chunk);
-
-/* Adds to s->r the forces that the kernel finds, chunk by chunk, and hands the result on. */
-static corot_status sum_forces(const corot_model *m, corot_state *s, double t, force_kernel *kernel,
-                               bool option, double *r) {
+corot_status corot_sum_forces(const corot_model *m, corot_state *s, double t, force_kernel *kernel,
+                              bool option) {
   const int *ready = m->pattern.ready;
   double check = 0;
   for (int c = 0; c < m->pattern.nchunk; c++) {
@@ -34,7 +32,21 @@ static corot_status sum_forces(const corot_model *m, corot_state *s, double t, f
   }
   if (!isfinite(check))
     return corot_fail(COROT_RETRY, "the forces exceed double precision at t = %g", t);
-  memcpy(r, s->r, m->ndof * sizeof *r);
+  return COROT_OK;
+}
+
+corot_status corot_nodal_forces(const corot_model *m, corot_state *s, force_kernel *kernel,
+                                bool option, double (*f)[4]) {
+  const double *force = (const double *)s->force;
+  const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
+  for (int c = 0; c < m->pattern.nchunk; c++) {
+    COROT_TRY(corot_state_check(s, kernel(m, s, option, c)));
+    for (int n = ready[c]; n < ready[c + 1]; n++)
+      for (int i = 0; i < 3; i++) {
+        f[n][i] = 0;
+        for (int k = begin[n]; k < begin[n + 1]; k++) f[n][i] += force[slot[k] + i * W];
+      }
+  }
   return COROT_OK;
 }
 
@@ -57,7 +69,10 @@ corot_status corot_residual(const corot_model *m, corot_state *s, double t, cons
   if (damped) corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
   external_force(m, s, t, s->r);
   if (!s->still) corot_mass_damp(m, v, s->r);
-  return sum_forces(m, s, t, corot_kernel_force, damped, r);
+  COROT_TRY(m->levels ? corot_levels_force(m, s, t, damped)
+                      : corot_sum_forces(m, s, t, corot_kernel_force, damped));
+  memcpy(r, s->r, m->ndof * sizeof *r);
+  return COROT_OK;
 }
 
 corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
@@ -82,9 +97,11 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
   if (tangent == COROT_TANGENT_AUTO) tangent = COROT_TANGENT_HELD;
+  corot_tangent own = m->levels ? COROT_TANGENT_HELD : tangent;
+  if (m->levels) COROT_TRY(corot_levels_hand_down(m, s, t));
   for (int c = 0; c < m->pattern.nchunk; c++)
-    COROT_TRY(
-        corot_state_check(s, corot_kernel_tangent(m, s, tangent, c, K, m->damped ? D : NULL)));
+    COROT_TRY(corot_state_check(s, corot_kernel_tangent(m, s, own, c, K, m->damped ? D : NULL)));
+  if (m->levels) COROT_TRY(corot_levels_add_matrices(m, s, t, tangent, K, m->damped ? D : NULL));
   if (D) corot_mass_damping_matrix(m, D);
   return COROT_OK;
 }
@@ -104,7 +121,11 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
   memset(s->r, 0, m->ndof * sizeof *s->r);
   external_derivative(m, s, t, s->r);
   if (!s->still) corot_mass_damp(m, dv, s->r);
-  return sum_forces(m, s, t, corot_kernel_derivative, tangent > COROT_TANGENT_HELD, jv);
+  bool exact = tangent > COROT_TANGENT_HELD;
+  COROT_TRY(m->levels ? corot_levels_derivative(m, s, t, tangent)
+                      : corot_sum_forces(m, s, t, corot_kernel_derivative, exact));
+  memcpy(jv, s->r, m->ndof * sizeof *jv);
+  return COROT_OK;
 }
 
 static void add_cross(double a[3], const double x[3], const double p[3]) {
@@ -137,16 +158,13 @@ static void add_inertia(const corot_model *m, corot_state *s, const double *v, c
 
 /* Power of the internal and viscous forces on moving supports: what the supports put in. Components
    at rest have no velocity. */
-static corot_status support_power(const corot_model *m, corot_state *s, double *power) {
-  const double *force = (const double *)s->force;
-  const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
-  for (int c = 0; c < m->pattern.nchunk; c++) {
-    COROT_TRY(corot_state_check(s, corot_kernel_force(m, s, m->damped, c)));
-    for (int n = ready[c]; n < ready[c + 1]; n++)
-      for (int k = begin[n]; k < begin[n + 1]; k++)
-        for (int i = 0; i < 3; i++)
-          if (m->dof[n][i] < 0) *power -= force[slot[k] + i * W] * s->v[n][i];
-  }
+static corot_status support_power(const corot_model *m, corot_state *s, double t, double *power) {
+  double(*f)[4] = s->du; /* directions play no part here */
+  COROT_TRY(m->levels ? corot_levels_nodal_force(m, s, t, m->damped, f)
+                      : corot_nodal_forces(m, s, corot_kernel_force, m->damped, f));
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int i = 0; i < 3; i++)
+      if (m->dof[n][i] < 0) *power -= f[n][i] * s->v[n][i];
   return COROT_OK;
 }
 
@@ -155,9 +173,12 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
   corot_energies e = {0};
   corot_state_displace(m, s, t, u);
   corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
-  COROT_TRY(
-      corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
-  if (m->nmotion) COROT_TRY(support_power(m, s, &e.power_external));
+  double *viscous = &e.power_dissipated;
+  if (m->levels)
+    COROT_TRY(corot_levels_energy(m, s, t, m->damped, &e.elastic, viscous));
+  else
+    COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, viscous)));
+  if (m->nmotion) COROT_TRY(support_power(m, s, t, &e.power_external));
   external_force(m, s, t, s->r);
   e.power_external += dot(m->ndof, s->r, v);
   if (m->mass_damped) {
@@ -167,6 +188,20 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
   }
   add_inertia(m, s, v, &e);
   *energies = e;
+  return COROT_OK;
+}
+
+corot_status corot_elastic_force(const corot_model *m, corot_state *s, double t, const double *u,
+                                 double (*f)[3]) {
+  if (!m->levels) return corot_internal_force(m, s, t, u, corot_model_strain(m), 1, 1, f);
+  corot_frames frames = s->levels->frames;
+  corot_state_displace(m, s, t, u);
+  corot_levels_use(s->levels, COROT_FRAMES_EXACT);
+  corot_status status = corot_levels_nodal_force(m, s, t, false, s->du);
+  corot_levels_use(s->levels, frames);
+  COROT_TRY(status);
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++) f[n][c] = -s->du[n][c];
   return COROT_OK;
 }
 

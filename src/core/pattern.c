@@ -25,25 +25,33 @@ static corot_status list_slots(int nnode, const tets *t, pattern *p) {
   return COROT_OK;
 }
 
-/* The nodes >= j that share a tet with node j, ascending: into `list`; returns their number. */
-static int column_rows(const tets *t, const pattern *p, int j, int *mark, int *list) {
+/* Node i joins column j, once and in its place among the n there; returns how many there are. */
+static int insert_row(int i, int j, int *mark, int n, int *list) {
+  if (i < j || mark[i] == j) return n;
+  mark[i] = j;
+  int at = n;
+  for (; at > 0 && list[at - 1] > i; at--) list[at] = list[at - 1];
+  list[at] = i;
+  return n + 1;
+}
+
+/* The nodes >= j that share a tet, or a block of `more`, with node j, ascending: into `list`;
+   returns their number. */
+static int column_rows(const tets *t, const pattern *p, const pattern *more, int j, int *mark,
+                       int *list) {
   int n = 0;
   for (int k = p->first[j]; k < p->first[j + 1]; k++) {
     int slot = p->slot[k], lane = slot % W;
     const tet_block *block = &t->block[slot / BLOCK_SLOTS];
-    for (int a = 0; a < 4; a++) {
-      int i = block->node[a][lane];
-      if (i < j || mark[i] == j) continue;
-      mark[i] = j;
-      int at = n++;
-      for (; at > 0 && list[at - 1] > i; at--) list[at] = list[at - 1];
-      list[at] = i;
-    }
+    for (int a = 0; a < 4; a++) n = insert_row(block->node[a][lane], j, mark, n, list);
   }
+  if (more && j < more->nnode)
+    for (int k = more->colptr[j]; k < more->colptr[j + 1]; k++)
+      n = insert_row(more->row[k], j, mark, n, list);
   return n;
 }
 
-static corot_status list_blocks(int nnode, const tets *t, pattern *p) {
+static corot_status list_blocks(int nnode, const tets *t, const pattern *more, pattern *p) {
   int *mark = malloc(nnode * sizeof *mark), *list = malloc(nnode * sizeof *list);
   p->colptr = malloc((nnode + 1) * sizeof *p->colptr);
   if (!mark || !list || !p->colptr) goto no_memory;
@@ -52,7 +60,7 @@ static corot_status list_blocks(int nnode, const tets *t, pattern *p) {
     for (int n = 0; n < nnode; n++) mark[n] = -1;
     size_t total = 0;
     for (int j = 0; j < nnode; j++) {
-      int n = column_rows(t, p, j, mark, list);
+      int n = column_rows(t, p, more, j, mark, list);
       if (pass == 0) p->colptr[j] = (int)total;
       if (pass == 1) memcpy(p->row + p->colptr[j], list, n * sizeof *list);
       total += n;
@@ -74,7 +82,7 @@ no_memory:
   return corot_fail(COROT_ENOMEM, "no memory for the matrix pattern");
 }
 
-static int find_block(const pattern *p, int i, int j) {
+int corot_pattern_find(const pattern *p, int i, int j) {
   int low = p->colptr[j], high = p->colptr[j + 1] - 1;
   while (low < high) {
     int mid = low + (high - low) / 2;
@@ -93,7 +101,8 @@ static corot_status place_tets(const tets *t, pattern *p) {
     for (int k = 0; k < NPAIR; k++)
       for (int l = 0; l < W; l++) {
         const tet_block *block = &t->block[b];
-        p->place[b][k][l] = find_block(p, block->node[pair_row[k]][l], block->node[pair_col[k]][l]);
+        p->place[b][k][l] =
+            corot_pattern_find(p, block->node[pair_row[k]][l], block->node[pair_col[k]][l]);
       }
   return COROT_OK;
 }
@@ -128,10 +137,10 @@ static void wrap_slots(int nnode, pattern *p) {
   for (int k = 0; k < p->first[nnode]; k++) p->slot[k] %= size;
 }
 
-corot_status corot_pattern_create(int nnode, const tets *t, pattern *out) {
+corot_status corot_pattern_create(int nnode, const tets *t, const pattern *more, pattern *out) {
   pattern p = {.nnode = nnode};
   corot_status status = list_slots(nnode, t, &p);
-  if (!status) status = list_blocks(nnode, t, &p);
+  if (!status) status = list_blocks(nnode, t, more, &p);
   if (!status) status = place_tets(t, &p);
   if (!status) status = plan_chunks(nnode, t, &p);
   if (status) {

@@ -31,7 +31,11 @@ typedef struct pattern {
                  y and z W further */
 } pattern;
 
-corot_status corot_pattern_create(int nnode, const tets *t, pattern *out);
+/* `more` (or NULL): the pairs of this pattern, of the nodes below more->nnode, belong to it too. */
+corot_status corot_pattern_create(int nnode, const tets *t, const pattern *more, pattern *out);
 void corot_pattern_clear(pattern *p);
+
+/* The block of row i and column j <= i, which is in the pattern. */
+int corot_pattern_find(const pattern *p, int i, int j);
 
 #endif

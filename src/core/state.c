@@ -1,4 +1,5 @@
 #include "core/state.h"
+#include "core/levels.h"
 
 #include <stdlib.h>
 
@@ -18,6 +19,19 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
       !s->force || !s->r)
     return corot_fail(COROT_ENOMEM, "no memory for a state of %d nodes", nnode);
   for (int b = 0; b < nblock; b++) s->R[b] = mat3_identity();
+  if (!m->levels) return COROT_OK;
+  s->frames = COROT_FRAMES_HELD;
+  COROT_TRY(corot_levels_state_create(m, &s->levels));
+  return corot_state_allow_turning(m, s);
+}
+
+corot_status corot_state_allow_turning(const corot_model *m, corot_state *s) {
+  int nblock = m->tets.nblock;
+  s->dR = corot_vector_calloc(nblock, sizeof *s->dR);
+  s->moment = corot_vector_calloc(nblock, sizeof *s->moment);
+  s->dmoment = corot_vector_calloc(nblock, sizeof *s->dmoment);
+  if (!s->dR || !s->moment || !s->dmoment)
+    return corot_fail(COROT_ENOMEM, "no memory for the frames of %d nodes", m->mesh->nnode);
   return COROT_OK;
 }
 
@@ -51,20 +65,36 @@ void corot_state_destroy(corot_state *s) {
   free(s->spin);
   free(s->force);
   free(s->r);
+  free(s->dR);
+  free(s->moment);
+  free(s->dmoment);
+  corot_levels_state_destroy(s->levels);
   free(s);
 }
 
 size_t corot_state_bytes(const corot_state *s) {
-  return sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
-         s->nblock * (3 * sizeof *s->R + sizeof *s->spin) + s->window * sizeof *s->force;
+  size_t bytes = sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
+                 s->nblock * (3 * sizeof *s->R + sizeof *s->spin) + s->window * sizeof *s->force;
+  if (s->dR) bytes += s->nblock * (sizeof *s->dR + sizeof *s->moment + sizeof *s->dmoment);
+  return bytes + (s->levels ? corot_levels_state_bytes(s->levels) : 0);
 }
 
-void corot_state_use(corot_state *s, corot_frames frames) { s->frames = frames; }
-corot_frames corot_state_frames(const corot_state *s) { return s->frames; }
+void corot_state_use(corot_state *s, corot_frames frames) {
+  if (s->levels)
+    corot_levels_use(s->levels, frames);
+  else
+    s->frames = frames;
+}
+
+corot_frames corot_state_frames(const corot_state *s) {
+  return s->levels ? s->levels->frames : s->frames;
+}
+
 int corot_state_inverted(const corot_state *s) { return s->inverted; }
 void corot_state_enter(corot_state *s, double t) { s->phase = t; }
 
 void corot_state_stand_still(corot_state *s, double t, double factor) {
+  if (s->levels) corot_levels_stand_still(s->levels);
   s->still = true;
   s->load_time = t;
   s->load_factor = factor;

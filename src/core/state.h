@@ -6,6 +6,8 @@
 
 #include "core/model.h"
 
+struct levels_state;
+
 struct corot_state {
   int nnode, nblock, window, ndof; /* of the model */
   corot_frames frames;
@@ -26,7 +28,16 @@ struct corot_state {
   double (*dv)[4];
   vd (*force)[4][3]; /* [window][local node][component] element forces, see pattern.h */
   double *r;         /* [ndof] */
+
+  /* A hierarchical model's, and its parts'; else NULL. There R are the frames handed down. */
+  struct levels_state *levels; /* NULL in a part's own state; see levels.h */
+  mat3 *dR;                    /* [nblock] change of the frames */
+  vec3 *moment;                /* [nblock] what turns the frames [J] */
+  vec3 *dmoment;               /* [nblock] its change */
 };
+
+/* Room for dR, moment and dmoment. */
+corot_status corot_state_allow_turning(const corot_model *m, corot_state *s);
 
 /* Before an evaluation: all nodes' displacement at t, and the age of the held frames. */
 void corot_state_displace(const corot_model *m, corot_state *s, double t, const double *u);

@@ -61,8 +61,7 @@ static void record(equilibrium *e, double r) {
 static corot_status weigh(equilibrium *e, const double *u, const double *r) {
   const int(*dof)[3] = corot_model_dof(e->model);
   double start = clock_wall(), most = 0;
-  corot_status status = corot_internal_force(e->model, e->state, e->factor * e->t, u,
-                                             corot_model_strain(e->model), 1, 1, e->f);
+  corot_status status = corot_elastic_force(e->model, e->state, e->factor * e->t, u, e->f);
   e->force_s += clock_wall() - start;
   COROT_TRY(status);
   for (int n = 0; n < corot_model_mesh(e->model)->nnode; n++)

@@ -1,0 +1,207 @@
+/* Making the parts of a hierarchical model. */
+#include "core/levels.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* The nodes of the levels must lie where the refinement says: then a field that is linear on the
+   tets of level 0 has the same gradient in all their descendants. */
+static corot_status check_middles(const corot_refinement *r, const corot_mesh *mesh) {
+  for (int n = r->nnode[0]; n < mesh->nnode; n++) {
+    int p = r->parent[n - r->nnode[0]][0], q = r->parent[n - r->nnode[0]][1];
+    if (p < 0 || q < 0 || p >= n || q >= n)
+      return corot_fail(COROT_EINVAL, "hierarchy: node %d has the parents %d and %d", n, p, q);
+    double off = 0, edge = 0;
+    for (int c = 0; c < 3; c++) {
+      edge = fmax(edge, fabs(mesh->x[p][c] - mesh->x[q][c]));
+      off = fmax(off, fabs(mesh->x[n][c] - 0.5 * (mesh->x[p][c] + mesh->x[q][c])));
+    }
+    if (!(off <= 1e-9 * edge))
+      return corot_fail(COROT_EINVAL,
+                        "hierarchy: node %d is %g off the middle of its parents %d and %d", n, off,
+                        p, q);
+  }
+  return COROT_OK;
+}
+
+corot_status corot_levels_check(const corot_hierarchy_def *def, const corot_mesh *mesh) {
+  const corot_refinement *r = def->refinement;
+  if (!r) return corot_fail(COROT_EINVAL, "the hierarchy has no refinement");
+  if (r->nnode[r->nlevel] != mesh->nnode || r->ntet[r->nlevel] != mesh->ntet)
+    return corot_fail(COROT_EINVAL,
+                      "hierarchy: the refinement is of %d nodes and %d tets, the mesh has %d and "
+                      "%d",
+                      r->nnode[r->nlevel], r->ntet[r->nlevel], mesh->nnode, mesh->ntet);
+  if (def->frame_level < 0 || def->frame_level > r->nlevel)
+    return corot_fail(COROT_EINVAL, "hierarchy: frame level %d, where the levels are 0 to %d",
+                      def->frame_level, r->nlevel);
+  return check_middles(r, mesh);
+}
+
+/* The tets of a level: node k of tet e is node k of its child 8 e + k, and so on down. */
+static corot_status level_mesh(const corot_mesh *fine, const corot_refinement *r, int level,
+                               corot_mesh **mesh) {
+  int ntet = r->ntet[level];
+  int(*tet)[4] = malloc(ntet * sizeof *tet);
+  if (!tet) return corot_fail(COROT_ENOMEM, "no memory for the %d tets of level %d", ntet, level);
+  for (int e = 0; e < ntet; e++)
+    for (int k = 0; k < 4; k++) {
+      int child = e;
+      for (int l = level; l < r->nlevel; l++) child = 8 * child + k;
+      tet[e][k] = fine->tet[child][k];
+    }
+  corot_status status = corot_mesh_create(r->nnode[level], (const double(*)[3])fine->x, ntet,
+                                          (const int(*)[4])tet, mesh);
+  free(tet);
+  return status;
+}
+
+/* Of a part's tets the material is that of their first descendants. */
+static corot_status part_tets(const corot_model *m, const int *of_tet, int shift, corot_model *p) {
+  int ntet = p->mesh->ntet, *of = malloc(ntet * sizeof *of);
+  if (!of) return corot_fail(COROT_ENOMEM, "no memory for %d tets", ntet);
+  for (int e = 0; e < ntet; e++) of[e] = of_tet[(size_t)e << shift];
+  corot_status status = corot_tets_create(p->mesh, m->nmaterial, of,
+                                          strain_measures[p->strain].frame == FRAME_WARP, &p->tets);
+  free(of);
+  return status;
+}
+
+static corot_status fill_part(const corot_model *m, const corot_refinement *r, int level,
+                              const int *of_tet, corot_model *p) {
+  COROT_TRY(level_mesh(m->mesh, r, level, &p->mesh));
+  int nnode = p->mesh->nnode;
+  p->damped = m->damped;
+  p->nmaterial = m->nmaterial;
+  p->material = malloc(m->nmaterial * sizeof *p->material);
+  p->dof = malloc(nnode * sizeof *p->dof);
+  if (!p->material || !p->dof)
+    return corot_fail(COROT_ENOMEM, "no memory for the %d nodes of level %d", nnode, level);
+  memcpy(p->material, m->material, m->nmaterial * sizeof *p->material);
+  for (int n = 0; n < nnode; n++)
+    for (int c = 0; c < 3; c++) p->dof[n][c] = p->ndof++;
+  COROT_TRY(part_tets(m, of_tet, 3 * (r->nlevel - level), p));
+  return corot_pattern_create(nnode, &p->tets, NULL, &p->pattern);
+}
+
+static corot_status make_part(const corot_model *m, const corot_refinement *r, int level,
+                              int strain, const int *of_tet, corot_model **part) {
+  corot_model *p = calloc(1, sizeof *p);
+  if (!p) return corot_fail(COROT_ENOMEM, "no memory for level %d", level);
+  p->strain = strain;
+  corot_status status = fill_part(m, r, level, of_tet, p);
+  if (status) {
+    corot_model_destroy(p);
+    return status;
+  }
+  *part = p;
+  return COROT_OK;
+}
+
+/* Whether all descendants of a tet of level 0 are made of the same. */
+static corot_status check_materials(const corot_refinement *r, const int *of_tet) {
+  int shift = 3 * r->nlevel;
+  for (int e = 0; e < r->ntet[r->nlevel]; e++) {
+    int first = e >> shift << shift;
+    if (of_tet[e] != of_tet[first])
+      return corot_fail(COROT_EINVAL,
+                        "hierarchy: tets %d and %d descend from tet %d of level 0, but are made of "
+                        "materials %d and %d",
+                        first, e, e >> shift, of_tet[first], of_tet[e]);
+  }
+  return COROT_OK;
+}
+
+static corot_status check_strain(const corot_hierarchy_def *def, const corot_model *m) {
+  const strain_measure *s = &strain_measures[m->strain];
+  if (s->pressure != BY_FRAME || s->shear != BY_FRAME)
+    return corot_fail(COROT_EINVAL,
+                      "hierarchy: strain %s is not linear in a given frame; cauchy, warp and polar "
+                      "are",
+                      s->name);
+  if (m->objective)
+    return corot_fail(COROT_EINVAL, "hierarchy: the viscous law must be the corotated one");
+  if (def->conservative && s->frame == FRAME_WARP)
+    return corot_fail(COROT_EINVAL,
+                      "hierarchy: strain warp has no conservative force: use polar, or set "
+                      "conservative to false");
+  if (def->frame_level > 0 && s->frame == FRAME_WARP)
+    return corot_fail(
+        COROT_EINVAL,
+        "hierarchy: frame level %d, but warp frames depend on the edges of a tet, and "
+        "those of level 0 alone fit the coarse motion: use polar, or frame level 0",
+        def->frame_level);
+  return COROT_OK;
+}
+
+/* For each lane of the model's tets the framer's tet over it. */
+static corot_status list_above(corot_model *m) {
+  levels *l = m->levels;
+  const tets *up = &l->framer->tets;
+  int shift = 3 * (l->nlevel - l->frame_level), ntet = l->framer->mesh->ntet;
+  size_t nlane = (size_t)m->tets.nblock * W;
+  int *at = malloc(ntet * sizeof *at);
+  l->above = malloc(nlane * sizeof *l->above);
+  if (!at || !l->above) {
+    free(at);
+    return corot_fail(COROT_ENOMEM, "no memory for the frames of %d tets", m->mesh->ntet);
+  }
+  for (int b = 0; b < up->nblock; b++)
+    for (int k = 0; k < up->block[b].ntet; k++) at[up->number[b * W + k]] = b * W + k;
+  for (size_t k = 0; k < nlane; k++) l->above[k] = at[m->tets.number[k] >> shift];
+  free(at);
+  return COROT_OK;
+}
+
+corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_tet,
+                                 corot_model *m) {
+  const corot_refinement *r = def->refinement;
+  int coarse;
+  COROT_TRY(corot_model_find_strain(def->coarse_strain, &coarse));
+  COROT_TRY(check_strain(def, m));
+  COROT_TRY(check_materials(r, of_tet));
+  levels *l = m->levels = calloc(1, sizeof *l);
+  if (!l) return corot_fail(COROT_ENOMEM, "no memory for the levels of a hierarchy");
+  l->nlevel = r->nlevel;
+  l->frame_level = def->frame_level;
+  l->turning = def->conservative && strain_measures[m->strain].frame == FRAME_POLAR;
+  snprintf(l->name, sizeof l->name, "%s+%s", strain_measures[coarse].name,
+           strain_measures[m->strain].name);
+  COROT_TRY(make_part(m, r, 0, coarse, of_tet, &l->coarse));
+  COROT_TRY(make_part(m, r, 0, m->strain, of_tet, &l->linear));
+  l->framer = l->linear;
+  if (l->frame_level > 0) {
+    l->framer = NULL;
+    COROT_TRY(make_part(m, r, l->frame_level, m->strain, of_tet, &l->framer));
+  }
+  return list_above(m);
+}
+
+corot_status corot_levels_place(corot_model *m) {
+  levels *l = m->levels;
+  const pattern *p = &l->coarse->pattern;
+  l->place = malloc(p->nblock * sizeof *l->place);
+  if (!l->place) return corot_fail(COROT_ENOMEM, "no memory for %d blocks of level 0", p->nblock);
+  for (int j = 0; j < p->nnode; j++)
+    for (int k = p->colptr[j]; k < p->colptr[j + 1]; k++)
+      l->place[k] = corot_pattern_find(&m->pattern, p->row[k], j);
+  return COROT_OK;
+}
+
+void corot_levels_destroy(levels *l) {
+  if (!l) return;
+  if (l->framer != l->linear) corot_model_destroy(l->framer);
+  corot_model_destroy(l->linear);
+  corot_model_destroy(l->coarse);
+  free(l->above);
+  free(l->place);
+  free(l);
+}
+
+size_t corot_levels_bytes(const corot_model *m) {
+  const levels *l = m->levels;
+  size_t bytes = sizeof *l + corot_model_bytes(l->coarse) + corot_model_bytes(l->linear);
+  if (l->framer != l->linear) bytes += corot_model_bytes(l->framer);
+  return bytes + (size_t)m->tets.nblock * W * sizeof *l->above +
+         l->coarse->pattern.nblock * sizeof *l->place;
+}
