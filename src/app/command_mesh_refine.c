@@ -71,7 +71,7 @@ static int refine(const arguments *a) {
   corot_status status = corot_mesh_read(a->from, &mesh);
   if (status != COROT_OK) return failure(status == COROT_EIO ? COROT_EFORMAT : status);
   report(a->from, mesh);
-  status = refine_mesh(a->nlevel, a->diagonal, &mesh);
+  status = refine_mesh(a->nlevel, a->diagonal, &mesh, NULL);
   if (status == COROT_EINVAL) corot_fail(status, "%s: %s", a->from, corot_error());
   if (status == COROT_OK) status = corot_mesh_write(mesh, a->to);
   if (status == COROT_OK) report(a->to, mesh);

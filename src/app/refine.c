@@ -24,10 +24,11 @@ static double physical_memory(void) {
   return INFINITY;
 }
 
-corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh) {
+corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
+                         corot_refinement **refinement) {
   corot_mesh *fine;
   COROT_TRY(refine_fits((*mesh)->ntet, nlevel, physical_memory()));
-  COROT_TRY(corot_mesh_refine(*mesh, nlevel, diagonal, &fine, NULL));
+  COROT_TRY(corot_mesh_refine(*mesh, nlevel, diagonal, &fine, refinement));
   corot_mesh_destroy(*mesh);
   *mesh = fine;
   return COROT_OK;

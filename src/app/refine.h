@@ -4,9 +4,10 @@
 
 #include <corot/mesh.h>
 
-/* Replaces the mesh by what it becomes when it is refined `nlevel` times. COROT_EINVAL: as
-   corot_mesh_refine, or below. */
-corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh);
+/* Replaces the mesh by what it becomes when it is refined `nlevel` times; `refinement` (or NULL)
+   says how, the caller's to destroy. COROT_EINVAL: as corot_mesh_refine, or below. */
+corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
+                         corot_refinement **refinement);
 
 /* Whether `ntet` tets can be refined so often with so much memory [byte]. */
 corot_status refine_fits(int ntet, int nlevel, double memory);

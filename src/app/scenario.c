@@ -210,6 +210,7 @@ static corot_status read_all(scenario *s, const char *path, int noverride, char 
   COROT_TRY(scenario_read_conditions(s));
   COROT_TRY(read_time(s));
   COROT_TRY(scenario_read_method(s));
+  COROT_TRY(scenario_read_hierarchy(s));
   COROT_TRY(scenario_read_statics(s));
   COROT_TRY(read_compare(s));
   COROT_TRY(read_probes(s));

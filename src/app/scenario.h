@@ -41,6 +41,10 @@ typedef struct scenario {
   const corot_material *material;
   const char *strain;
 
+  const char *coarse_strain; /* of the unrefined mesh; NULL: no hierarchy */
+  int frame_level;
+  bool conservative;
+
   corot_viscosity viscosity;
   corot_mass mass;
 

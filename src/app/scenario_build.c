@@ -44,19 +44,21 @@ static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *me
   return COROT_OK;
 }
 
-static corot_status refine(const scenario *s, corot_mesh **mesh) {
-  if (s->refine == 0) return COROT_OK;
-  corot_status status = refine_mesh(s->refine, COROT_DIAGONAL_CONSISTENT, mesh);
+static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
+  if (s->refine == 0 && !s->coarse_strain) return COROT_OK;
+  corot_status status =
+      refine_mesh(s->refine, COROT_DIAGONAL_CONSISTENT, mesh, s->coarse_strain ? refinement : NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
 }
 
-/* Numbers of nodes are those of the unrefined mesh, and the refined one inherits their groups. */
-static corot_status build_mesh(const scenario *s, corot_mesh **out) {
+/* Numbers of nodes are those of the unrefined mesh, and the refined one inherits their groups.
+ *refinement is set for a hierarchy, even on failure. */
+static corot_status build_mesh(const scenario *s, corot_mesh **out, corot_refinement **refinement) {
   corot_mesh *mesh = NULL;
   COROT_TRY(load_mesh(s, &mesh));
   corot_status status = add_groups(s, true, mesh);
-  if (status == COROT_OK) status = refine(s, &mesh);
+  if (status == COROT_OK) status = refine(s, &mesh, refinement);
   if (status == COROT_OK) status = add_groups(s, false, mesh);
   if (status == COROT_OK)
     *out = mesh;
@@ -191,14 +193,17 @@ static corot_status check_probes(const scenario *s, const corot_mesh *mesh) {
 
 /* --- Model --- */
 
-static corot_status build_model(const scenario *s, const corot_mesh *mesh, corot_model **model) {
+static corot_status build_model(const scenario *s, const corot_mesh *mesh,
+                                const corot_refinement *refinement, corot_model **model) {
   COROT_TRY(check_section(s, "material", mesh));
   COROT_TRY(check_section(s, "boundary", mesh));
   COROT_TRY(check_holders(s, mesh));
   COROT_TRY(check_section(s, "loads", mesh));
   COROT_TRY(check_probes(s, mesh));
   corot_model_def def = corot_model_defaults();
+  corot_hierarchy_def hierarchy = {refinement, s->coarse_strain, s->frame_level, s->conservative};
   def.mesh = mesh;
+  def.hierarchy = s->coarse_strain ? &hierarchy : NULL;
   def.strain = s->strain;
   def.nmaterial = s->nmaterial;
   def.material = s->material;
@@ -218,8 +223,10 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh, corot
 
 corot_status scenario_build(const scenario *s, corot_mesh **out, corot_model **model) {
   corot_mesh *mesh = NULL;
-  COROT_TRY(build_mesh(s, &mesh));
-  corot_status status = build_model(s, mesh, model);
+  corot_refinement *refinement = NULL;
+  corot_status status = build_mesh(s, &mesh, &refinement);
+  if (status == COROT_OK) status = build_model(s, mesh, refinement, model);
+  corot_refinement_destroy(refinement);
   if (status == COROT_OK)
     *out = mesh;
   else

@@ -15,6 +15,9 @@ corot_status scenario_read_conditions(scenario *s);
 /* viscosity, frames, integrator and linear_solver */
 corot_status scenario_read_method(scenario *s);
 
+/* hierarchy, after viscosity */
+corot_status scenario_read_hierarchy(scenario *s);
+
 /* start and statics, after linear_solver */
 corot_status scenario_read_statics(scenario *s);
 

@@ -164,6 +164,7 @@ corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_t
   if (!l) return corot_fail(COROT_ENOMEM, "no memory for the levels of a hierarchy");
   l->nlevel = r->nlevel;
   l->frame_level = def->frame_level;
+  l->same = coarse == m->strain;
   l->turning = def->conservative && strain_measures[m->strain].frame == FRAME_POLAR;
   snprintf(l->name, sizeof l->name, "%s+%s", strain_measures[coarse].name,
            strain_measures[m->strain].name);
@@ -202,6 +203,6 @@ size_t corot_levels_bytes(const corot_model *m) {
   const levels *l = m->levels;
   size_t bytes = sizeof *l + corot_model_bytes(l->coarse) + corot_model_bytes(l->linear);
   if (l->framer != l->linear) bytes += corot_model_bytes(l->framer);
-  return bytes + (size_t)m->tets.nblock * W * sizeof *l->above +
-         l->coarse->pattern.nblock * sizeof *l->place;
+  if (l->place) bytes += l->coarse->pattern.nblock * sizeof *l->place;
+  return bytes + (size_t)m->tets.nblock * W * sizeof *l->above;
 }

@@ -22,13 +22,14 @@
 
 typedef struct levels {
   int nlevel, frame_level;
+  bool same;           /* coarse and linear have one measure and cancel: neither is evaluated */
   bool turning;        /* the force has the part by which polar frames turn */
   char name[32];       /* both strain measures */
   corot_model *coarse; /* level 0, the coarse measure */
   corot_model *linear; /* level 0, the model's measure */
   corot_model *framer; /* the frame level, the model's measure: `linear` if it is level 0 */
   int *above;          /* [tets.nblock * W] the framer's tet over each, as block * W + lane */
-  int *place;          /* [coarse->pattern.nblock] where its blocks are in the model's pattern */
+  int *place; /* [coarse->pattern.nblock] where its blocks are in the pattern; NULL if same */
 } levels;
 
 /* What the evaluations of one run need for the parts. */

@@ -80,21 +80,27 @@ static bool turning(const corot_model *m, const corot_state *s) {
   return m->levels->turning && s->levels->frames == COROT_FRAMES_EXACT;
 }
 
-/* ls->sum = force of the parts on their nodes; the model's own kernel has been through. */
-static corot_status parts_force(const corot_model *m, corot_state *s, double t, bool damped) {
+/* ls->sum = coarse less linear force. */
+static corot_status coarse_force(const corot_model *m, corot_state *s, double t) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
   int n = l->coarse->ndof;
-  if (damped) restrict_field((const double(*)[4])s->v, ls->nnode, ls->v);
   memset(ls->sum, 0, 3 * ls->nnode * sizeof *ls->sum);
-
+  if (l->same) return COROT_OK;
   corot_status status = corot_residual(l->coarse, ls->coarse, t, ls->u, ls->v, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->coarse, status));
   add_scaled(n, 1, ls->r, ls->sum);
   status = corot_residual(l->linear, ls->linear, t, ls->u, ls->v, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->linear, status));
   add_scaled(n, -1, ls->r, ls->sum);
+  return COROT_OK;
+}
 
+/* ls->sum = force of the parts on their nodes; the model's own kernel has been through. */
+static corot_status parts_force(const corot_model *m, corot_state *s, double t, bool damped) {
+  levels_state *ls = s->levels;
+  if (damped) restrict_field((const double(*)[4])s->v, ls->nnode, ls->v);
+  COROT_TRY(coarse_force(m, s, t));
   if (!turning(m, s)) return COROT_OK;
   sum_up(m, s->moment, ls->framer->moment);
   return add_turning(m, s, t, corot_kernel_turning_force);
@@ -129,14 +135,14 @@ corot_status corot_levels_nodal_force(const corot_model *m, corot_state *s, doub
   return COROT_OK;
 }
 
-/* ls->sum = change of the parts' force. */
-static corot_status parts_derivative(const corot_model *m, corot_state *s, double t,
-                                     corot_tangent tangent) {
+/* ls->sum = change of coarse less linear force. */
+static corot_status coarse_derivative(const corot_model *m, corot_state *s, double t,
+                                      corot_tangent tangent) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
   int n = l->coarse->ndof;
   memset(ls->sum, 0, 3 * ls->nnode * sizeof *ls->sum);
-
+  if (l->same) return COROT_OK;
   corot_status status =
       corot_jvp(l->coarse, ls->coarse, t, ls->u, ls->v, tangent, ls->du, ls->dv, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->coarse, status));
@@ -144,11 +150,18 @@ static corot_status parts_derivative(const corot_model *m, corot_state *s, doubl
   status = corot_jvp(l->linear, ls->linear, t, ls->u, ls->v, tangent, ls->du, ls->dv, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->linear, status));
   add_scaled(n, -1, ls->r, ls->sum);
+  return COROT_OK;
+}
 
+/* ls->sum = change of the parts' force. */
+static corot_status parts_derivative(const corot_model *m, corot_state *s, double t,
+                                     corot_tangent tangent) {
+  levels_state *ls = s->levels;
+  COROT_TRY(coarse_derivative(m, s, t, tangent));
   if (!turning(m, s) || tangent <= COROT_TANGENT_HELD) return COROT_OK;
   sum_up(m, s->moment, ls->framer->moment);
   sum_up(m, s->dmoment, ls->framer->dmoment);
-  corot_model_spread(l->framer, ls->du, ls->framer->du[0], 4);
+  corot_model_spread(m->levels->framer, ls->du, ls->framer->du[0], 4);
   return add_turning(m, s, t, corot_kernel_turning_derivative);
 }
 
@@ -183,6 +196,7 @@ corot_status corot_levels_add_matrices(const corot_model *m, corot_state *s, dou
                                        corot_tangent tangent, double (*K)[9], double (*D)[9]) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
+  if (l->same) return COROT_OK;
   double(*part_K)[9] = K ? ls->K : NULL, (*part_D)[9] = D ? ls->D : NULL;
   for (int k = 0; k < 2; k++) {
     const corot_model *part = k == 0 ? l->coarse : l->linear;
@@ -210,14 +224,16 @@ corot_status corot_levels_energy(const corot_model *m, corot_state *s, double t,
                                  double *elastic, double *power) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
-  double coarse[2], linear[2], fine[2];
+  double coarse[2] = {0}, linear[2] = {0}, fine[2];
   COROT_TRY(corot_levels_hand_down(m, s, t));
   if (damped) restrict_field((const double(*)[4])s->v, ls->nnode, ls->v);
   COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, damped, &fine[0], &fine[1])));
-  corot_status status = part_energy(l->coarse, ls->coarse, t, ls, damped, &coarse[0], &coarse[1]);
-  COROT_TRY(part_status(l, s, 0, ls->coarse, status));
-  status = part_energy(l->linear, ls->linear, t, ls, damped, &linear[0], &linear[1]);
-  COROT_TRY(part_status(l, s, 0, ls->linear, status));
+  if (!l->same) {
+    corot_status status = part_energy(l->coarse, ls->coarse, t, ls, damped, &coarse[0], &coarse[1]);
+    COROT_TRY(part_status(l, s, 0, ls->coarse, status));
+    status = part_energy(l->linear, ls->linear, t, ls, damped, &linear[0], &linear[1]);
+    COROT_TRY(part_status(l, s, 0, ls->linear, status));
+  }
   *elastic = coarse[0] + (fine[0] - linear[0]);
   *power = coarse[1] + (fine[1] - linear[1]);
   return COROT_OK;

@@ -5,7 +5,7 @@
 corot_model_def corot_model_defaults(void) { return (corot_model_def){.strain = "polar"}; }
 
 corot_hierarchy_def corot_hierarchy_defaults(void) {
-  return (corot_hierarchy_def){.coarse_strain = "green", .conservative = true};
+  return (corot_hierarchy_def){.coarse_strain = "polar", .conservative = true};
 }
 
 corot_status corot_model_find_strain(const char *name, int *strain) {
@@ -200,9 +200,9 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   COROT_TRY(status);
 
   COROT_TRY(number_dofs(def, m));
-  const pattern *coarse = m->levels ? &m->levels->coarse->pattern : NULL;
+  const pattern *coarse = m->levels && !m->levels->same ? &m->levels->coarse->pattern : NULL;
   COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, coarse, &m->pattern));
-  if (m->levels) COROT_TRY(corot_levels_place(m));
+  if (coarse) COROT_TRY(corot_levels_place(m));
   COROT_TRY(corot_mass_create(def, m));
   COROT_TRY(corot_loads_create(def, m));
   COROT_TRY(list_kinks(m));

@@ -77,6 +77,40 @@ static void refusals_of_a_build(void **state) {
   }
 }
 
+static void hierarchies(void **state) {
+  (void)state;
+  static const struct {
+    const char *text, *strain;
+  } h[] = {
+      {REFINED("2") "hierarchy: {}\n", "polar+polar"},
+      {REFINED("1") "strain: warp\nhierarchy: {coarse_strain: polar, force: paper}\n",
+       "polar+warp"},
+      {REFINED("2") "strain: cauchy\nhierarchy: {coarse_strain: green, frame_level: 2}\n",
+       "green+cauchy"},
+      {REFINED("0") "strain: warp\nhierarchy: {coarse_strain: hybrid}\n", "hybrid"},
+  };
+  for (size_t i = 0; i < sizeof h / sizeof *h; i++) {
+    corot_mesh *mesh = NULL;
+    corot_model *model = NULL;
+    build(h[i].text, &mesh, &model);
+    assert_string_equal(corot_model_strain(model), h[i].strain);
+    corot_model_destroy(model);
+    corot_mesh_destroy(mesh);
+  }
+  refuse(REFINED("1") "hierarchy: {frame_level: 2}\n",
+         "4:26: hierarchy.frame_level: mesh.refine makes the levels 0 to 1");
+  refuse(REFINED("1") "strain: green\nhierarchy: {}\n",
+         "4:9: strain: with a hierarchy it is that of the refined mesh");
+  refuse(REFINED("1") "strain: warp\nhierarchy: {}\n",
+         "4:9: strain: warp has no conservative force: hierarchy.force must be paper");
+  refuse(REFINED("1") "strain: warp\nhierarchy: {force: paper, frame_level: 1}\n",
+         "5:40: hierarchy.frame_level: warp takes its frames from level 0 only");
+  refuse(REFINED("1") "viscosity: objective\nhierarchy: {}\n",
+         "4:12: viscosity: with a hierarchy it must be corotated");
+  refuse(REFINED("1") "hierarchy: {coarse_strain: gren}\n",
+         "4:28: hierarchy.coarse_strain: unknown: gren; did you mean green?");
+}
+
 static void memory_is_counted(void **state) {
   (void)state;
   assert_ok(refine_fits(1000, 2, 64000 * 50));
@@ -103,6 +137,9 @@ static void failed_allocations(void **state) {
   scenario *s = accept(REFINED("1") "groups: {two: {nodes: [0, 1]}}\n");
   assert_true(assert_survives_failed_allocations(build_scenario, s) >= 50);
   scenario_destroy(s);
+  s = accept(REFINED("1") "hierarchy: {}\n");
+  assert_true(assert_survives_failed_allocations(build_scenario, s) >= 90);
+  scenario_destroy(s);
 }
 
 int main(void) {
@@ -110,6 +147,7 @@ int main(void) {
       cmocka_unit_test(groups_are_those_of_the_refined_mesh),
       cmocka_unit_test(refine_0_changes_nothing),
       cmocka_unit_test(refusals_of_a_build),
+      cmocka_unit_test(hierarchies),
       cmocka_unit_test(memory_is_counted),
       cmocka_unit_test(failed_allocations),
   };
