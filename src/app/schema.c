@@ -54,7 +54,7 @@ const schema_key schema_keys[] = {
   {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "lumped", "lumped|consistent", "lumped: row sums at the nodes; consistent: the shape functions' own, without moving supports"},
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
   {"hierarchy",               MAP,             OPTIONAL, ANY,          "",        0, 0, "with mesh.refine: a measure of its own for the unrefined mesh; strain is that of the refined one, in frames handed down"},
-  {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh; green and hybrid for small strains only, see corot/model.h"},
+  {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh; green and hybrid for small strains only: with two refinements, of 2 %"},
   {"hierarchy.frame_level",   INTEGER,         OPTIONAL, NOT_NEGATIVE, "",        "0", 0, "the level whose frames are handed down to finer ones, 0 (the unrefined mesh) to mesh.refine"},
   {"hierarchy.force",         CHOICE,          OPTIONAL, ANY,          "",        "conservative", "conservative|paper", "conservative: the gradient of the energy; paper: without the part by which the frames follow, which keeps momentum only"},
   {"viscosity",               CHOICE,          OPTIONAL, ANY,          "",        "corotated", "corotated|objective", "strain rate of the damping: sym(R' dF/dt), or dS/dt of F = R S, zero in any rigid motion (polar, hybrid)"},
