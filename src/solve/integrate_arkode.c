@@ -128,5 +128,5 @@ static corot_status create(corot_integrator *self, const double *u, const double
 }
 
 const integrator_ops corot_integrator_arkode = {
-    "arkode",    choose,        create,           corot_rk_close,     corot_rk_step,
-    corot_rk_at, corot_rk_work, corot_rk_changed, corot_rk_statistics};
+    "arkode",    choose,        create,           corot_rk_close,      corot_rk_step,
+    corot_rk_at, corot_rk_work, corot_rk_changed, corot_rk_statistics, false};
