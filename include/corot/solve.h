@@ -130,7 +130,7 @@ int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector y
                            SUNMatrix A, void *user_data, N_Vector tmp1, N_Vector tmp2,
                            N_Vector tmp3);
 
-/* Model and state in one pointer: the user_data of corot_sun_rhs. */
+/* Model, state and mass in one pointer: the user_data of corot_sun_rhs. */
 typedef struct corot_sun_data {
   const corot_model *model;
   corot_state *state;

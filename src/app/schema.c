@@ -109,7 +109,7 @@ const schema_key schema_keys[] = {
   {"integrator.jacobian",     MAP,             OPTIONAL, ANY,          "",        "{}", 0, "the Newton matrix: changes the cost, not the answer"},
   {"integrator.jacobian.tangent", CHOICE,      OPTIONAL, ANY,          "",        "auto", "auto|held|exact|clamped", "frames in the stiffness: as if held; with their own variation; exact, but positive semidefinite in each element"},
   {"integrator.jacobian.reassembly", INTEGER,  OPTIONAL, POSITIVE,     "",        "auto", "auto", "stiffness and damping anew at least every so many steps"},
-  {"integrator.jacobian.refactorisation", INTEGER, OPTIONAL, POSITIVE, "",        "auto", "auto", "factor anew at least every so many steps"},
+  {"integrator.jacobian.refactorisation", INTEGER, OPTIONAL, POSITIVE, "",        "auto", "auto", "factor anew at least every so many steps; ida does so by gamma_change alone"},
   {"integrator.jacobian.gamma_change", NUMBER, OPTIONAL, POSITIVE,     "",        "auto", "auto", "factor anew when step times leading coefficient changes by this fraction"},
   {"integrator.jacobian.convergence", NUMBER,  OPTIONAL, POSITIVE,     "",        "auto", "auto", "Newton's iteration ends at this fraction of the tolerance"},
   {"linear_solver",           SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "auto", 0, "how a step's linear system is solved; the name alone will do"},

@@ -128,7 +128,8 @@ corot_status corot_driver_give_up(const driver *d, const char *why) {
     snprintf(limit, sizeof limit, "; min_step = %g s", d->self->def.min_step);
   return corot_fail(COROT_EINTEGRATE, "%s: cannot get past t = %.9g: %s%s%s%s%s",
                     d->self->ops->name, d->self->t, refused ? d->refusal : "", refused ? " (" : "",
-                    why, limit, refused ? ")" : "");
+                    *why ? why : "the error test failed too often, or the step became too short",
+                    limit, refused ? ")" : "");
 }
 
 void corot_driver_watch(driver *d, double h, bool stopped) {

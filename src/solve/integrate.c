@@ -260,7 +260,7 @@ corot_integrator_choice corot_integrator_chosen(const corot_integrator *self) {
       .table = self->table ? self->table : "",
       .atol_displacement = d->atol_displacement,
       .atol_velocity = d->atol_velocity,
-      .max_order = d->order ? d->order : d->max_order,
+      .max_order = self->table ? d->order : d->max_order,
       .tangent = d->tangent,
       .reassembly = d->reassembly,
       .refactorisation = d->refactorisation,

@@ -156,6 +156,7 @@ static void linear_algebra_makes_no_difference(void **state) {
               {"pcg", COROT_TANGENT_HELD}};
   for (int k = 0; k < NVARIANT; k++)
     for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+      if (strcmp(variants[k].method, "erk") == 0) continue; /* has none */
       corot_integrator_def def = def_of(&variants[k], 1e-7);
       def.linear.solver = ways[w].solver, def.tangent = ways[w].tangent;
       corot_integrator *probe;
