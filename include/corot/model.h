@@ -41,6 +41,14 @@ typedef struct corot_amplitude {
    them as impulses. */
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
 
+/* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda
+   grows: linear tets come out far too stiff, from a Poisson's ratio of about 0.45 on. NODAL: mostly
+   its averages over the tets around each node (Bonet & Burton 1998), as the gradient of an energy,
+   for every strain measure; a node between materials has an average for each. The damping's first
+   coefficient acts on each tet's own rate all the same. K then couples nodes two tets apart and has
+   about four times the entries. */
+typedef enum corot_dilatation { COROT_DILATATION_LOCAL, COROT_DILATATION_NODAL } corot_dilatation;
+
 typedef enum corot_load_kind {
   COROT_TRACTION, /* force per rest area on the group's triangles, fixed direction [Pa] */
   COROT_GRAVITY,  /* acceleration of the whole body [m/s^2]; the group is ignored */
@@ -94,9 +102,14 @@ typedef struct corot_model_def {
   const corot_load *load; /* [nload] */
   corot_viscosity viscosity;
   corot_mass mass;
+  corot_dilatation dilatation;
+  double dilatation_local; /* NODAL: so much of lambda as this many mu is left to each tet's own
+                              dilatation, against patterns of swelling and shrinking neighbours that
+                              averages do not see; a material with no more lambda than that keeps
+                              all of it. >= 0 */
 } corot_model_def;
 
-/* Strain polar, mass lumped, nothing else. */
+/* Strain polar, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
 corot_model_def corot_model_defaults(void);
 
 typedef struct corot_model corot_model;
