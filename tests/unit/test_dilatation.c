@@ -122,6 +122,32 @@ static void stiffness_is_the_derivative(void **state) {
     }
 }
 
+/* The kernels work chunk by chunk, the averages do not. */
+static void averages_reach_across_chunks(void **state) {
+  (void)state;
+  corot_model_def def = corot_model_defaults();
+  def.nmaterial = 1, def.material = &soft, def.dilatation = COROT_DILATATION_NODAL;
+  body b = make_body(crooked_box(6, 7, 8), def);
+  assert_true(b.mesh->ntet > 7 * 256);
+  double *u = make_fields(&b), *du = u + 2 * b.n, *Kdu = u + 4 * b.n, *jv = u + 5 * b.n;
+  double *rest = calloc(2 * b.n, sizeof *rest), *at = rest + b.n;
+  double(*K)[9] = malloc(corot_model_nblock(b.model) * sizeof *K);
+  uint64_t seed = 2;
+  move(&b, identity, 0.004, &seed, u);
+  assert_ok(corot_jacobian(b.model, b.state, 0, u, rest, COROT_TANGENT_EXACT, K, NULL));
+  corot_block_multiply(b.model, (const double(*)[9])K, du, Kdu);
+  assert_ok(corot_jvp(b.model, b.state, 0, u, rest, COROT_TANGENT_EXACT, du, rest, jv));
+  for (int i = 0; i < b.n; i++) assert_close(Kdu[i], -jv[i], 0, 1e-13 * norm_max(b.n, jv));
+
+  combine(b.n, u, step, du, at);
+  double after = energy(&b, at);
+  combine(b.n, u, -step, du, at);
+  double before = energy(&b, at);
+  assert_ok(corot_residual(b.model, b.state, 0, u, rest, at));
+  assert_close((after - before) / (2 * step), -inner(b.n, at, du), difference_error, 0);
+  free(u), free(rest), free(K), drop_body(&b);
+}
+
 /* Clamped is no less than exact, and semidefinite, in a crushed state where exact is not. */
 static void clamped_stiffness_is_semidefinite(void **state) {
   (void)state;
@@ -285,6 +311,7 @@ int main(void) {
       cmocka_unit_test(force_is_the_gradient_of_the_energy),
       cmocka_unit_test(derivative_is_that_of_the_force),
       cmocka_unit_test(stiffness_is_the_derivative),
+      cmocka_unit_test(averages_reach_across_chunks),
       cmocka_unit_test(clamped_stiffness_is_semidefinite),
       cmocka_unit_test(rigid_motions_do_nothing),
       cmocka_unit_test(uniform_strain_is_as_without),
