@@ -537,6 +537,30 @@ static void builds_motions_and_loads(void **state) {
   corot_mesh_destroy(mesh);
 }
 
+static void builds_averages_of_the_dilatation(void **state) {
+  (void)state;
+  static const struct {
+    const char *key;
+    bool wider;
+  } table[] = {{"", false},
+               {"dilatation: local\n", false},
+               {"dilatation: nodal\n", true},
+               {"dilatation: {name: nodal, local: 9.9}\n", true},
+               {"dilatation: {name: nodal, local: 10}\n", false}}; /* lambda is 10 mu */
+  for (int k = 0; k < 5; k++) {
+    char text[500];
+    corot_mesh *mesh = NULL;
+    corot_model *model = NULL;
+    snprintf(text, sizeof text, "%s%s", MINIMAL, table[k].key);
+    build(text, &mesh, &model);
+    /* 12 nodes, 33 edges; averages couple all but the corners farthest apart */
+    int narrow = 12 + 33, nblock = corot_model_nblock(model);
+    assert_true(table[k].wider ? nblock > narrow : nblock == narrow);
+    corot_model_destroy(model);
+    corot_mesh_destroy(mesh);
+  }
+}
+
 static void build_refusals(void **state) {
   (void)state;
   write_file(BINARY_DIR "/garbage.msh", "garbage\n", 8);
@@ -688,6 +712,7 @@ int main(void) {
       cmocka_unit_test(numbers_as_text),
       cmocka_unit_test(builds),
       cmocka_unit_test(builds_motions_and_loads),
+      cmocka_unit_test(builds_averages_of_the_dilatation),
       cmocka_unit_test(build_refusals),
       cmocka_unit_test(failed_allocations),
       cmocka_unit_test(schema_is_sound),
