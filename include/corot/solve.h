@@ -117,6 +117,12 @@ int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunboo
                      sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
                      N_Vector tmp2, N_Vector tmp3);
 
+/* The same as an ARKLsLinSysFn of ARKODE, whose mass matrix is the identity: corot_sun_rhs divides by
+   the mass. */
+int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
+                         sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
+                         void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);
+
 /* The same for F(t, y, y') = (u' - v, M v' - r), the residual form of IDA (or IDAS): the solver stands
    for dF/dy + cj dF/dy'. corot_sun_jacobian_dae is an IDALsJacFn; its user_data is not looked at. */
 SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx);

@@ -174,9 +174,12 @@ static void print_integrator(const scenario *s, const corot_integrator_choice *c
   if (d->step > 0)
     fprintf(out, "steps of %g s, %s", d->step,
             d->solution == COROT_SOLUTION_LINEAR ? "one linear solve each" : "Newton");
+  else if (*c->table)
+    fprintf(out, "order %d, %s", c->max_order, c->table);
   else
     fprintf(out, "order up to %d", c->max_order);
-  fprintf(out, ", linear solver %s\n", c->linear_solver);
+  if (strcmp(c->linear_solver, "none") != 0) fprintf(out, ", linear solver %s", c->linear_solver);
+  fputc('\n', out);
   if (d->step > 0)
     fprintf(out, "tolerances     Newton %g\n", d->newton_tolerance);
   else

@@ -14,9 +14,11 @@ corot_status corot_driver_open(driver *d, corot_integrator *self, const double *
   d->self = self;
   if (sun_context_create(&d->ctx)) return corot_fail(COROT_ENOMEM, "no memory for SUNDIALS");
   d->y = N_VNew_Serial(2 * (sunindextype)n, d->ctx);
-  d->A = corot_sun_matrix(self->pencil, d->ctx);
-  d->LS = corot_sun_linsol(self->pencil, d->ctx);
-  if (!d->y || !d->A || !d->LS)
+  if (self->pencil) {
+    d->A = corot_sun_matrix(self->pencil, d->ctx);
+    d->LS = corot_sun_linsol(self->pencil, d->ctx);
+  }
+  if (!d->y || (self->pencil && !(d->A && d->LS)))
     return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name, 2 * n);
   corot_vector_quicken(d->y);
   memcpy(N_VGetArrayPointer(d->y), u, n * sizeof *u);
