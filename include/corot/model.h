@@ -42,11 +42,12 @@ typedef struct corot_amplitude {
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
 
 /* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda
-   grows: linear tets come out far too stiff, from a Poisson's ratio of about 0.45 on. NODAL: mostly
-   its averages over the tets around each node (Bonet & Burton 1998), as the gradient of an energy,
-   for every strain measure; a node between materials has an average for each. The damping's first
-   coefficient acts on each tet's own rate all the same. K then couples nodes two tets apart and has
-   about four times the entries. */
+   grows: near incompressibility linear tets come out several times too stiff. NODAL: mostly its
+   averages over the tets around each node (Bonet & Burton 1998), as the gradient of an energy, for
+   every strain measure; a node between materials has an average of each. Displacements then converge
+   as those of compressible solids do; the pressure stays rough from node to node. The damping's
+   first coefficient acts on each tet's own rate all the same. K couples nodes two tets apart and has
+   nearly four times the entries; forces take twice the time. */
 typedef enum corot_dilatation { COROT_DILATATION_LOCAL, COROT_DILATATION_NODAL } corot_dilatation;
 
 typedef enum corot_load_kind {
@@ -103,10 +104,10 @@ typedef struct corot_model_def {
   corot_viscosity viscosity;
   corot_mass mass;
   corot_dilatation dilatation;
-  double dilatation_local; /* NODAL: so much of lambda as this many mu is left to each tet's own
-                              dilatation, against patterns of swelling and shrinking neighbours that
-                              averages do not see; a material with no more lambda than that keeps
-                              all of it. >= 0 */
+  double dilatation_local; /* NODAL: so many mu of lambda are left to each tet's own dilatation, for
+                              the patterns of swelling and shrinking that averages do not see; a
+                              material with no more lambda than that keeps all of it. In mu, for a
+                              fraction of lambda would lock again. >= 0 */
 } corot_model_def;
 
 /* Strain polar, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */

@@ -179,7 +179,8 @@ static void find_scales(corot_model *m) {
 static corot_status average_dilatation(const corot_model_def *def, corot_model *m) {
   if (def->dilatation == COROT_DILATATION_LOCAL) return COROT_OK;
   if (!(def->dilatation_local >= 0) || !isfinite(def->dilatation_local))
-    return corot_fail(COROT_EINVAL, "dilatation_local = %g is not a number of shear moduli >= 0", def->dilatation_local);
+    return corot_fail(COROT_EINVAL, "dilatation_local = %g is not a number of shear moduli >= 0",
+                      def->dilatation_local);
   double *averaged = calloc(m->nmaterial + 1, sizeof *averaged), most = 0;
   if (!averaged) return corot_fail(COROT_ENOMEM, "no memory for %d materials", m->nmaterial);
   for (int k = 0; k < m->nmaterial; k++) {

@@ -2,18 +2,27 @@
    do nothing, and uniform strain is none of its business. */
 #include "solid.h"
 
-/* Two nearly incompressible materials that meet in a plane, and one that is not averaged. */
+/* Two nearly incompressible materials that meet in a plane, and one that is not averaged. The nodes
+   of crooked_box(2, 3, 4) come layer by layer, twelve in each: the first is of the layers 0 to 2,
+   the second of 3 and 4, the third of what is between. */
+static const corot_material material[3] = {
+    {.group = "low", .lambda = 3e5, .mu = 1e4, .density = 1000},
+    {.group = "high", .lambda = 5e3, .mu = 2e4, .density = 1000, .damping_mu = 3},
+    {.lambda = 1e6, .mu = 1e4, .density = 1000, .damping_lambda = 20},
+};
+
+static int material_of(const int tet[4]) {
+  int low = 1, high = 1;
+  for (int a = 0; a < 4; a++) low &= tet[a] < 3 * 12, high &= tet[a] >= 3 * 12;
+  return low ? 0 : high ? 1 : 2;
+}
+
 static body make(const char *strain, corot_dilatation dilatation, double local) {
   corot_mesh *mesh = crooked_box(2, 3, 4);
   int node[5 * 12];
-  for (int n = 0; n < 5 * 12; n++) node[n] = n; /* layer by layer */
+  for (int n = 0; n < 5 * 12; n++) node[n] = n;
   assert_ok(corot_mesh_group_nodes(mesh, "low", 3 * 12, node));
   assert_ok(corot_mesh_group_nodes(mesh, "high", 2 * 12, node + 3 * 12));
-  corot_material material[] = {
-      {.group = "low", .lambda = 3e5, .mu = 1e4, .density = 1000},
-      {.group = "high", .lambda = 5e3, .mu = 2e4, .density = 1000, .damping_mu = 3},
-      {.lambda = 1e6, .mu = 1e4, .density = 1000, .damping_lambda = 20},
-  };
   corot_model_def def = corot_model_defaults();
   def.strain = strain, def.nmaterial = 3, def.material = material;
   def.dilatation = dilatation, def.dilatation_local = local;
@@ -56,8 +65,63 @@ static void combine(int n, const double *a, double factor, const double *b, doub
   for (int i = 0; i < n; i++) c[i] = a[i] + factor * b[i];
 }
 
+/* Volume of a tet and the trace of the Green or Cauchy strain in it. */
+static double tet_dilatation(const body *b, const double *u, const int tet[4], bool green,
+                             double *volume) {
+  const int(*dof)[3] = corot_model_dof(b->model);
+  double D[9], d[9], inverse[9], F[9], trace = 0;
+  for (int a = 0; a < 3; a++)
+    for (int c = 0; c < 3; c++) {
+      int i = tet[a + 1], j = tet[0];
+      D[3 * c + a] = b->mesh->x[i][c] - b->mesh->x[j][c];
+      d[3 * c + a] = D[3 * c + a] + u[dof[i][c]] - u[dof[j][c]];
+    }
+  double det = determinant(D);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      double cofactor = D[3 * i1 + j1] * D[3 * i2 + j2] - D[3 * i1 + j2] * D[3 * i2 + j1];
+      inverse[3 * j + i] = cofactor / det;
+    }
+  multiply(d, inverse, F);
+  for (int k = 0; k < 9; k++) trace += green ? F[k] * F[k] / 2 : (k % 4 == 0) * F[k];
+  *volume = fabs(det) / 6;
+  return green ? trace - 1.5 : trace - 3;
+}
+
 /* Central differences: (step times gradients of 10)^2 is 4e-10, rounding over the step 1e-10. */
 static const double step = 2e-6, difference_error = 1e-7;
+
+/* The sums over tets and nodes, node by node and material by material. */
+static void energy_is_that_of_the_averages(void **state) {
+  (void)state;
+  for (int green = 0; green < 2; green++) {
+    const char *strain = green ? "green" : "cauchy";
+    body b = make_nodal(strain), plain = make(strain, COROT_DILATATION_LOCAL, 1);
+    double *u = make_fields(&b), expected = energy(&plain, u), V;
+    for (int k = 0; k < 3; k++) {
+      double lambda = material[k].lambda, local = fmin(lambda, material[k].mu);
+      for (int e = 0; e < b.mesh->ntet; e++) {
+        if (material_of(b.mesh->tet[e]) != k) continue;
+        double theta = tet_dilatation(&b, u, b.mesh->tet[e], green, &V);
+        expected -= V * (lambda - local) / 2 * theta * theta;
+      }
+      for (int n = 0; n < b.mesh->nnode; n++) {
+        double sum = 0, volume = 0;
+        for (int e = 0; e < b.mesh->ntet; e++) {
+          const int *tet = b.mesh->tet[e];
+          if (material_of(tet) != k) continue;
+          if (tet[0] != n && tet[1] != n && tet[2] != n && tet[3] != n) continue;
+          sum += tet_dilatation(&b, u, tet, green, &V) * V;
+          volume += V;
+        }
+        if (volume > 0) expected += volume / 4 * (lambda - local) / 2 * pow(sum / volume, 2);
+      }
+    }
+    assert_close(energy(&b, u), expected, 1e-12, 0);
+    free(u), drop_body(&b), drop_body(&plain);
+  }
+}
 
 static void force_is_the_gradient_of_the_energy(void **state) {
   (void)state;
@@ -308,6 +372,7 @@ static void a_share_out_of_range_is_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(energy_is_that_of_the_averages),
       cmocka_unit_test(force_is_the_gradient_of_the_energy),
       cmocka_unit_test(derivative_is_that_of_the_force),
       cmocka_unit_test(stiffness_is_the_derivative),
