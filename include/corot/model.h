@@ -41,6 +41,15 @@ typedef struct corot_amplitude {
    them as impulses. */
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
 
+/* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda
+   grows: near incompressibility linear tets come out several times too stiff. NODAL: mostly its
+   averages over the tets around each node (Bonet & Burton 1998), as the gradient of an energy, for
+   every strain measure; a node between materials has an average of each. Displacements then converge
+   as those of compressible solids do; the pressure stays rough from node to node. The damping's
+   first coefficient acts on each tet's own rate all the same. K couples nodes two tets apart and has
+   nearly four times the entries; forces take twice the time. */
+typedef enum corot_dilatation { COROT_DILATATION_LOCAL, COROT_DILATATION_NODAL } corot_dilatation;
+
 typedef enum corot_load_kind {
   COROT_TRACTION, /* force per rest area on the group's triangles, fixed direction [Pa] */
   COROT_GRAVITY,  /* acceleration of the whole body [m/s^2]; the group is ignored */
@@ -94,9 +103,14 @@ typedef struct corot_model_def {
   const corot_load *load; /* [nload] */
   corot_viscosity viscosity;
   corot_mass mass;
+  corot_dilatation dilatation;
+  double dilatation_local; /* NODAL: so many mu of lambda are left to each tet's own dilatation, for
+                              the patterns of swelling and shrinking that averages do not see; a
+                              material with no more lambda than that keeps all of it. In mu, for a
+                              fraction of lambda would lock again. >= 0 */
 } corot_model_def;
 
-/* Strain polar, mass lumped, nothing else. */
+/* Strain polar, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
 corot_model_def corot_model_defaults(void);
 
 typedef struct corot_model corot_model;

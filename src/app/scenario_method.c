@@ -148,9 +148,16 @@ static corot_status read_integrator(scenario *s) {
   return COROT_OK;
 }
 
+static void read_dilatation(scenario *s) {
+  config_node *node = config_find(s->source->root, "dilatation");
+  s->dilatation = text_is(node, "name", "nodal") ? COROT_DILATATION_NODAL : COROT_DILATATION_LOCAL;
+  s->dilatation_local = number_at(node, "local");
+}
+
 corot_status scenario_read_method(scenario *s) {
   s->mass =
       text_is(s->source->root, "mass", "consistent") ? COROT_MASS_CONSISTENT : COROT_MASS_LUMPED;
+  read_dilatation(s);
   COROT_TRY(read_viscosity(s));
   COROT_TRY(read_frames(s));
   return read_integrator(s);

@@ -53,6 +53,9 @@ const schema_key schema_keys[] = {
 
   {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "lumped", "lumped|consistent", "lumped: row sums at the nodes; consistent: the shape functions' own, without moving supports"},
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
+  {"dilatation",              SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "local", 0, "what lambda acts on; the name alone will do"},
+  {"dilatation.name",         CHOICE,          OPTIONAL, ANY,          "",        "local", "local|nodal", "local: each tet's own dilatation, which locks as nu nears 1/2; nodal: averages around the nodes, which do not"},
+  {"dilatation.local",        NUMBER,          OPTIONAL, NOT_NEGATIVE, "mu",      "1.0", 0, "nodal: so much of lambda stays with each tet's own"},
   {"viscosity",               CHOICE,          OPTIONAL, ANY,          "",        "corotated", "corotated|objective", "strain rate of the damping: sym(R' dF/dt), or dS/dt of F = R S, zero in any rigid motion (polar, hybrid)"},
   {"frames",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "the rotations of the elements, as part of the model"},
   {"frames.policy",           CHOICE,          OPTIONAL, ANY,          "",        "exact", "exact|step|hold|extrapolate", "exact: found in every evaluation; step: after every step; hold: kept between updates; extrapolate: turned on at their spin"},

@@ -57,6 +57,7 @@ corot_status corot_residual(const corot_model *m, corot_state *s, double t, cons
   if (damped) corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
   external_force(m, s, t, s->r);
   if (!s->still) corot_mass_damp(m, v, s->r);
+  corot_kernel_dilatation(m, s);
   return sum_forces(m, s, t, corot_kernel_force, damped, r);
 }
 
@@ -82,9 +83,11 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
   if (tangent == COROT_TANGENT_AUTO) tangent = COROT_TANGENT_HELD;
+  corot_kernel_dilatation(m, s);
   for (int c = 0; c < m->pattern.nchunk; c++)
     COROT_TRY(
         corot_state_check(s, corot_kernel_tangent(m, s, tangent, c, K, m->damped ? D : NULL)));
+  if (K) corot_kernel_dilatation_tangent(m, s, K);
   if (D) corot_mass_damping_matrix(m, D);
   return COROT_OK;
 }
@@ -104,7 +107,10 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
   memset(s->r, 0, m->ndof * sizeof *s->r);
   external_derivative(m, s, t, s->r);
   if (!s->still) corot_mass_damp(m, dv, s->r);
-  return sum_forces(m, s, t, corot_kernel_derivative, tangent > COROT_TANGENT_HELD, jv);
+  bool exact = tangent > COROT_TANGENT_HELD;
+  corot_kernel_dilatation(m, s);
+  corot_kernel_dilatation_change(m, s, exact);
+  return sum_forces(m, s, t, corot_kernel_derivative, exact, jv);
 }
 
 static void add_cross(double a[3], const double x[3], const double p[3]) {
@@ -155,6 +161,7 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
   corot_energies e = {0};
   corot_state_displace(m, s, t, u);
   corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  corot_kernel_dilatation(m, s);
   COROT_TRY(
       corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, &e.power_dissipated)));
   if (m->nmotion) COROT_TRY(support_power(m, s, &e.power_external));
@@ -176,6 +183,7 @@ corot_status corot_internal_force(const corot_model *m, corot_state *s, double t
   int index;
   COROT_TRY(corot_model_find_strain(strain, &index));
   corot_state_displace(m, s, t, u);
+  corot_kernel_internal_dilatation(m, s, index);
   const double *force = (const double *)s->force;
   const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
   for (int c = 0; c < m->pattern.nchunk; c++) {

@@ -3,7 +3,7 @@
 #ifndef COROT_CORE_PATTERN_H
 #define COROT_CORE_PATTERN_H
 
-#include "core/tets.h"
+#include "core/dilatation.h"
 
 /* Pairs (a, b), a > b, of local nodes: the edges of a tet. */
 enum { NPAIR = 6 };
@@ -31,7 +31,8 @@ typedef struct pattern {
                  y and z W further */
 } pattern;
 
-corot_status corot_pattern_create(int nnode, const tets *t, pattern *out);
+/* Nodes that share a tet, or an average of the dilatation. */
+corot_status corot_pattern_create(int nnode, const tets *t, const dilatation *d, pattern *out);
 void corot_pattern_clear(pattern *p);
 
 #endif

@@ -2,6 +2,20 @@
 
 #include <stdlib.h>
 
+static corot_status allocate_averages(const corot_model *m, corot_state *s) {
+  int nnode = m->mesh->nnode, nblock = m->tets.nblock, npool = m->dilatation.npool;
+  if (!npool) return COROT_OK;
+  s->dilatation = corot_vector_calloc(nblock, sizeof *s->dilatation);
+  s->dilatation_change = corot_vector_calloc(nblock, sizeof *s->dilatation_change);
+  s->slope = corot_vector_calloc(nblock, sizeof *s->slope);
+  s->pool = malloc(npool * sizeof *s->pool);
+  s->gathered = calloc(nnode, sizeof *s->gathered);
+  if (!s->dilatation || !s->dilatation_change || !s->slope || !s->pool || !s->gathered)
+    return corot_fail(COROT_ENOMEM, "no memory for a state of %d averages", npool);
+  s->npool = npool;
+  return COROT_OK;
+}
+
 static corot_status allocate(const corot_model *m, corot_state *s) {
   int nnode = m->mesh->nnode, nblock = m->tets.nblock;
   s->u = corot_vector_calloc(nnode, sizeof *s->u);
@@ -27,6 +41,7 @@ corot_status corot_state_create(const corot_model *m, corot_state **state) {
   s->inverted = -1;
   s->phase = NAN;
   corot_status status = allocate(m, s);
+  if (!status) status = allocate_averages(m, s);
   if (status) {
     corot_state_destroy(s);
     return status;
@@ -49,13 +64,22 @@ void corot_state_destroy(corot_state *s) {
   free(s->new_R);
   free(s->now_R);
   free(s->spin);
+  free(s->dilatation);
+  free(s->dilatation_change);
+  free(s->slope);
+  free(s->pool);
+  free(s->gathered);
   free(s->force);
   free(s->r);
   free(s);
 }
 
 size_t corot_state_bytes(const corot_state *s) {
-  return sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
+  size_t averages = 0;
+  if (s->npool)
+    averages = s->nblock * (2 * sizeof *s->dilatation + sizeof *s->slope) +
+               s->npool * sizeof *s->pool + s->nnode * sizeof *s->gathered;
+  return sizeof *s + averages + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
          s->nblock * (3 * sizeof *s->R + sizeof *s->spin) + s->window * sizeof *s->force;
 }
 
