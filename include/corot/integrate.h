@@ -42,8 +42,9 @@ typedef struct corot_integrator_def {
   double max_step;           /* [s]; 0: none */
   corot_tangent tangent;     /* the frames' part in K; COROT_TANGENT_AUTO: choose */
   int reassembly;            /* K and D at least every so many steps; 0: choose */
-  int refactorisation;       /* S at least every so many steps; 0: choose */
-  double gamma_change;       /* refactor when gamma has changed by this fraction; 0: choose */
+  int refactorisation;       /* S at least every so many steps; 0: choose. ida has no such rule */
+  double gamma_change;       /* refactor when gamma has changed by this fraction (ida: < 1);
+                                0: choose */
   double convergence;        /* Newton's error as a fraction of the tolerance; 0: choose */
   double step;               /* [s] of a fixed-step method, > 0 */
   corot_solution solution;   /* of a fixed-step method */
@@ -95,7 +96,7 @@ corot_status corot_integrator_work(corot_integrator *integrator, double t, doubl
 
 /* What to do with the history of the solution when r has jumped between steps. */
 typedef enum corot_history {
-  COROT_HISTORY_AUTO,    /* restart if the jump is felt at the tolerance (see integrate_cvode.c) */
+  COROT_HISTORY_AUTO,    /* restart if the jump is felt at the tolerance (see multistep.c) */
   COROT_HISTORY_KEEP,
   COROT_HISTORY_RESTART, /* begin again at order 1 */
 } corot_history;
@@ -200,9 +201,6 @@ typedef struct corot_integrator_choice {
 } corot_integrator_choice;
 
 corot_integrator_choice corot_integrator_chosen(const corot_integrator *integrator);
-
-/* The version of the SUNDIALS that was linked. */
-const char *corot_sundials_version(void);
 
 #ifdef __cplusplus
 }

@@ -41,6 +41,15 @@ typedef struct corot_amplitude {
    them as impulses. */
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
 
+/* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda
+   grows: near incompressibility linear tets come out several times too stiff. NODAL: mostly its
+   averages over the tets around each node (Bonet & Burton 1998), as the gradient of an energy, for
+   every strain measure; a node between materials has an average of each. Displacements then converge
+   as those of compressible solids do; the pressure stays rough from node to node. The damping's
+   first coefficient acts on each tet's own rate all the same. K couples nodes two tets apart and has
+   nearly four times the entries; forces take twice the time. */
+typedef enum corot_dilatation { COROT_DILATATION_LOCAL, COROT_DILATATION_NODAL } corot_dilatation;
+
 typedef enum corot_load_kind {
   COROT_TRACTION, /* force per rest area on the group's triangles, fixed direction [Pa] */
   COROT_GRAVITY,  /* acceleration of the whole body [m/s^2]; the group is ignored */
@@ -135,10 +144,16 @@ typedef struct corot_model_def {
   corot_mass mass;
   const corot_hierarchy_def *hierarchy; /* NULL: `strain` everywhere. Else `strain` is that of the
                                            finest level, which must be linear in a given frame:
-                                           cauchy, warp or polar; viscosity COROTATED */
+                                           cauchy, warp or polar; viscosity COROTATED,
+                                           dilatation LOCAL */
+  corot_dilatation dilatation;
+  double dilatation_local; /* NODAL: so many mu of lambda are left to each tet's own dilatation, for
+                              the patterns of swelling and shrinking that averages do not see; a
+                              material with no more lambda than that keeps all of it. In mu, for a
+                              fraction of lambda would lock again. >= 0 */
 } corot_model_def;
 
-/* Strain polar, mass lumped, nothing else. */
+/* Strain polar, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
 corot_model_def corot_model_defaults(void);
 
 typedef struct corot_model corot_model;

@@ -18,6 +18,9 @@
      hybrid   F    R    polar factor of F
      green    F    F    (none): the geometrically exact St. Venant-Kirchhoff solid
 
+   With COROT_DILATATION_NODAL, tr(e_p) in P is mostly that of averages around the nodes: see
+   corot_model_def.
+
    The viscous stress is the same law with the damping coefficients on sym(B' dF/dt).
 
    A model with a hierarchy (corot/model.h) has two measures: the first in its name on level 0, the
@@ -164,7 +167,8 @@ typedef struct corot_element_fields {
   double *det;         /* det F */
 } corot_element_fields;
 
-/* COROT_RETRY if a tet is inverted; the fields are set all the same, its own without meaning. */
+/* COROT_RETRY if a tet is inverted; the fields are set all the same, its own without meaning (and
+   with COROT_DILATATION_NODAL its neighbours' von Mises stress). */
 corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
                             const corot_element_fields *fields);
 
@@ -173,8 +177,9 @@ corot_status corot_elements(const corot_model *model, corot_state *state, double
 corot_status corot_elastic_force(const corot_model *model, corot_state *state, double t,
                                  const double *u, double (*f)[3]);
 
-/* The same of any one strain measure on the model's mesh, whatever the model's is: f = lambda_part * (lambda term) + mu_part * (mu term). COROT_RETRY as for
-   corot_residual. */
+/* The same of any one strain measure on the model's mesh, whatever the model's is:
+   f = lambda_part * (lambda term) + mu_part * (mu term). Dilatations are averaged if the model's
+   are. COROT_RETRY as for corot_residual. */
 corot_status corot_internal_force(const corot_model *model, corot_state *state, double t,
                                   const double *u, const char *strain, double lambda_part,
                                   double mu_part, double (*f)[3]);
@@ -182,7 +187,9 @@ corot_status corot_internal_force(const corot_model *model, corot_state *state, 
 /* --- The matrices' pattern ------------------------------------------------------------------- */
 
 /* Number of stored 3x3 blocks: the diagonal and the lower triangle over pairs of nodes that share
-   a tet. Blocks of held nodes are stored but mean nothing. */
+   a tet or, with COROT_DILATATION_NODAL, an average: those two tets apart; with
+   a hierarchy, also of level 0 if the measures differ. Blocks of held nodes are stored but mean
+   nothing. */
 int corot_model_nblock(const corot_model *model);
 
 /* y = A x for blocks A [nblock][9]; x and y are [n] and may not overlap. */

@@ -21,7 +21,11 @@ extern "C" {
 /* Whose matrix it is: the mass helps an iterative solver in a time step, not in statics. */
 typedef enum corot_role { COROT_ROLE_DYNAMIC, COROT_ROLE_STATIC } corot_role;
 
-/* How linear systems are solved. Each "auto" is decided by size and role (rules: src/solve/linsol_choose.c). */
+/* How linear systems are solved. Each "auto" is decided by the operations it would take, and by the
+   role: in a time step of a length that resolves the slow motion (at much shorter ones, where the
+   mass outweighs the stiffness, "pcg" may be several times faster on compact bodies); in statics by
+   a solver that can tell whether an equilibrium is stable, if one is built in. Rules:
+   src/solve/linsol_choose.c. */
 typedef struct corot_linear_def {
   const char *solver;         /* "auto", "klu", "cholmod" (if built in), "pcg" */
   const char *ordering;       /* of klu and cholmod: "auto", "amd", "metis" (if built in) */
@@ -117,6 +121,12 @@ int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunboo
                      sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
                      N_Vector tmp2, N_Vector tmp3);
 
+/* The same as an ARKLsLinSysFn of ARKODE, whose mass matrix is the identity: corot_sun_rhs divides by
+   the mass. */
+int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
+                         sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
+                         void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);
+
 /* The same for F(t, y, y') = (u' - v, M v' - r), the residual form of IDA (or IDAS): the solver stands
    for dF/dy + cj dF/dy'. corot_sun_jacobian_dae is an IDALsJacFn; its user_data is not looked at. */
 SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx);
@@ -124,7 +134,7 @@ int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector y
                            SUNMatrix A, void *user_data, N_Vector tmp1, N_Vector tmp2,
                            N_Vector tmp3);
 
-/* Model and state in one pointer: the user_data of corot_sun_rhs. */
+/* Model, state and mass in one pointer: the user_data of corot_sun_rhs. */
 typedef struct corot_sun_data {
   const corot_model *model;
   corot_state *state;

@@ -34,6 +34,8 @@ typedef struct corot_statics_def {
   double max_step;         /* > 0, at most 1. Where there are several equilibria, as beyond a load
                               that buckles, only short steps are sure to find the one that the path
                               of the load leads to */
+  bool (*stop)(void *data); /* asked in every iteration; true: end with COROT_EINTEGRATE. Or NULL */
+  void *stop_data;
 } corot_statics_def;
 
 /* Everything about the linear solver "auto", frames exact, tolerance 1e-10, 20 iterations, the

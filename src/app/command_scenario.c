@@ -24,9 +24,8 @@ static char *default_folder(const char *path) {
   return folder;
 }
 
-/* A second signal ends the program at once. */
 static void heed_signals(void) {
-  struct sigaction action = {.sa_handler = run_interrupt, .sa_flags = SA_RESTART | SA_RESETHAND};
+  struct sigaction action = {.sa_handler = run_interrupt, .sa_flags = SA_RESTART};
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);

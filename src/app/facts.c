@@ -135,6 +135,19 @@ static void print_frames(const scenario *s, FILE *out) {
   fputc('\n', out);
 }
 
+/* Linear tets of one material lock where its lambda is many mu: ten are a nu of 0.45. */
+static void print_dilatation(const scenario *s, FILE *out) {
+  double most = 0;
+  for (int i = 0; i < s->nmaterial; i++)
+    most = fmax(most, s->material[i].lambda / s->material[i].mu);
+  if (s->dilatation == COROT_DILATATION_NODAL)
+    fprintf(out, "dilatation     averaged at the nodes, but for %g mu of lambda\n",
+            s->dilatation_local);
+  else if (most > 10)
+    fprintf(out, "dilatation     each tet's own, which locks: nu = %.4g; see dilatation: nodal\n",
+            0.5 * most / (most + 1));
+}
+
 static void print_model(const scenario *s, const facts *f, FILE *out) {
   int ndof = corot_model_ndof(f->model), all = 3 * f->mesh->nnode;
   for (int i = 0; i < s->nmaterial; i++) {
@@ -150,6 +163,7 @@ static void print_model(const scenario *s, const facts *f, FILE *out) {
           ndof == all ? ": a free body" : "");
   fprintf(out, "loads          %d\n", s->nload);
   print_frames(s, out);
+  print_dilatation(s, out);
   fprintf(out, "memory         %.3g MB, %.0f bytes a tet\n", 1e-6 * (double)f->bytes,
           (double)f->bytes / f->mesh->ntet);
 }
@@ -160,9 +174,12 @@ static void print_integrator(const scenario *s, const corot_integrator_choice *c
   if (d->step > 0)
     fprintf(out, "steps of %g s, %s", d->step,
             d->solution == COROT_SOLUTION_LINEAR ? "one linear solve each" : "Newton");
+  else if (*c->table)
+    fprintf(out, "order %d, %s", c->max_order, c->table);
   else
     fprintf(out, "order up to %d", c->max_order);
-  fprintf(out, ", linear solver %s\n", c->linear_solver);
+  if (strcmp(c->linear_solver, "none") != 0) fprintf(out, ", linear solver %s", c->linear_solver);
+  fputc('\n', out);
   if (d->step > 0)
     fprintf(out, "tolerances     Newton %g\n", d->newton_tolerance);
   else
@@ -247,6 +264,8 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "dofs", json_integer(corot_model_ndof(f->model)));
   j = json_text_with(j, "loads", json_integer(s->nload));
   j = json_text_with(j, "strain", json_string(s->strain));
+  j = json_text_with(j, "dilatation",
+                     json_string(s->dilatation == COROT_DILATATION_NODAL ? "nodal" : "local"));
   j = json_text_with(j, "frames", json_string(s->frame_policy));
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));

@@ -69,6 +69,7 @@ static json_t *frames_part(const scenario *s, const run_summary *run) {
 }
 
 static json_t *jacobian_part(const corot_integrator_choice *c) {
+  if (strcmp(c->linear_solver, "none") == 0) return json_null();
   static const char *const tangents[] = {"held", "exact", "clamped"};
   return json_pack("{s:s, s:o, s:o, s:o, s:o}", "tangent", tangents[c->tangent], "reassembly",
                    positive(c->reassembly), "refactorisation", positive(c->refactorisation),

@@ -265,6 +265,8 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
     fprintf(stderr, "%s\n", corot_error());
     bool lost = status == COROT_EINTEGRATE; /* no equilibrium to start from */
     code = lost ? EXIT_INTEGRATOR : status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
+    if (lost && run_stop_signal()) code = EXIT_SIGNAL + run_stop_signal();
+    run_forget_signal();
   } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
     fprintf(stderr, "%s\n", corot_error());
     code = run_exit_code(status);

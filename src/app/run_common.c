@@ -4,12 +4,26 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "cli.h"
 
 static volatile sig_atomic_t stop_signal;
 
-void run_interrupt(int signal_number) { stop_signal = signal_number; }
+/* Programs that run others may send a signal twice, to the process and to its group: the second is
+   one only if it comes some time after the first. */
+void run_interrupt(int signal_number) {
+  static struct timespec first;
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (!stop_signal) {
+    stop_signal = signal_number;
+    first = now;
+  } else if (now.tv_sec - first.tv_sec > 1) {
+    signal(signal_number, SIG_DFL);
+    raise(signal_number);
+  }
+}
 int run_stop_signal(void) { return stop_signal; }
 void run_forget_signal(void) { stop_signal = 0; }
 

@@ -47,6 +47,8 @@ typedef struct scenario {
 
   corot_viscosity viscosity;
   corot_mass mass;
+  corot_dilatation dilatation;
+  double dilatation_local; /* [mu] */
 
   const char *frame_policy; /* its name */
   corot_frame_policy frames;

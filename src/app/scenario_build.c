@@ -215,6 +215,8 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   def.load = s->load;
   def.viscosity = s->viscosity;
   def.mass = s->mass;
+  def.dilatation = s->dilatation;
+  def.dilatation_local = s->dilatation_local;
   corot_status status = corot_model_create(&def, model);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   /* names and coefficients are checked above: what is left is which tet has which material */

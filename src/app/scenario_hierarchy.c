@@ -17,6 +17,8 @@ static corot_status check_strain(scenario *s, config_node *node) {
     return config_fail(strain, "warp has no conservative force: hierarchy.force must be paper");
   if (s->viscosity == COROT_OBJECTIVE)
     return config_fail(config_find(root, "viscosity"), "with a hierarchy it must be corotated");
+  if (s->dilatation != COROT_DILATATION_LOCAL)
+    return config_fail(config_find(root, "dilatation.name"), "with a hierarchy it must be local");
   return COROT_OK;
 }
 

@@ -77,10 +77,19 @@ static corot_status read_stages(config_node *node, corot_integrator_def *def) {
   def->order = (int)number_at(node, "order");
   def->table = table ? table->text : NULL;
   if (!text_is(node, "predictor", "auto")) def->predictor = (int)number_at(node, "predictor");
+  const config_node *predictor = config_find(node, "predictor");
+  if (!stages && def->order > 0)
+    return config_fail_key(order, "%s has none: see integrator.max_order", def->method);
+  if (!stages && table) return config_fail_key(table, "%s has none", def->method);
+  if (strcmp(def->method, "arkode") != 0 && def->predictor >= 0)
+    return config_fail_key(predictor, "%s has none", def->method);
   if (stages && def->max_order > 0)
     return config_fail_key(max_order, "%s has one order: see integrator.order", def->method);
   if (stages && def->order > 0 && table)
     return config_fail_key(table, "has an order of its own: give order or table");
+  if (strcmp(def->method, "ida") == 0 && def->gamma_change >= 1)
+    return config_fail(config_find(node, "jacobian.gamma_change"), "must be < 1 for ida, found %g",
+                       def->gamma_change);
   if (strcmp(def->method, "arkode") == 0 && def->order > 5)
     return config_fail(order, "must be 2 to 5 for arkode, found %s", order->text);
   return COROT_OK;
@@ -139,9 +148,16 @@ static corot_status read_integrator(scenario *s) {
   return COROT_OK;
 }
 
+static void read_dilatation(scenario *s) {
+  config_node *node = config_find(s->source->root, "dilatation");
+  s->dilatation = text_is(node, "name", "nodal") ? COROT_DILATATION_NODAL : COROT_DILATATION_LOCAL;
+  s->dilatation_local = number_at(node, "local");
+}
+
 corot_status scenario_read_method(scenario *s) {
   s->mass =
       text_is(s->source->root, "mass", "consistent") ? COROT_MASS_CONSISTENT : COROT_MASS_LUMPED;
+  read_dilatation(s);
   COROT_TRY(read_viscosity(s));
   COROT_TRY(read_frames(s));
   return read_integrator(s);

@@ -12,7 +12,7 @@
 /* boundary and loads */
 corot_status scenario_read_conditions(scenario *s);
 
-/* viscosity, frames, integrator and linear_solver */
+/* mass, dilatation, viscosity, frames, integrator and linear_solver */
 corot_status scenario_read_method(scenario *s);
 
 /* hierarchy, after viscosity */

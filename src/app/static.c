@@ -44,11 +44,18 @@ static corot_status allocate(equilibrium_run *r) {
   return corot_state_create(r->model, &r->state);
 }
 
+static bool is_stopped(void *data) {
+  (void)data;
+  return run_stop_signal() != 0;
+}
+
 static corot_status prepare(equilibrium_run *r) {
   const scenario *s = r->scenario;
+  corot_statics_def def = s->statics;
+  def.stop = is_stopped;
   COROT_TRY(scenario_build(s, &r->mesh, &r->model));
   COROT_TRY(allocate(r));
-  corot_status status = corot_statics_create(&s->statics, r->model, s->t_end, NULL, &r->statics);
+  corot_status status = corot_statics_create(&def, r->model, s->t_end, NULL, &r->statics);
   if (status) return corot_fail(status, "%s: %s", s->path, corot_error());
   corot_statics_counts n = corot_statics_statistics(r->statics); /* of K at rest */
   r->setup_s = wall_clock() - r->wall_at_start - n.assembly_s - n.combine_s - n.factor_s;
@@ -192,11 +199,10 @@ static void tell(const equilibrium_run *r, const char *reason, const run_summary
 static int conclude(equilibrium_run *r, corot_status status) {
   char reason[1024] = "";
   int code = run_exit_code(status);
-  if (code != 0) {
-    snprintf(reason, sizeof reason, "%s", corot_error());
-  } else if (run_stop_signal() && r->factor < 1) {
+  if (run_stop_signal() && r->factor < 1)
     code = run_interrupted(sizeof reason, reason);
-  }
+  else if (code != 0)
+    snprintf(reason, sizeof reason, "%s", corot_error());
   run_forget_signal();
 
   corot_status late = outputs_close(r->outputs);
@@ -222,7 +228,9 @@ static int search(const scenario *s, const run_options *options) {
   corot_status status = prepare(&r);
   if (status != COROT_OK) {
     fprintf(stderr, "%s\n", corot_error());
-    code = status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
+    code = status == COROT_ENOMEM       ? EXIT_SYSTEM
+           : status == COROT_EINTEGRATE ? EXIT_INTEGRATOR
+                                        : EXIT_SCENARIO;
   } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
     fprintf(stderr, "%s\n", corot_error());
     code = run_exit_code(status);
@@ -239,7 +247,9 @@ int static_scenario(const scenario *s, const run_options *options) {
 
 corot_status static_start(const scenario *s, const corot_model *model, double *u) {
   corot_statics *statics = NULL;
-  corot_status status = corot_statics_create(&s->statics, model, 0, NULL, &statics);
+  corot_statics_def def = s->statics;
+  def.stop = is_stopped;
+  corot_status status = corot_statics_create(&def, model, 0, NULL, &statics);
   if (status == COROT_OK) status = corot_statics_solve(statics);
   if (status == COROT_OK)
     corot_statics_at(statics, u);

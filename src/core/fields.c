@@ -42,7 +42,9 @@ static COROT_CLONES int elements_loop(const corot_model *m, const corot_state *s
     vi inverted = {0};
     mat3 F = deformation(block, (const double(*)[4])s->u);
     mat3 R = frame_in_use(measure, m, s, b, F, &inverted);
-    mat3 P = stress(measure, vd_all(mat->lambda), vd_all(mat->mu), F, R);
+    vd lambda = vd_all(mat->lambda), mu = vd_all(mat->mu);
+    mat3 P = m->dilatation.npool ? stress_at_pressure(measure, lambda * s->dilatation[b], mu, F, R)
+                                 : stress(measure, lambda, mu, F, R);
     vd det = mat3_det(F, mat3_cofactor(F));
     mat3 cauchy = linear ? P : mat3_scale(1.0 / det, mat3_mul(P, mat3_transpose(F)));
     vd mises = von_mises_of(cauchy);
@@ -58,6 +60,7 @@ corot_status corot_elements(const corot_model *m, corot_state *s, double t, cons
                             const corot_element_fields *fields) {
   corot_state_displace(m, s, t, u);
   corot_status above = m->levels ? corot_levels_hand_down(m, s, t) : COROT_OK;
+  corot_kernel_dilatation(m, s);
   corot_status status = corot_state_check(s, elements_loop(m, s, fields));
   return status ? status : above;
 }

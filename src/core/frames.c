@@ -31,6 +31,7 @@ static corot_status energy_with(const corot_model *m, corot_state *s, mat3 *R, d
   double power;
   s->frames = COROT_FRAMES_HELD;
   s->R = R;
+  corot_kernel_dilatation(m, s);
   int tet = corot_kernel_energy(m, s, false, energy, &power);
   s->frames = frames;
   s->R = held;

@@ -17,6 +17,13 @@ corot_status corot_sum_forces(const corot_model *m, corot_state *s, double t, fo
 corot_status corot_nodal_forces(const corot_model *m, corot_state *s, force_kernel *kernel,
                                 bool option, double (*f)[4]);
 
+/* Before the loops below, and without effect where dilatations are not averaged: the means that
+   stand in for the dilatation of state->u, of the frames in use; for a measure with its own frames,
+   index `strain`; and their change in the direction state->du. */
+void corot_kernel_dilatation(const corot_model *m, corot_state *state);
+void corot_kernel_internal_dilatation(const corot_model *m, corot_state *state, int strain);
+void corot_kernel_dilatation_change(const corot_model *m, corot_state *state, bool exact);
+
 /* state->force = -(internal + viscous force) for state->u and, if `damped`, state->v. */
 int corot_kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk);
 
@@ -44,6 +51,9 @@ int corot_kernel_internal(const corot_model *m, corot_state *state, int strain, 
    the nodes that are ready then. */
 int corot_kernel_tangent(const corot_model *m, corot_state *state, corot_tangent tangent, int chunk,
                          double (*K)[9], double (*D)[9]);
+
+/* Once the element matrices are: adds to K what the averages of the dilatation add. */
+void corot_kernel_dilatation_tangent(const corot_model *m, corot_state *state, double (*K)[9]);
 
 /* Of a hierarchical model, whose frames are in state->R: the force as corot_kernel_force, and
    state->moment = V vee(R'F sigma) of the elastic stress. */

@@ -9,11 +9,13 @@ COROT_INLINE mat3 viscous_stress(const strain_measure *s, bool objective, const 
 }
 
 COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                            bool damped, int chunk) {
+                            bool damped, bool averaged, int chunk) {
   for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
     element e = element_at(s, m, state, b);
     vd minus = -e.block->volume;
-    mat3 A = stress(s, minus * e.mat->lambda, minus * e.mat->mu, e.F, e.R);
+    vd lambda = minus * e.mat->lambda, mu = minus * e.mat->mu;
+    mat3 A = averaged ? stress_at_pressure(s, lambda * state->dilatation[b], mu, e.F, e.R)
+                      : stress(s, lambda, mu, e.F, e.R);
     if (damped) {
       mat3 V = gradient(e.block, (const double(*)[4])state->v);
       A = mat3_add(A, viscous_stress(s, m->objective, e.mat, minus, e.F, e.R, V));
@@ -24,20 +26,23 @@ COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot
   return -1;
 }
 
-/* The hot loop is compiled for each measure, so that its branches on the measure fall away. */
+/* The hot loop is compiled for each measure, so that its branches on the measure fall away; with
+   averages, which take their own time, once for all. */
 COROT_CLONES int corot_kernel_force(const corot_model *m, corot_state *state, bool damped,
                                     int chunk) {
+  if (m->dilatation.npool)
+    return force_loop(&strain_measures[m->strain], m, state, damped, true, chunk);
   switch (m->strain) {
     case CAUCHY:
-      return force_loop(&strain_measures[CAUCHY], m, state, damped, chunk);
+      return force_loop(&strain_measures[CAUCHY], m, state, damped, false, chunk);
     case WARP:
-      return force_loop(&strain_measures[WARP], m, state, damped, chunk);
+      return force_loop(&strain_measures[WARP], m, state, damped, false, chunk);
     case POLAR:
-      return force_loop(&strain_measures[POLAR], m, state, damped, chunk);
+      return force_loop(&strain_measures[POLAR], m, state, damped, false, chunk);
     case HYBRID:
-      return force_loop(&strain_measures[HYBRID], m, state, damped, chunk);
+      return force_loop(&strain_measures[HYBRID], m, state, damped, false, chunk);
     default:
-      return force_loop(&strain_measures[GREEN], m, state, damped, chunk);
+      return force_loop(&strain_measures[GREEN], m, state, damped, false, chunk);
   }
 }
 
@@ -48,7 +53,8 @@ COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, coro
     element e = element_at(s, m, state, b);
     if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
     vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
-    sum_elastic += vd_sum(e.block->volume * strain_energy(s, lambda, mu, e.F, e.R));
+    const vd *average = m->dilatation.npool ? &state->dilatation[b] : NULL;
+    sum_elastic += vd_sum(e.block->volume * strain_energy(s, lambda, mu, e.F, e.R, average));
     if (!damped) continue;
     mat3 V = gradient(e.block, (const double(*)[4])state->v);
     mat3 P = viscous_stress(s, m->objective, e.mat, vd_all(1), e.F, e.R, V);
@@ -114,7 +120,9 @@ COROT_INLINE int internal_loop(const strain_measure *s, const corot_model *m, co
     if (!linear && vi_any(inverted)) return first_inverted(m, b, inverted);
     vd lambda = -block->volume * (lambda_part * mat->lambda),
        mu = -block->volume * (mu_part * mat->mu);
-    store_forces(m, state, b, stress(s, lambda, mu, F, R));
+    mat3 A = m->dilatation.npool ? stress_at_pressure(s, lambda * state->dilatation[b], mu, F, R)
+                                 : stress(s, lambda, mu, F, R);
+    store_forces(m, state, b, A);
   }
   return -1;
 }

@@ -82,6 +82,11 @@ COROT_INLINE node_vectors node_vectors_of(const tet_block *block, const tangent_
   return n;
 }
 
+COROT_INLINE void store_slopes(const tet_block *block, const node_vectors *n, vd slope[4][3]) {
+  for (int a = 0; a < 4; a++)
+    for (int c = 0; c < 3; c++) slope[a][c] = block->volume * n->p[a].v[c];
+}
+
 /* A body moved as a whole feels no force: a diagonal block is minus the sum of the others of its
    row, which stand in its own column and in those before. It is symmetric up to rounding; for the
    factorisation's sake exactly so. */
@@ -110,8 +115,12 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
 
     vd lambda = e.block->volume * e.mat->lambda, mu = e.block->volume * e.mat->mu;
     vd dlambda = e.block->volume * e.mat->damping_lambda, dmu = e.block->volume * e.mat->damping_mu;
-    tangent_terms t = tangent_terms_of(s, tangent, lambda, mu, e.F, e.R);
+    bool averaged = m->dilatation.npool;
+    vd theta = averaged ? state->dilatation[b] : dilatation_of(s->pressure, e.F, e.R);
+    vd local = e.block->volume * e.mat->lambda_local;
+    tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e.F, e.R);
     node_vectors n = node_vectors_of(e.block, &t);
+    if (averaged) store_slopes(e.block, &n, state->slope[b]);
     bool objective = D && m->objective && s->frame == FRAME_POLAR;
     node_rates rates;
     if (objective) rates = node_rates_of(e.block, e.F, e.R);
@@ -158,7 +167,12 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, 
       dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
     }
     vd minus = -e.block->volume;
-    mat3 dA = stress_derivative(s, minus * e.mat->lambda, minus * e.mat->mu, e.F, e.R, dF, dR);
+    bool averaged = m->dilatation.npool;
+    vd theta = averaged ? state->dilatation[b] : dilatation_of(s->pressure, e.F, e.R);
+    vd change = averaged ? state->dilatation_change[b]
+                         : dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
+    vd elastic = minus * e.mat->lambda, shear = minus * e.mat->mu;
+    mat3 dA = stress_derivative(s, elastic * theta, elastic * change, shear, e.F, e.R, dF, dR);
     if (m->damped) {
       mat3 V = gradient(e.block, (const double(*)[4])state->v);
       mat3 dV = gradient(e.block, (const double(*)[4])state->dv);

@@ -81,7 +81,7 @@ static corot_status fill_part(const corot_model *m, const corot_refinement *r, i
   for (int n = 0; n < nnode; n++)
     for (int c = 0; c < 3; c++) p->dof[n][c] = p->ndof++;
   COROT_TRY(part_tets(m, of_tet, 3 * (r->nlevel - level), p));
-  return corot_pattern_create(nnode, &p->tets, NULL, &p->pattern);
+  return corot_pattern_create(nnode, &p->tets, &p->dilatation, NULL, &p->pattern);
 }
 
 static corot_status make_part(const corot_model *m, const corot_refinement *r, int level,

@@ -2,7 +2,9 @@
 
 #include <stdlib.h>
 
-corot_model_def corot_model_defaults(void) { return (corot_model_def){.strain = "polar"}; }
+corot_model_def corot_model_defaults(void) {
+  return (corot_model_def){.strain = "polar", .dilatation_local = 1};
+}
 
 corot_hierarchy_def corot_hierarchy_defaults(void) {
   return (corot_hierarchy_def){.coarse_strain = "polar", .conservative = true};
@@ -55,8 +57,14 @@ static corot_status assign_materials(const corot_model_def *def, corot_model *m,
   for (int k = 0; k < def->nmaterial; k++) {
     const corot_material *from = &def->material[k];
     COROT_TRY(check_material(from, k));
-    m->material[k] = (material){from->lambda,     from->mu,           from->damping_lambda,
-                                from->damping_mu, from->damping_mass, from->density};
+    m->material[k] = (material){.lambda = from->lambda,
+                                .mu = from->mu,
+                                .damping_lambda = from->damping_lambda,
+                                .damping_mu = from->damping_mu,
+                                .damping_mass = from->damping_mass,
+                                .density = from->density,
+                                .lambda_local = from->lambda,
+                                .own_share = 1};
     m->damped |= from->damping_lambda > 0 || from->damping_mu > 0;
     m->mass_damped |= from->damping_mass > 0;
     if (!from->group) {
@@ -170,10 +178,38 @@ static void find_scales(corot_model *m) {
   }
 }
 
+/* Averages of the dilatation, if they are wanted and some material has more lambda than is left to
+   the tets. */
+static corot_status average_dilatation(const corot_model_def *def, corot_model *m) {
+  if (def->dilatation == COROT_DILATATION_LOCAL) return COROT_OK;
+  if (!(def->dilatation_local >= 0) || !isfinite(def->dilatation_local))
+    return corot_fail(COROT_EINVAL, "dilatation_local = %g is not a number of shear moduli >= 0",
+                      def->dilatation_local);
+  double *averaged = calloc(m->nmaterial + 1, sizeof *averaged), most = 0;
+  if (!averaged) return corot_fail(COROT_ENOMEM, "no memory for %d materials", m->nmaterial);
+  for (int k = 0; k < m->nmaterial; k++) {
+    material *a = &m->material[k];
+    double local = def->dilatation_local * a->mu;
+    if (!(a->lambda > local)) continue;
+    a->lambda_local = local;
+    a->own_share = local / a->lambda;
+    averaged[k] = a->lambda - local;
+    most = fmax(most, averaged[k]);
+  }
+  corot_status status = COROT_OK;
+  if (most > 0)
+    status = corot_dilatation_create(m->mesh->nnode, &m->tets, averaged, &m->dilatation);
+  free(averaged);
+  return status;
+}
+
 /* The measure of the mesh's own tets: of a hierarchy without finer levels the coarse one. */
 static corot_status choose_strain(const corot_model_def *def, corot_model *m) {
   const corot_hierarchy_def *h = def->hierarchy;
   if (h) COROT_TRY(corot_levels_check(h, def->mesh));
+  if (h && h->refinement->nlevel > 0 && def->dilatation != COROT_DILATATION_LOCAL)
+    return corot_fail(COROT_EINVAL,
+                      "hierarchy: dilatations averaged at nodes are not provided for");
   const char *name = h && h->refinement->nlevel == 0 ? h->coarse_strain : def->strain;
   COROT_TRY(corot_model_find_strain(name, &m->strain));
   m->objective = def->viscosity == COROT_OBJECTIVE;
@@ -200,8 +236,9 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   COROT_TRY(status);
 
   COROT_TRY(number_dofs(def, m));
+  COROT_TRY(average_dilatation(def, m));
   const pattern *coarse = m->levels && !m->levels->same ? &m->levels->coarse->pattern : NULL;
-  COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, coarse, &m->pattern));
+  COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->dilatation, coarse, &m->pattern));
   if (coarse) COROT_TRY(corot_levels_place(m));
   COROT_TRY(corot_mass_create(def, m));
   COROT_TRY(corot_loads_create(def, m));
@@ -236,6 +273,7 @@ void corot_model_destroy(corot_model *m) {
   free(m->damping_pair);
   corot_levels_destroy(m->levels);
   corot_tets_clear(&m->tets);
+  corot_dilatation_clear(&m->dilatation);
   corot_pattern_clear(&m->pattern);
   corot_mesh_destroy(m->mesh);
   free(m);
@@ -300,6 +338,7 @@ size_t corot_model_bytes(const corot_model *m) {
   if (m->mass_pair) bytes += p->nblock * sizeof *m->mass_pair;
   if (m->damping_pair) bytes += p->nblock * sizeof *m->damping_pair;
   bytes += t->nblock * (sizeof *t->block + W * sizeof *t->number);
+  bytes += corot_dilatation_bytes(&m->dilatation, t);
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
   bytes +=
       (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) * sizeof(int) +

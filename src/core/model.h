@@ -9,6 +9,8 @@
 
 typedef struct material {
   double lambda, mu, damping_lambda, damping_mu, damping_mass, density;
+  double lambda_local; /* what of lambda acts on each tet's own dilatation */
+  double own_share;    /* and as a part of it; 1 where lambda is zero */
 } material;
 
 /* A constant force, or a pressure on faces of the deformed body, times amplitude(t). */
@@ -68,6 +70,7 @@ struct corot_model {
   double *kink; /* [nkink] ascending: where a load or a motion changes its law [s] */
 
   tets tets;
+  dilatation dilatation; /* averages, where some material has them */
   pattern pattern;
 
   struct levels *levels; /* NULL: one strain measure on one mesh; see levels.h */

@@ -69,6 +69,7 @@ corot_status corot_residual(const corot_model *m, corot_state *s, double t, cons
   if (damped) corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
   external_force(m, s, t, s->r);
   if (!s->still) corot_mass_damp(m, v, s->r);
+  corot_kernel_dilatation(m, s);
   COROT_TRY(m->levels ? corot_levels_force(m, s, t, damped)
                       : corot_sum_forces(m, s, t, corot_kernel_force, damped));
   memcpy(r, s->r, m->ndof * sizeof *r);
@@ -97,10 +98,12 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
   if (tangent == COROT_TANGENT_AUTO) tangent = COROT_TANGENT_HELD;
+  corot_kernel_dilatation(m, s);
   corot_tangent own = m->levels ? COROT_TANGENT_HELD : tangent;
   if (m->levels) COROT_TRY(corot_levels_hand_down(m, s, t));
   for (int c = 0; c < m->pattern.nchunk; c++)
     COROT_TRY(corot_state_check(s, corot_kernel_tangent(m, s, own, c, K, m->damped ? D : NULL)));
+  if (K) corot_kernel_dilatation_tangent(m, s, K);
   if (m->levels) COROT_TRY(corot_levels_add_matrices(m, s, t, tangent, K, m->damped ? D : NULL));
   if (D) corot_mass_damping_matrix(m, D);
   return COROT_OK;
@@ -122,6 +125,8 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
   external_derivative(m, s, t, s->r);
   if (!s->still) corot_mass_damp(m, dv, s->r);
   bool exact = tangent > COROT_TANGENT_HELD;
+  corot_kernel_dilatation(m, s);
+  corot_kernel_dilatation_change(m, s, exact);
   COROT_TRY(m->levels ? corot_levels_derivative(m, s, t, tangent)
                       : corot_sum_forces(m, s, t, corot_kernel_derivative, exact));
   memcpy(jv, s->r, m->ndof * sizeof *jv);
@@ -173,6 +178,7 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
   corot_energies e = {0};
   corot_state_displace(m, s, t, u);
   corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
+  corot_kernel_dilatation(m, s);
   double *viscous = &e.power_dissipated;
   if (m->levels)
     COROT_TRY(corot_levels_energy(m, s, t, m->damped, &e.elastic, viscous));
@@ -211,6 +217,7 @@ corot_status corot_internal_force(const corot_model *m, corot_state *s, double t
   int index;
   COROT_TRY(corot_model_find_strain(strain, &index));
   corot_state_displace(m, s, t, u);
+  corot_kernel_internal_dilatation(m, s, index);
   const double *force = (const double *)s->force;
   const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
   for (int c = 0; c < m->pattern.nchunk; c++) {

@@ -25,33 +25,43 @@ static corot_status list_slots(int nnode, const tets *t, pattern *p) {
   return COROT_OK;
 }
 
-/* Node i joins column j, once and in its place among the n there; returns how many there are. */
-static int insert_row(int i, int j, int *mark, int n, int *list) {
-  if (i < j || mark[i] == j) return n;
-  mark[i] = j;
-  int at = n;
-  for (; at > 0 && list[at - 1] > i; at--) list[at] = list[at - 1];
-  list[at] = i;
-  return n + 1;
+/* A column's rows while they are gathered. */
+typedef struct column {
+  int j;
+  int n;
+  int *row;  /* [n] ascending */
+  int *mark; /* [nnode] j: is there already */
+} column;
+
+static void add_row(column *c, int i) {
+  if (i < c->j || c->mark[i] == c->j) return;
+  c->mark[i] = c->j;
+  int at = c->n++;
+  for (; at > 0 && c->row[at - 1] > i; at--) c->row[at] = c->row[at - 1];
+  c->row[at] = i;
 }
 
-/* The nodes >= j that share a tet, or a block of `more`, with node j, ascending: into `list`;
-   returns their number. */
-static int column_rows(const tets *t, const pattern *p, const pattern *more, int j, int *mark,
-                       int *list) {
-  int n = 0;
+/* The nodes >= j that share a tet, an average, or a block of `more` with node j, ascending: into
+   `list`; returns their number. */
+static int column_rows(const tets *t, const dilatation *d, const pattern *more, const pattern *p,
+                       int j, int *mark, int *list) {
+  column c = {.j = j, .row = list, .mark = mark};
   for (int k = p->first[j]; k < p->first[j + 1]; k++) {
-    int slot = p->slot[k], lane = slot % W;
-    const tet_block *block = &t->block[slot / BLOCK_SLOTS];
-    for (int a = 0; a < 4; a++) n = insert_row(block->node[a][lane], j, mark, n, list);
+    int slot = p->slot[k], lane = slot % W, b = slot / BLOCK_SLOTS;
+    for (int a = 0; a < 4; a++) {
+      add_row(&c, t->block[b].node[a][lane]);
+      if (!d->npool) continue;
+      int pool = d->pool[b][a][lane];
+      for (int r = d->ring_first[pool]; r < d->ring_first[pool + 1]; r++) add_row(&c, d->ring[r]);
+    }
   }
   if (more && j < more->nnode)
-    for (int k = more->colptr[j]; k < more->colptr[j + 1]; k++)
-      n = insert_row(more->row[k], j, mark, n, list);
-  return n;
+    for (int k = more->colptr[j]; k < more->colptr[j + 1]; k++) add_row(&c, more->row[k]);
+  return c.n;
 }
 
-static corot_status list_blocks(int nnode, const tets *t, const pattern *more, pattern *p) {
+static corot_status list_blocks(int nnode, const tets *t, const dilatation *d, const pattern *more,
+                                pattern *p) {
   int *mark = malloc(nnode * sizeof *mark), *list = malloc(nnode * sizeof *list);
   p->colptr = malloc((nnode + 1) * sizeof *p->colptr);
   if (!mark || !list || !p->colptr) goto no_memory;
@@ -60,7 +70,7 @@ static corot_status list_blocks(int nnode, const tets *t, const pattern *more, p
     for (int n = 0; n < nnode; n++) mark[n] = -1;
     size_t total = 0;
     for (int j = 0; j < nnode; j++) {
-      int n = column_rows(t, p, more, j, mark, list);
+      int n = column_rows(t, d, more, p, j, mark, list);
       if (pass == 0) p->colptr[j] = (int)total;
       if (pass == 1) memcpy(p->row + p->colptr[j], list, n * sizeof *list);
       total += n;
@@ -137,10 +147,11 @@ static void wrap_slots(int nnode, pattern *p) {
   for (int k = 0; k < p->first[nnode]; k++) p->slot[k] %= size;
 }
 
-corot_status corot_pattern_create(int nnode, const tets *t, const pattern *more, pattern *out) {
+corot_status corot_pattern_create(int nnode, const tets *t, const dilatation *d,
+                                  const pattern *more, pattern *out) {
   pattern p = {.nnode = nnode};
   corot_status status = list_slots(nnode, t, &p);
-  if (!status) status = list_blocks(nnode, t, more, &p);
+  if (!status) status = list_blocks(nnode, t, d, more, &p);
   if (!status) status = place_tets(t, &p);
   if (!status) status = plan_chunks(nnode, t, &p);
   if (status) {

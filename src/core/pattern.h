@@ -3,7 +3,7 @@
 #ifndef COROT_CORE_PATTERN_H
 #define COROT_CORE_PATTERN_H
 
-#include "core/tets.h"
+#include "core/dilatation.h"
 
 /* Pairs (a, b), a > b, of local nodes: the edges of a tet. */
 enum { NPAIR = 6 };
@@ -31,8 +31,10 @@ typedef struct pattern {
                  y and z W further */
 } pattern;
 
-/* `more` (or NULL): the pairs of this pattern, of the nodes below more->nnode, belong to it too. */
-corot_status corot_pattern_create(int nnode, const tets *t, const pattern *more, pattern *out);
+/* Nodes that share a tet, or an average of the dilatation; and the pairs of `more` (or NULL), a
+   pattern of the nodes below more->nnode. */
+corot_status corot_pattern_create(int nnode, const tets *t, const dilatation *d,
+                                  const pattern *more, pattern *out);
 void corot_pattern_clear(pattern *p);
 
 /* The block of row i and column j <= i, which is in the pattern. */

@@ -3,6 +3,20 @@
 
 #include <stdlib.h>
 
+static corot_status allocate_averages(const corot_model *m, corot_state *s) {
+  int nnode = m->mesh->nnode, nblock = m->tets.nblock, npool = m->dilatation.npool;
+  if (!npool) return COROT_OK;
+  s->dilatation = corot_vector_calloc(nblock, sizeof *s->dilatation);
+  s->dilatation_change = corot_vector_calloc(nblock, sizeof *s->dilatation_change);
+  s->slope = corot_vector_calloc(nblock, sizeof *s->slope);
+  s->pool = malloc(npool * sizeof *s->pool);
+  s->gathered = calloc(nnode, sizeof *s->gathered);
+  if (!s->dilatation || !s->dilatation_change || !s->slope || !s->pool || !s->gathered)
+    return corot_fail(COROT_ENOMEM, "no memory for a state of %d averages", npool);
+  s->npool = npool;
+  return COROT_OK;
+}
+
 static corot_status allocate(const corot_model *m, corot_state *s) {
   int nnode = m->mesh->nnode, nblock = m->tets.nblock;
   s->u = corot_vector_calloc(nnode, sizeof *s->u);
@@ -41,6 +55,7 @@ corot_status corot_state_create(const corot_model *m, corot_state **state) {
   s->inverted = -1;
   s->phase = NAN;
   corot_status status = allocate(m, s);
+  if (!status) status = allocate_averages(m, s);
   if (status) {
     corot_state_destroy(s);
     return status;
@@ -63,6 +78,11 @@ void corot_state_destroy(corot_state *s) {
   free(s->new_R);
   free(s->now_R);
   free(s->spin);
+  free(s->dilatation);
+  free(s->dilatation_change);
+  free(s->slope);
+  free(s->pool);
+  free(s->gathered);
   free(s->force);
   free(s->r);
   free(s->dR);
@@ -75,6 +95,9 @@ void corot_state_destroy(corot_state *s) {
 size_t corot_state_bytes(const corot_state *s) {
   size_t bytes = sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
                  s->nblock * (3 * sizeof *s->R + sizeof *s->spin) + s->window * sizeof *s->force;
+  if (s->npool)
+    bytes += s->nblock * (2 * sizeof *s->dilatation + sizeof *s->slope) +
+             s->npool * sizeof *s->pool + s->nnode * sizeof *s->gathered;
   if (s->dR) bytes += s->nblock * (sizeof *s->dR + sizeof *s->moment + sizeof *s->dmoment);
   return bytes + (s->levels ? corot_levels_state_bytes(s->levels) : 0);
 }

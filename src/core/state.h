@@ -26,6 +26,13 @@ struct corot_state {
   double (*v)[4];     /* [nnode] velocity */
   double (*du)[4];    /* [nnode] directions of a derivative */
   double (*dv)[4];
+  vd *dilatation;        /* [nblock] means in place of tr(e_p); NULL, as the next, where there are
+                            none: see dilatation.h */
+  vd *dilatation_change; /* [nblock] the same of a derivative */
+  double *pool;          /* [npool] */
+  vd (*slope)[4][3];     /* [nblock][local node] V times d tr(e_p) / du */
+  double (*gathered)[3]; /* [nnode] zero between uses */
+  int npool;
   vd (*force)[4][3]; /* [window][local node][component] element forces, see pattern.h */
   double *r;         /* [ndof] */
 

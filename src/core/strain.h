@@ -48,21 +48,27 @@ COROT_INLINE vd dilatation_of(basis b, mat3 F, mat3 R) {
   return b == BY_FRAME ? mat3_dot(R, F) - 3 : 0.5 * (mat3_dot(F, F) - 3);
 }
 
-/* First Piola-Kirchhoff stress; see above. */
-COROT_INLINE mat3 stress(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R) {
+/* First Piola-Kirchhoff stress for a given p in place of lambda tr(e_p). */
+COROT_INLINE mat3 stress_at_pressure(const strain_measure *s, vd p, vd mu, mat3 F, mat3 R) {
   mat3 Bp = basis_of(s->pressure, F, R), Bs = basis_of(s->shear, F, R);
-  mat3 e = strain_of(s->shear, F, R), shear = mat3_scale(2 * mu, e);
-  if (s->pressure == s->shear)
-    return mat3_mul(Bs, mat3_add_identity(shear, lambda * mat3_trace(e)));
-  vd p = lambda * dilatation_of(s->pressure, F, R);
+  mat3 shear = mat3_scale(2 * mu, strain_of(s->shear, F, R));
   return mat3_add(mat3_scale(p, Bp), mat3_mul(Bs, shear));
 }
 
-/* Strain energy density. */
-COROT_INLINE vd strain_energy(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R) {
+/* First Piola-Kirchhoff stress; see above. */
+COROT_INLINE mat3 stress(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R) {
+  if (s->pressure != s->shear)
+    return stress_at_pressure(s, lambda * dilatation_of(s->pressure, F, R), mu, F, R);
+  mat3 e = strain_of(s->shear, F, R), shear = mat3_scale(2 * mu, e);
+  return mat3_mul(basis_of(s->shear, F, R), mat3_add_identity(shear, lambda * mat3_trace(e)));
+}
+
+/* Strain energy density; `average` takes the place of one tr(e_p), NULL: it is that. */
+COROT_INLINE vd strain_energy(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R,
+                              const vd *average) {
   mat3 e = strain_of(s->shear, F, R);
   vd trace = dilatation_of(s->pressure, F, R);
-  return 0.5 * lambda * trace * trace + mu * mat3_dot(e, e);
+  return 0.5 * lambda * trace * (average ? *average : trace) + mu * mat3_dot(e, e);
 }
 
 /* Viscous stress: the same law on the rate sym(B' dF/dt) (the paper's D). With the elastic
@@ -161,18 +167,22 @@ COROT_INLINE mat3 frame_derivative(frame_rule rule, mat3 F, const mat3 *Q0, mat3
   return mat3_mul(dQ, mat3_transpose(*Q0));
 }
 
-/* The change of the elastic stress with (dF, dR). */
-COROT_INLINE mat3 stress_derivative(const strain_measure *s, vd lambda, vd mu, mat3 F, mat3 R,
+/* The change of tr(e) with (dF, dR). */
+COROT_INLINE vd dilatation_derivative(basis b, mat3 F, mat3 R, mat3 dF, mat3 dR) {
+  vd change = mat3_dot(basis_of(b, F, R), dF);
+  return b == BY_FRAME ? change + mat3_dot(dR, F) : change;
+}
+
+/* The change of the elastic stress with (dF, dR) and with p = lambda tr(e_p) by dp. */
+COROT_INLINE mat3 stress_derivative(const strain_measure *s, vd p, vd dp, vd mu, mat3 F, mat3 R,
                                     mat3 dF, mat3 dR) {
+  mat3 Bp = basis_of(s->pressure, F, R), Bs = basis_of(s->shear, F, R);
   mat3 dBp = basis_of(s->pressure, dF, dR), dBs = basis_of(s->shear, dF, dR);
   mat3 e = strain_of(s->shear, F, R);
-  vd p = lambda * dilatation_of(s->pressure, F, R);
-  mat3 dP = stress_viscous(s, lambda, mu, F, R, dF); /* B sigma(sym(B' dF)) */
-  dP = mat3_add(dP, mat3_sum(p, dBp, 2 * mu, mat3_mul(dBs, e)));
-  if (s->pressure == BY_FRAME) dP = mat3_add(dP, mat3_scale(lambda * mat3_dot(dR, F), R));
-  if (s->shear == BY_FRAME)
-    dP = mat3_add(dP, mat3_scale(2 * mu, mat3_mul(R, mat3_sym_tmul(dR, F))));
-  return dP;
+  mat3 de = mat3_sym_tmul(Bs, dF);
+  if (s->shear == BY_FRAME) de = mat3_add(de, mat3_sym_tmul(dR, F));
+  mat3 shear = mat3_add(mat3_mul(dBs, e), mat3_mul(Bs, de));
+  return mat3_add(mat3_sum(dp, Bp, p, dBp), mat3_scale(2 * mu, shear));
 }
 
 /* The change of the viscous stress for the rate V = dF/dt with (dF, dR) and with dV. */
@@ -192,9 +202,10 @@ COROT_INLINE mat3 stress_viscous_derivative(const strain_measure *s, vd lambda, 
    g_a
    + (g_a . Z g_b) I                                    the stress on a basis F that turns with it
    + [s_a]x' H [s_b]x                                   the variation of an exact polar frame
-   with Z = lambda tr(e_p) I for Bp = F, plus 2 mu e_s for Bs = F, and H = R h R' (so that all is in
-   spatial axes), h = mu I + c G^-1, c = lambda tr(e_p) for Bp = R (else 0) - 2 mu. The damping
-   matrix is the first line with the damping coefficients.
+   with Z = p I, p = lambda tr(e_p), for Bp = F, plus 2 mu e_s for Bs = F, and H = R h R' (so that
+   all is in spatial axes), h = mu I + c G^-1, c = p for Bp = R (else 0) - 2 mu. The damping matrix
+   is the first line with the damping coefficients. Where the dilatation is averaged, p is that of
+   the average, and lambda the part that acts on the tet's own; the rest is no element's matrix.
 
    Each line is a quadratic form of its own in dF. The first is positive semidefinite (hybrid, whose
    bases differ: while lambda |F|^2 >= -2 mu), the others are so while Z and H are. Clamped, Z loses
@@ -220,12 +231,12 @@ COROT_INLINE mat3 frame_variation(int clamped, vd mu, vd c, mat3 F, mat3 R) {
 }
 
 COROT_INLINE tangent_terms tangent_terms_of(const strain_measure *s, corot_tangent tangent,
-                                            vd lambda, vd mu, mat3 F, mat3 R) {
+                                            vd lambda, vd p, vd mu, mat3 F, mat3 R) {
   tangent_terms k = {.Bp = basis_of(s->pressure, F, R), .Bs = basis_of(s->shear, F, R)};
   int clamped = tangent == COROT_TANGENT_CLAMPED;
   k.BsBs = s->shear == BY_GRADIENT ? mat3_gram(mat3_transpose(F)) : mat3_identity();
   k.lambda = lambda;
-  vd p = lambda * dilatation_of(s->pressure, F, R), c = -2 * mu;
+  vd c = -2 * mu;
   if (s->pressure == BY_FRAME) {
     c += p;
   } else if (s->shear == BY_FRAME) {

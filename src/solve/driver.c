@@ -14,9 +14,11 @@ corot_status corot_driver_open(driver *d, corot_integrator *self, const double *
   d->self = self;
   if (sun_context_create(&d->ctx)) return corot_fail(COROT_ENOMEM, "no memory for SUNDIALS");
   d->y = N_VNew_Serial(2 * (sunindextype)n, d->ctx);
-  d->A = corot_sun_matrix(self->pencil, d->ctx);
-  d->LS = corot_sun_linsol(self->pencil, d->ctx);
-  if (!d->y || !d->A || !d->LS)
+  if (self->pencil) {
+    d->A = corot_sun_matrix(self->pencil, d->ctx);
+    d->LS = corot_sun_linsol(self->pencil, d->ctx);
+  }
+  if (!d->y || (self->pencil && !(d->A && d->LS)))
     return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name, 2 * n);
   corot_vector_quicken(d->y);
   memcpy(N_VGetArrayPointer(d->y), u, n * sizeof *u);
@@ -126,7 +128,8 @@ corot_status corot_driver_give_up(const driver *d, const char *why) {
     snprintf(limit, sizeof limit, "; min_step = %g s", d->self->def.min_step);
   return corot_fail(COROT_EINTEGRATE, "%s: cannot get past t = %.9g: %s%s%s%s%s",
                     d->self->ops->name, d->self->t, refused ? d->refusal : "", refused ? " (" : "",
-                    why, limit, refused ? ")" : "");
+                    *why ? why : "the error test failed too often, or the step became too short",
+                    limit, refused ? ")" : "");
 }
 
 void corot_driver_watch(driver *d, double h, bool stopped) {

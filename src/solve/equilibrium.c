@@ -54,7 +54,8 @@ static int system_function(N_Vector u, N_Vector F, void *user_data) {
 }
 
 static void record(equilibrium *e, double r) {
-  if (e->nhistory < e->capacity) e->history[e->nhistory++] = r;
+  if (e->nhistory == e->capacity) e->nhistory--; /* the last is what counts */
+  e->history[e->nhistory++] = r;
 }
 
 /* The largest force on a node where the residual at u is r, and the tolerance that it means. */
@@ -83,6 +84,9 @@ static int jacobian(N_Vector u, N_Vector F, SUNMatrix A, void *user_data, N_Vect
   for (int i = 0; i < e->n; i++) e->r[i] = -values(F)[i];
   if (e->recording) record(e, largest(e->n, e->r));
   e->iterations++;
+  if (e->def->stop && e->def->stop(e->def->stop_data))
+    return note(e,
+                corot_fail(COROT_EINTEGRATE, "stopped on the way to load factor %.6g", e->factor));
   COROT_TRY(note(e, weigh(e, values(u), e->r)));
   KINSetFuncNormTol(e->memory, e->tolerance / e->unit);
   return note(e, corot_pencil_assemble(e->pencil, e->factor * e->t, values(u), e->zero));

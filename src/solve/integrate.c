@@ -19,7 +19,7 @@ corot_integrator_def corot_integrator_defaults(void) {
 }
 
 static const integrator_ops *const controlled[] = {&corot_integrator_cvode, &corot_integrator_ida,
-                                                 &corot_integrator_arkode, &corot_integrator_erk};
+                                                   &corot_integrator_arkode, &corot_integrator_erk};
 
 bool corot_integrator_controls_error(const char *method) {
   for (size_t k = 0; k < sizeof controlled / sizeof *controlled; k++)
@@ -92,8 +92,8 @@ static corot_status check_start(double t, int n, const double *u, const double *
    stability regions); below, lightly damped modes hold the step down or grow. The largest step to
    expect is taken as the time a shear wave needs across the body at a tolerance of 1e-3, falling
    with the cube root of the tolerance as that of order 2 does. At 1e-7 and below error control
-   alone keeps the steps short enough, given any damping: on the paper's bar order 5 then takes twice
-   the steps of order 2 and has a 300th of its error. */
+   alone keeps the steps short enough, given any damping: on the paper's bar order 5 then takes
+   twice the steps of order 2 and has a 300th of its error. */
 static int choose_max_order(const corot_integrator_def *d, const corot_model *model) {
   double beta = corot_model_damping_time(model);
   if (d->rtol <= 1e-7 && beta > 0) return 5;
@@ -139,12 +139,12 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
       .ops = ops, .model = model, .state = state, .def = *def, .t = t, .before = t};
   choose(self);
 
-  corot_status status = corot_pencil_create(model, state, &def->linear, &self->pencil);
-  if (!status) status = corot_mass_solver_create(model, &self->mass);
-  if (!status) {
-    corot_pencil_use(self->pencil, self->def.tangent);
-    status = ops->create(self, u, v);
+  corot_status status = corot_mass_solver_create(model, &self->mass);
+  if (!status && !ops->explicit_steps) {
+    status = corot_pencil_create(model, state, &def->linear, &self->pencil);
+    if (!status) corot_pencil_use(self->pencil, self->def.tangent);
   }
+  if (!status) status = ops->create(self, u, v);
   self->def.method = ops->name;
   self->def.table = NULL;
   self->def.linear = corot_linear_defaults();
@@ -222,12 +222,13 @@ corot_status corot_integrator_work(corot_integrator *self, double t, double *dis
 }
 
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
-  corot_pencil_invalidate(self->pencil);
+  if (self->pencil) corot_pencil_invalidate(self->pencil);
   return self->ops->changed(self, history);
 }
 
 corot_statistics corot_integrator_statistics(const corot_integrator *self) {
-  corot_pencil_counts p = corot_pencil_statistics(self->pencil);
+  corot_pencil_counts p = {0};
+  if (self->pencil) p = corot_pencil_statistics(self->pencil);
   corot_statistics s = {.nje = p.nassembly,
                         .nli = p.niteration,
                         .nfactor = p.nfactor,
@@ -253,16 +254,17 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
 
 corot_integrator_choice corot_integrator_chosen(const corot_integrator *self) {
   const corot_integrator_def *d = &self->def;
-  return (corot_integrator_choice){.method = self->ops->name,
-                                   .linear_solver = corot_pencil_solver(self->pencil),
-                                   .table = self->table ? self->table : "",
-                                   .atol_displacement = d->atol_displacement,
-                                   .atol_velocity = d->atol_velocity,
-                                   .max_order = d->order ? d->order : d->max_order,
-                                   .tangent = d->tangent,
-                                   .reassembly = d->reassembly,
-                                   .refactorisation = d->refactorisation,
-                                   .predictor = d->predictor,
-                                   .gamma_change = d->gamma_change,
-                                   .convergence = d->convergence};
+  return (corot_integrator_choice){
+      .method = self->ops->name,
+      .linear_solver = self->pencil ? corot_pencil_solver(self->pencil) : "none",
+      .table = self->table ? self->table : "",
+      .atol_displacement = d->atol_displacement,
+      .atol_velocity = d->atol_velocity,
+      .max_order = self->table ? d->order : d->max_order,
+      .tangent = d->tangent,
+      .reassembly = d->reassembly,
+      .refactorisation = d->refactorisation,
+      .predictor = d->predictor,
+      .gamma_change = d->gamma_change,
+      .convergence = d->convergence};
 }

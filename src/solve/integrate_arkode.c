@@ -71,14 +71,6 @@ static void choose(corot_integrator *self) {
   if (d->convergence == 0) d->convergence = 0.02;
 }
 
-/* ARKStepSetLinSysFn's shape; the mass is the identity. */
-static int linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
-                  sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma, void *user_data,
-                  N_Vector tmp1, N_Vector tmp2, N_Vector tmp3) {
-  (void)M;
-  return corot_sun_linsys(t, y, fy, A, jok, jcur, gamma, user_data, tmp1, tmp2, tmp3);
-}
-
 static int set_table(void *memory, const char *name) {
   ARKodeButcherTable B = ARKodeButcherTable_LoadDIRKByName(name);
   int bad = !B || ARKStepSetTables(memory, B->q, B->p, B, NULL);
@@ -91,7 +83,8 @@ static int configure(runge_kutta *m, const rk_table *table) {
   void *a = m->memory;
   int bad = ARKStepSetUserData(a, m) || ARKStepWFtolerances(a, corot_driver_weights) ||
             ARKStepSetMaxNumSteps(a, -1) || set_table(a, table->name) ||
-            ARKStepSetLinearSolver(a, m->driver.LS, m->driver.A) || ARKStepSetLinSysFn(a, linsys) ||
+            ARKStepSetLinearSolver(a, m->driver.LS, m->driver.A) ||
+            ARKStepSetLinSysFn(a, corot_sun_linsys_ark) ||
             ARKStepSetLSetupFrequency(a, d->refactorisation) ||
             ARKStepSetJacEvalFrequency(a, d->reassembly) ||
             ARKStepSetDeltaGammaMax(a, d->gamma_change) ||
@@ -128,5 +121,5 @@ static corot_status create(corot_integrator *self, const double *u, const double
 }
 
 const integrator_ops corot_integrator_arkode = {
-    "arkode",    choose,        create,           corot_rk_close,     corot_rk_step,
-    corot_rk_at, corot_rk_work, corot_rk_changed, corot_rk_statistics};
+    "arkode",    choose,        create,           corot_rk_close,      corot_rk_step,
+    corot_rk_at, corot_rk_work, corot_rk_changed, corot_rk_statistics, false};

@@ -80,4 +80,5 @@ const integrator_ops corot_integrator_cvode = {"cvode",
                                                corot_multistep_at,
                                                corot_multistep_work,
                                                corot_multistep_changed,
-                                               corot_multistep_statistics};
+                                               corot_multistep_statistics,
+                                               false};

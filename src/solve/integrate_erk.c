@@ -145,6 +145,6 @@ static corot_status create(corot_integrator *self, const double *u, const double
   return status;
 }
 
-const integrator_ops corot_integrator_erk = {"erk",          choose,           create,
-                                             corot_rk_close, corot_rk_step,    corot_rk_at,
-                                             corot_rk_work,  corot_rk_changed, corot_rk_statistics};
+const integrator_ops corot_integrator_erk = {
+    "erk",       choose,        create,           corot_rk_close,      corot_rk_step,
+    corot_rk_at, corot_rk_work, corot_rk_changed, corot_rk_statistics, true};

@@ -306,7 +306,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
 #define FIXED(name)                                                                    \
   {                                                                                    \
     name, fixed_choose, fixed_create, fixed_destroy, fixed_step, fixed_at, fixed_work, \
-        fixed_changed, fixed_statistics                                                \
+        fixed_changed, fixed_statistics, false                                         \
   }
 const integrator_ops corot_integrators_fixed[] = {FIXED("backward-euler"),
                                                   FIXED("bdf2"),

@@ -110,6 +110,9 @@ static corot_status create(corot_integrator *self, const double *u, const double
   m->assembled = -1;
   multistep *c = &m->base;
   COROT_TRY(corot_multistep_open(c, self, &api, u, v));
+  if (!(self->def.gamma_change < 1))
+    return corot_fail(COROT_EINVAL, "ida: gamma_change = %g is not below 1",
+                      self->def.gamma_change);
   driver *d = &c->driver;
   c->rate = N_VClone(d->y);
   c->memory = IDACreate(d->ctx);
@@ -130,4 +133,5 @@ const integrator_ops corot_integrator_ida = {"ida",
                                              corot_multistep_at,
                                              corot_multistep_work,
                                              corot_multistep_changed,
-                                             corot_multistep_statistics};
+                                             corot_multistep_statistics,
+                                             false};

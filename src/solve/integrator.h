@@ -16,6 +16,7 @@ typedef struct integrator_ops {
   corot_status (*work)(corot_integrator *self, double t, double *dissipated, double *external);
   corot_status (*changed)(corot_integrator *self, corot_history history);
   void (*statistics)(const corot_integrator *self, corot_statistics *statistics);
+  bool explicit_steps; /* no linear systems: there is no pencil */
 } integrator_ops;
 
 extern const integrator_ops corot_integrator_cvode;
@@ -28,7 +29,7 @@ struct corot_integrator {
   const integrator_ops *ops;
   const corot_model *model;
   corot_state *state;
-  corot_pencil *pencil;
+  corot_pencil *pencil; /* NULL: of explicit steps */
   corot_mass_solver *mass;
   corot_integrator_def def; /* choices made; its strings are not kept */
   double t;                 /* reached */

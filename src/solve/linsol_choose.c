@@ -137,6 +137,8 @@ static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill
                            corot_role role) {
   const double margin = 1.15;
   if (f->nnz > most_entries) return true;
+  if (role == COROT_ROLE_STATIC && HAVE_CHOLMOD)
+    return false; /* pcg cannot tell a stable equilibrium */
   double factor = operation_ns * f->flops + made_ns * f->nnz, solution = solved_ns * f->nnz;
   if (role == COROT_ROLE_STATIC) {
     double iteration = per_length * (corot_graph_length(g) + 1) * iterated_ns * csc->nnz;

@@ -264,6 +264,8 @@ corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *st
   if (status) { /* of the step before only its end is left */
     m->end = m->start;
     m->start = before;
+    N_VScale(1, m->end.y, d->y);
+    m->stale = true;
     self->before = self->t;
     return status;
   }

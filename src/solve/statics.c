@@ -121,10 +121,13 @@ static corot_status lose_stability(corot_statics *s, double unstable) {
                     0.5 * (s->factor + unstable));
 }
 
-static corot_status give_up(const corot_statics *s) {
+/* `indefinite`: trials met a stiffness that is not positive definite. */
+static corot_status give_up(const corot_statics *s, bool indefinite) {
   return corot_fail(COROT_EINTEGRATE,
-                    "no equilibrium found beyond load factor %.6g: %s; min_step = %g", s->factor,
-                    s->e.reason, s->def.min_step);
+                    "no equilibrium found beyond load factor %.6g: %s%s; min_step = %g", s->factor,
+                    s->e.reason,
+                    indefinite ? " (the stiffness is not positive definite there: buckling)" : "",
+                    s->def.min_step);
 }
 
 static void report(const corot_statics *s, double target, int rejected, corot_stability stability,
@@ -156,6 +159,7 @@ static corot_status look(corot_statics *s, double target) {
 }
 
 static corot_status step_on(corot_statics *s, corot_load_step *step) {
+  long nindefinite = s->e.counts.nindefinite;
   for (int rejected = 0;; rejected++) {
     double target = next_target(s), length = target - s->factor;
     corot_stability stability = COROT_STABLE;
@@ -175,7 +179,7 @@ static corot_status step_on(corot_statics *s, corot_load_step *step) {
     s->length = 0.5 * length;
     if (status == COROT_OK) s->ceiling = target;
     if (status == COROT_OK && s->length < resolution(s, target)) return lose_stability(s, target);
-    if (s->length < s->def.min_step) return give_up(s);
+    if (s->length < s->def.min_step) return give_up(s, s->e.counts.nindefinite > nindefinite);
   }
 }
 

@@ -107,6 +107,13 @@ int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunboo
   return 0;
 }
 
+int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
+                         sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
+                         void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3) {
+  (void)M;
+  return corot_sun_linsys(t, y, fy, A, jok, jcur, gamma, user_data, tmp1, tmp2, tmp3);
+}
+
 int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
   const corot_sun_data *data = user_data;
   int n = corot_model_ndof(data->model);

@@ -1,9 +1,11 @@
 /* corot-bench run: a whole simulation, the second example of Hauth & Strasser (2004). */
 #include <corot/integrate.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "app/clock.h"
 #include "bench.h"
+#include "cost.h"
 #include "report.h"
 
 static const char help[] =
@@ -63,30 +65,55 @@ static corot_status integrate(const arguments *a, const corot_model *model, coro
 
 typedef struct phase {
   const char *name;
-  double seconds;
+  double seconds; /* of the run */
+  double floor;   /* least seconds by memory and arithmetic; 0: not known */
 } phase;
 
 enum { NPHASE = 8 };
 
-static void phases_of(const outcome *o, phase out[NPHASE]) {
+static corot_status find_floors(const corot_model *model, const outcome *o, phase out[NPHASE]) {
+  const corot_statistics *c = &o->counts;
+  const double polar_steps = 3; /* at the strains of the bar */
+  const solid s = {.model = (corot_model *)model,
+                   .ntet = corot_model_mesh(model)->ntet,
+                   .n = corot_model_ndof(model)};
+  bool cholesky = strncmp(o->choice.linear_solver, "cholmod", 7) == 0;
+  corot_csc *full;
+  solver_cost direct;
+  COROT_TRY(corot_csc_create(model, COROT_FULL, &full));
+  corot_status status = cost_direct(full, cholesky, &direct);
+  if (!status) {
+    const cost least[] = {cost_force(&s, false, polar_steps),
+                          cost_jacobian(&s, false, polar_steps),
+                          cost_combine(&s, full),
+                          direct.factor,
+                          direct.solve,
+                          cost_energy(&s, polar_steps)};
+    const long count[] = {c->nfe, c->nje, c->nsetups, c->nfactor, c->nsolve, c->nfeQ};
+    for (int k = 0; k < 6; k++) out[k].floor = (double)count[k] * report_floor(&least[k]);
+  }
+  corot_csc_destroy(full);
+  return status;
+}
+
+static corot_status phases_of(const corot_model *model, const outcome *o, phase out[NPHASE]) {
   const corot_statistics *c = &o->counts;
   double rest = o->wall; /* as the phases are */
-  const phase timed[] = {{"force", c->force_s},        {"assembly", c->assembly_s},
-                         {"combine", c->combine_s},    {"factor", c->factor_s},
-                         {"solve", c->solve_s},        {"work", c->work_s},
-                         {"sundials", c->integrator_s}};
+  const phase timed[] = {{"force", c->force_s, 0},          {"assembly", c->assembly_s, 0},
+                         {"combine", c->combine_s, 0},      {"factor", c->factor_s, 0},
+                         {"solve", c->solve_s, 0},          {"work", c->work_s, 0},
+                         {"integrator", c->integrator_s, 0}};
   for (int k = 0; k < NPHASE - 1; k++) {
     out[k] = timed[k];
     rest -= timed[k].seconds;
   }
-  out[NPHASE - 1] = (phase){"other", rest};
+  out[NPHASE - 1] = (phase){"other", rest, 0};
+  return find_floors(model, o, out);
 }
 
 static void print_json(const arguments *a, const corot_model *model, const outcome *o,
-                       const timing *cpu) {
+                       const timing *cpu, const phase phases[NPHASE]) {
   const corot_statistics *c = &o->counts;
-  phase phases[NPHASE];
-  phases_of(o, phases);
   json_t *j = json_pack(
       "{s:s, s:s, s:f, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:I}", "bench", "run",
       "strain", a->bar.strain, "rtol", a->integrator.rtol, "solver", o->choice.linear_solver,
@@ -94,18 +121,20 @@ static void print_json(const arguments *a, const corot_model *model, const outco
       corot_model_ndof(model), "cpu_s", cpu->median, "min_cpu_s", cpu->min, "spread_cpu_s",
       cpu->spread, "nst", (json_int_t)c->nst, "nfe", (json_int_t)c->nfe, "nni", (json_int_t)c->nni,
       "nje", (json_int_t)c->nje, "nfactor", (json_int_t)c->nfactor);
-  json_t *seconds = json_object();
-  for (int k = 0; k < NPHASE; k++)
+  json_t *seconds = json_object(), *floors = json_object();
+  for (int k = 0; k < NPHASE; k++) {
     json_object_set_new(seconds, phases[k].name, json_real(phases[k].seconds));
+    if (phases[k].floor > 0)
+      json_object_set_new(floors, phases[k].name, json_real(phases[k].floor));
+  }
   json_object_set_new(j, "phases_s", seconds);
+  json_object_set_new(j, "floors_s", floors);
   report_object(j);
 }
 
 static void print_table(const arguments *a, const corot_model *model, const outcome *o,
-                        const timing *cpu) {
+                        const timing *cpu, const phase phases[NPHASE]) {
   const corot_statistics *c = &o->counts;
-  phase phases[NPHASE];
-  phases_of(o, phases);
   printf("%s, %d tets, %d degrees of freedom, strain %s, rtol %g, order %d, %s\n",
          a->bar.mesh ? a->bar.mesh : "box", corot_model_mesh(model)->ntet, corot_model_ndof(model),
          a->bar.strain, a->integrator.rtol, o->choice.max_order, o->choice.linear_solver);
@@ -113,9 +142,14 @@ static void print_table(const arguments *a, const corot_model *model, const outc
          cpu->median, cpu->min, cpu->spread, a->nrun);
   printf("%ld steps, %ld evaluations, %ld iterations, %ld assemblies, %ld factorisations\n", c->nst,
          c->nfe, c->nni, c->nje, c->nfactor);
-  for (int k = 0; k < NPHASE; k++)
-    printf("  %-9s %8.4f s %5.1f %%\n", phases[k].name, phases[k].seconds,
-           100 * phases[k].seconds / o->wall);
+  printf("%-10s %8s %8s %10s %10s\n", "wall time", "s", "%", "us a step", "its floor");
+  for (int k = 0; k < NPHASE; k++) {
+    double us = 1e6 / (double)c->nst;
+    printf("%-10s %8.4f %8.1f %10.2f", phases[k].name, phases[k].seconds,
+           100 * phases[k].seconds / o->wall, us * phases[k].seconds);
+    if (phases[k].floor > 0) printf(" %10.2f", us * phases[k].floor);
+    putchar('\n');
+  }
 }
 
 static int by_cpu(const void *a, const void *b) {
@@ -132,7 +166,10 @@ static corot_status repeat(const arguments *a, const corot_model *model, corot_s
   }
   qsort(outcomes, a->nrun, sizeof *outcomes, by_cpu);
   timing time = timing_summary(a->nrun, cpu);
-  (a->json ? print_json : print_table)(a, model, &outcomes[a->nrun / 2], &time);
+  const outcome *middle = &outcomes[a->nrun / 2];
+  phase phases[NPHASE];
+  COROT_TRY(phases_of(model, middle, phases));
+  (a->json ? print_json : print_table)(a, model, middle, &time, phases);
   return COROT_OK;
 }
 

@@ -38,6 +38,11 @@ void report_heading(bool json, int ntet, int n) {
          "floor", "ratio", "bound by", "bytes", "flops");
 }
 
+double report_floor(const cost *least) {
+  double bandwidth = machine_bandwidth((size_t)(least->data > 0 ? least->data : least->bytes));
+  return fmax(least->bytes / bandwidth, least->flops / machine_peak());
+}
+
 void report_row(bool json, const row *r) {
   double data = r->least.data > 0 ? r->least.data : r->least.bytes;
   double bandwidth = machine_bandwidth((size_t)data);

@@ -18,6 +18,9 @@ typedef struct row {
   cost least;
 } row;
 
+/* Seconds that this takes at least, by memory or arithmetic, on this machine now. */
+double report_floor(const cost *least);
+
 /* Above a block of rows of one size. */
 void report_heading(bool json, int ntet, int n);
 

@@ -29,6 +29,12 @@ out "base: 4 nodes, 2 triangles, 0 tets; rotated"; out "0 tets; pressure"
 out "frames: extrapolate, beyond 0.5 rad"
 out "bdf2, steps of 0.01 s, one linear solve each, linear solver pcg"
 
+# Locking is named, and so is the remedy.
+expect 0 check model.yaml --set material.lambda=1e6
+out "dilatation     each tet's own, which locks: nu = 0.495; see dilatation: nodal"
+expect 0 check model.yaml --set material.lambda=1e6 --set dilatation=nodal
+out "dilatation     averaged at the nodes, but for 1 mu of lambda"
+
 # Refined: groups by position see the new nodes.
 expect 0 check model.yaml --set mesh.refine=1; no_err
 out "box, refine 1: 45 nodes, 96 tets, 0.002 m^3"; out "base: 9 nodes, 8 triangles"

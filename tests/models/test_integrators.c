@@ -18,6 +18,14 @@ static const variant variants[] = {
     {"cvode 5", "cvode", 5, 0, 1e-10, 0.7},
     {"ida 2", "ida", 2, 0, 1e-12, 0.5},
     {"ida 5", "ida", 5, 0, 1e-10, 0.7},
+    {"arkode 2", "arkode", 0, 2, 1e-12, 0.5},
+    {"arkode 3", "arkode", 0, 3, 1e-10, 0.6},
+    {"arkode 4", "arkode", 0, 4, 1e-10, 0.7},
+    {"arkode 5", "arkode", 0, 5, 1e-10, 0.7},
+    {"erk 3", "erk", 0, 3, 1e-10, 0},
+    {"erk 4", "erk", 0, 4, 1e-10, 0},
+    {"erk 5", "erk", 0, 5, 1e-10, 0},
+    {"erk 8", "erk", 0, 8, 1e-10, 0}, /* stability keeps these right beyond what is asked for */
 };
 enum { NVARIANT = sizeof variants / sizeof *variants };
 
@@ -97,7 +105,7 @@ static void the_error_follows_the_tolerance(void **state) {
     double first = error(p);
     solve(p, &tight, 0);
     double slope = log10(first / error(p)) / 3;
-    if (!(slope > v->slope)) fail_msg("%s: error = C rtol^%.2f", v->name, slope);
+    if (v->slope > 0 && !(slope > v->slope)) fail_msg("%s: error = C rtol^%.2f", v->name, slope);
     if (!(first < 1e-3)) fail_msg("%s: off by %.2e at 1e-5", v->name, first);
   }
 }
@@ -148,6 +156,7 @@ static void linear_algebra_makes_no_difference(void **state) {
               {"pcg", COROT_TANGENT_HELD}};
   for (int k = 0; k < NVARIANT; k++)
     for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+      if (strcmp(variants[k].method, "erk") == 0) continue; /* has none */
       corot_integrator_def def = def_of(&variants[k], 1e-7);
       def.linear.solver = ways[w].solver, def.tangent = ways[w].tangent;
       corot_integrator *probe;

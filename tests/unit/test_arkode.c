@@ -120,7 +120,7 @@ static void each_failed_allocation_is_survived(void **state) {
   bar b = quick_bar();
   assert_true(assert_survives_failed_allocations(create_and_step, &b) > 5);
   b.tip = -1;
-  assert_true(assert_survives_failed_allocations(create_and_step, &b) > 8);
+  assert_true(assert_survives_failed_allocations(create_and_step, &b) > 3);
   bar_destroy(&b);
 }
 

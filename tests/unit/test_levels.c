@@ -331,6 +331,8 @@ static void test_materials_are_those_of_level_0(void **state) {
   def.viscosity = COROT_OBJECTIVE;
   def.nmaterial = 1;
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "the viscous law");
+  def.viscosity = COROT_COROTATED, def.dilatation = COROT_DILATATION_NODAL;
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "averaged at nodes");
   drop_solid(&s);
 }
 

@@ -333,7 +333,8 @@ static bool built(const char *solver) {
   return answer;
 }
 
-/* Slender bodies have little fill and many iterations, compact ones the opposite. */
+/* Slender bodies have little fill and many iterations, compact ones the opposite. In statics cholmod
+   is taken even so where it is built, as it tells whether an equilibrium is stable. */
 static void auto_goes_by_shape_size_and_role(void **state) {
   (void)state;
   static const struct {
@@ -348,7 +349,7 @@ static void auto_goes_by_shape_size_and_role(void **state) {
       {{14, 14, 14}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "pcg"},
       {{1, 1, 8}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
       {{5, 5, 30}, COROT_ROLE_STATIC, "cholmod supernodal", "klu"},
-      {{20, 20, 20}, COROT_ROLE_STATIC, "pcg", "pcg"},
+      {{20, 20, 20}, COROT_ROLE_STATIC, "cholmod supernodal", "pcg"},
   };
   bool cholmod = built("cholmod");
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

@@ -414,6 +414,7 @@ static corot_status make_all(void *context) {
   corot_model_def def = plain(mesh);
   def.strain = "warp", def.nfix = 1, def.fix = &fix, def.nload = 3, def.load = load;
   def.nmotion = 1, def.motion = &motion;
+  def.dilatation = COROT_DILATATION_NODAL;
   corot_model *model = NULL;
   corot_state *s = NULL;
   corot_csc *full = NULL, *lower = NULL;

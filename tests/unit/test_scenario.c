@@ -37,6 +37,8 @@ static void defaults(void **state) {
   assert_string_equal(s->title, "");
   assert_string_equal(s->strain, "polar");
   assert_int_equal(s->viscosity, COROT_COROTATED);
+  assert_int_equal(s->dilatation, COROT_DILATATION_LOCAL);
+  assert_close(s->dilatation_local, corot_model_defaults().dilatation_local, 0, 0);
   assert_string_equal(s->frame_policy, "exact");
   assert_int_equal(s->frames.frames, COROT_FRAMES_EXACT);
   assert_int_equal(s->frames.history, COROT_HISTORY_AUTO);
@@ -62,6 +64,7 @@ static const char everything[] =
     "material: {lambda: 1.0e+5, mu: 1e4, density: 5.E2, damping: {lambda: 3, mu: 4, mass: 5}}\n"
     "strain: hybrid\n"
     "viscosity: objective\n"
+    "dilatation: {name: nodal, local: 2.5}\n"
     "frames: {policy: hold, interval: 0.25, max_angle: 0.125, history: restart}\n"
     "boundary:\n"
     "  - {group: base, fix: [x, z]}\n"
@@ -111,6 +114,8 @@ static void all_keys(void **state) {
   assert_close(s->material[0].damping_mass, 5, 0, 0);
   assert_null(s->material[0].group);
   assert_int_equal(s->viscosity, COROT_OBJECTIVE);
+  assert_int_equal(s->dilatation, COROT_DILATATION_NODAL);
+  assert_close(s->dilatation_local, 2.5, 0, 0);
   assert_string_equal(s->frame_policy, "hold");
   assert_int_equal(s->frames.frames, COROT_FRAMES_HELD);
   assert_close(s->frames.interval, 0.25, 0, 0);
@@ -437,7 +442,8 @@ static void resolved_values(void **state) {
       "{\"title\":\"\",\"mesh\":{\"box\":{\"size\":[1.0,1.0,2.0],\"cells\":[1,1,2],\"origin\":[0.0,"
       "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0},\"groups\":{},\"material\":{\"lambda\":100000.0,"
       "\"mu\":10000.0,\"density\":1000.0,\"damping\":{\"lambda\":0.0,\"mu\":0.0,\"mass\":0.0}},"
-      "\"mass\":\"lumped\",\"strain\":\"polar\",\"viscosity\":\"corotated\",\"frames\":{\"policy\":"
+      "\"mass\":\"lumped\",\"strain\":\"polar\",\"dilatation\":{\"name\":\"local\",\"local\":1.0},"
+      "\"viscosity\":\"corotated\",\"frames\":{\"policy\":"
       "\"exact\","
       "\"history\":\"auto\"},\"boundary\":[],"
       "\"loads\":[],\"time\":{\"end\":2.0,\"output\":0.02},\"integrator\":{\"method\":\"cvode\","
@@ -529,6 +535,30 @@ static void builds_motions_and_loads(void **state) {
   assert_close(kink[0], 0.5, 0, 0);
   corot_model_destroy(model);
   corot_mesh_destroy(mesh);
+}
+
+static void builds_averages_of_the_dilatation(void **state) {
+  (void)state;
+  static const struct {
+    const char *key;
+    bool wider;
+  } table[] = {{"", false},
+               {"dilatation: local\n", false},
+               {"dilatation: nodal\n", true},
+               {"dilatation: {name: nodal, local: 9.9}\n", true},
+               {"dilatation: {name: nodal, local: 10}\n", false}}; /* lambda is 10 mu */
+  for (int k = 0; k < 5; k++) {
+    char text[500];
+    corot_mesh *mesh = NULL;
+    corot_model *model = NULL;
+    snprintf(text, sizeof text, "%s%s", MINIMAL, table[k].key);
+    build(text, &mesh, &model);
+    /* 12 nodes, 33 edges; averages couple all but the corners farthest apart */
+    int narrow = 12 + 33, nblock = corot_model_nblock(model);
+    assert_true(table[k].wider ? nblock > narrow : nblock == narrow);
+    corot_model_destroy(model);
+    corot_mesh_destroy(mesh);
+  }
 }
 
 static void build_refusals(void **state) {
@@ -682,6 +712,7 @@ int main(void) {
       cmocka_unit_test(numbers_as_text),
       cmocka_unit_test(builds),
       cmocka_unit_test(builds_motions_and_loads),
+      cmocka_unit_test(builds_averages_of_the_dilatation),
       cmocka_unit_test(build_refusals),
       cmocka_unit_test(failed_allocations),
       cmocka_unit_test(schema_is_sound),

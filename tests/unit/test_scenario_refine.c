@@ -107,6 +107,8 @@ static void hierarchies(void **state) {
          "5:40: hierarchy.frame_level: warp takes its frames from level 0 only");
   refuse(REFINED("1") "viscosity: objective\nhierarchy: {}\n",
          "4:12: viscosity: with a hierarchy it must be corotated");
+  refuse(REFINED("1") "dilatation: nodal\nhierarchy: {}\n",
+         "4:13: dilatation.name: with a hierarchy it must be local");
   refuse(REFINED("1") "hierarchy: {coarse_strain: gren}\n",
          "4:28: hierarchy.coarse_strain: unknown: gren; did you mean green?");
 }

@@ -15,7 +15,7 @@ static void stress_of(int measure, const double F[9], const double R[9], double 
 
 static double energy_of(int measure, const double F[9], const double R[9]) {
   return strain_energy(&strain_measures[measure], vd_all(lambda), vd_all(mu), mat3_load(F),
-                       mat3_load(R))[0];
+                       mat3_load(R), NULL)[0];
 }
 
 static void viscous_of(int measure, double damping_lambda, double damping_mu, const double F[9],
