@@ -108,7 +108,9 @@ static corot_status factor_definite(equilibrium *e) {
   corot_pencil_combine(e->pencil, 0, 0, 1);
   corot_status status = corot_pencil_factor(e->pencil);
   if (!status && strncmp(corot_pencil_solver(e->pencil), "klu", 3) == 0) {
+    double start = clock_wall();
     COROT_TRY(corot_inertia(e->pencil->csc, e->pencil->S, &negative));
+    e->pencil->counts.factor_s += clock_wall() - start;
     if (negative) status = corot_fail(COROT_RETRY, "the stiffness is not positive definite");
   }
   e->counts.nindefinite += status == COROT_RETRY;
