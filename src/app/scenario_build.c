@@ -219,8 +219,10 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   def.dilatation_local = s->dilatation_local;
   corot_status status = corot_model_create(&def, model);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
-  /* names and coefficients are checked above: what is left is which tet has which material */
-  return config_fail_key(place(s, "material"), "%s", corot_error());
+  /* names and coefficients are checked above: what is left is a mass that the supports do not allow,
+     and which tet has which material */
+  bool mass = s->mass == COROT_MASS_CONSISTENT && s->nmotion > 0;
+  return config_fail_key(place(s, mass ? "mass" : "material"), "%s", corot_error());
 }
 
 corot_status scenario_build(const scenario *s, corot_mesh **out, corot_model **model) {
