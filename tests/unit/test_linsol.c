@@ -344,11 +344,13 @@ static void auto_goes_by_shape_size_and_role(void **state) {
   } cases[] = {
       {{1, 1, 8}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
       {{1, 1, 300}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
-      {{6, 6, 6}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
-      {{5, 5, 30}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
+      {{6, 6, 6}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
+      {{5, 5, 30}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
+      {{8, 8, 8}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
+      {{6, 6, 36}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
       {{14, 14, 14}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "pcg"},
       {{1, 1, 8}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
-      {{5, 5, 30}, COROT_ROLE_STATIC, "cholmod supernodal", "klu"},
+      {{5, 5, 30}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
       {{20, 20, 20}, COROT_ROLE_STATIC, "cholmod supernodal", "pcg"},
   };
   bool cholmod = built("cholmod");
@@ -368,7 +370,7 @@ static void auto_goes_by_shape_size_and_role(void **state) {
 /* What is named is taken, and what is left open beside it is chosen. */
 static void names_are_obeyed(void **state) {
   (void)state;
-  corot_csc *csc = box_matrix(6, 6, 6);
+  corot_csc *csc = box_matrix(8, 8, 8);
   corot_linear_def def = corot_linear_defaults();
   def.solver = "klu", def.ordering = "amd";
   assert_string_equal(choice_of(&def, csc), "klu, amd");
