@@ -41,7 +41,7 @@ corot_status bar_model(const bar_source *source, corot_model **model) {
   return status;
 }
 
-int parse_cells(const char *program, const char *text, int cells[3]) {
+static int parse_cells(const char *program, const char *text, int cells[3]) {
   double number[3];
   bool good = parse_three(text, number);
   for (int i = 0; i < 3 && good; i++) {
@@ -50,4 +50,16 @@ int parse_cells(const char *program, const char *text, int cells[3]) {
   }
   if (good) return EXIT_OK;
   return usage_error(program, "--cells %s: expected three whole numbers I,J,K > 0", text);
+}
+
+int take_bar_option(const char *program, int answer, bar_source *source) {
+  if (answer == 'c') return parse_cells(program, optarg, source->box.cells);
+  if (answer != 'm' && answer != 's') return -1;
+  *(answer == 'm' ? &source->mesh : &source->strain) = optarg;
+  return EXIT_OK;
+}
+
+int take_repeat(const char *program, int most, int *nrun) {
+  if (parse_count(optarg, most, nrun)) return EXIT_OK;
+  return usage_error(program, "--repeat %s: expected a whole number from 1 to %d", optarg, most);
 }

@@ -28,8 +28,12 @@ bar_source bar_source_default(const char *strain);
 
 corot_status bar_model(const bar_source *source, corot_model **model);
 
-/* The argument of --cells. Returns EXIT_OK, or the exit code of a usage error. */
-int parse_cells(const char *program, const char *text, int cells[3]);
+/* Takes --mesh ('m'), --cells ('c') or --strain ('s') with its argument. Returns EXIT_OK or the
+   exit code of a usage error; -1: `answer` is none of them. */
+int take_bar_option(const char *program, int answer, bar_source *source);
+
+/* The argument of --repeat, at most `most`. Returns EXIT_OK, or the exit code of a usage error. */
+int take_repeat(const char *program, int most, int *nrun);
 
 /* A whole number from 1 to `most`. */
 bool parse_count(const char *text, int most, int *number);

@@ -311,18 +311,12 @@ static const struct option known[] = {{"json", no_argument, NULL, 'j'},
                                       {0}};
 
 static int take(arguments *a, int answer, char **argv) {
+  int taken = take_bar_option(program, answer, &a->bar);
+  if (taken >= 0) return taken;
   char *end;
   switch (answer) {
     case 'j':
       a->json = true;
-      return EXIT_OK;
-    case 'm':
-      a->bar.mesh = optarg;
-      return EXIT_OK;
-    case 'c':
-      return parse_cells(program, optarg, a->bar.box.cells);
-    case 's':
-      a->bar.strain = optarg;
       return EXIT_OK;
     case 'o':
       a->only = optarg;
@@ -332,9 +326,7 @@ static int take(arguments *a, int answer, char **argv) {
       if (end != optarg && !*end && a->limit > 0) return EXIT_OK;
       return usage_error(program, "--limit %s: expected a number > 0", optarg);
     case 'n':
-      if (parse_count(optarg, MOST_RUNS, &a->nrun)) return EXIT_OK;
-      return usage_error(program, "--repeat %s: expected a whole number from 1 to %d", optarg,
-                         MOST_RUNS);
+      return take_repeat(program, MOST_RUNS, &a->nrun);
     default:
       return option_error(program, answer, argv, known);
   }
