@@ -105,9 +105,9 @@ int corot_driver_weights(N_Vector y, N_Vector weight, void *user_data) {
 
 void corot_driver_on_error(SUN_ERROR_HANDLER_ARGUMENTS) {
   SUN_ERROR_HANDLER_UNUSED;
-  driver *d = data;
-  snprintf(d->message, sizeof d->message, "%s", SUN_ERROR_TEXT);
-  for (char *p = d->message; *p; p++)
+  char *message = data;
+  snprintf(message, SUN_MESSAGE, "%s", SUN_ERROR_TEXT);
+  for (char *p = message; *p; p++)
     if (*p == '\n') *p = ' ';
 }
 

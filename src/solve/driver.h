@@ -6,6 +6,8 @@
 #include "solve/integrator.h"
 #include "solve/sun_compat.h"
 
+enum { SUN_MESSAGE = 512 };
+
 /* First member of each driver, and the user_data of its callbacks. */
 typedef struct driver {
   corot_integrator *self;
@@ -13,11 +15,11 @@ typedef struct driver {
   N_Vector y; /* [2n] solution at self->t */
   SUNMatrix A;
   SUNLinearSolver LS;
-  double longest;    /* step so far [s] */
-  bool collapsed;    /* the last step shows that there is no way on */
-  char refusal[128]; /* why the model could not be evaluated in the last such trial */
-  long refused;      /* steps taken by then */
-  char message[512]; /* SUNDIALS' own words on its last failure */
+  double longest;            /* step so far [s] */
+  bool collapsed;            /* the last step shows that there is no way on */
+  char refusal[128];         /* why the model could not be evaluated in the last such trial */
+  long refused;              /* steps taken by then */
+  char message[SUN_MESSAGE]; /* SUNDIALS' own words on its last failure */
 } driver;
 
 /* Context, y = (u, v), matrix and linear solver. What is half made is released by close. */
@@ -38,7 +40,7 @@ int corot_driver_weights(N_Vector y, N_Vector weight, void *user_data);
 /* rate = dissipated and external power [2]. */
 int corot_driver_work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_data);
 
-/* An error handler: keeps the text as d->message. `data`: the driver. */
+/* An error handler: keeps SUNDIALS' words, on one line. `data`: char [SUN_MESSAGE]. */
 void corot_driver_on_error(SUN_ERROR_HANDLER_ARGUMENTS);
 
 /* Notes that a trial state could not be evaluated, and why; returns `status`. */

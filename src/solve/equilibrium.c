@@ -101,15 +101,16 @@ static corot_tangent tangent(const equilibrium *e) {
   return e->def->frames == COROT_FRAMES_HELD ? COROT_TANGENT_HELD : COROT_TANGENT_EXACT;
 }
 
-/* Factors K as it was assembled. COROT_RETRY: it is not positive definite. klu does not mind, but
-   the path of an iteration must not depend on the solver. */
+/* Factors K as it was assembled. COROT_RETRY: it is not positive definite. Not every solver minds,
+   but the path of an iteration must not depend on it. */
 static corot_status factor_definite(equilibrium *e) {
   int negative = 0;
   corot_pencil_combine(e->pencil, 0, 0, 1);
   corot_status status = corot_pencil_factor(e->pencil);
-  if (!status && strncmp(corot_pencil_solver(e->pencil), "klu", 3) == 0) {
+  const linsol_ops *ops = e->pencil->chosen.ops;
+  if (!status && ops->count_negative) {
     double start = clock_wall();
-    COROT_TRY(corot_inertia(e->pencil->csc, e->pencil->S, &negative));
+    COROT_TRY(ops->count_negative(e->pencil->csc, e->pencil->S, &negative));
     e->pencil->counts.factor_s += clock_wall() - start;
     if (negative) status = corot_fail(COROT_RETRY, "the stiffness is not positive definite");
   }
@@ -159,14 +160,6 @@ static SUNLinearSolver make_solver(equilibrium *e) {
   return LS;
 }
 
-static void on_error(SUN_ERROR_HANDLER_ARGUMENTS) {
-  SUN_ERROR_HANDLER_UNUSED;
-  equilibrium *e = data;
-  snprintf(e->reason, sizeof e->reason, "%s", SUN_ERROR_TEXT);
-  for (char *p = e->reason; *p; p++)
-    if (*p == '\n') *p = ' ';
-}
-
 /* --- Set-up --- */
 
 static double longest_edge(const corot_mesh *mesh) {
@@ -209,7 +202,7 @@ static corot_status open_kinsol(equilibrium *e) {
   N_VConst(1 / corot_model_length(e->model), e->u_scale);
   void *m = e->memory;
   /* No Newton step longer than the body, in the root mean square; none too short but rounding. */
-  if (SUN_CATCH_ERRORS(KINSetErrHandlerFn, m, e->ctx, on_error, e) ||
+  if (SUN_CATCH_ERRORS(KINSetErrHandlerFn, m, e->ctx, corot_driver_on_error, e->reason) ||
       KINInit(m, system_function, e->u) || KINSetUserData(m, e) ||
       KINSetLinearSolver(m, e->LS, e->A) || KINSetJacFn(m, jacobian) || KINSetMaxSetupCalls(m, 1) ||
       KINSetNoResMon(m, 1) || KINSetNumMaxIters(m, e->def->max_iterations) ||
@@ -368,7 +361,7 @@ corot_status corot_equilibrium_judge(equilibrium *e, corot_stability *stability)
   corot_status status = factor(e, COROT_TANGENT_EXACT);
   corot_state_use(e->state, e->def->frames);
   if (status < 0 && status != COROT_ESINGULAR) return status;
-  bool blind = strncmp(corot_pencil_solver(e->pencil), "pcg", 3) == 0;
+  bool blind = e->pencil->chosen.ops->iterations != NULL;
   *stability = status ? COROT_UNSTABLE : blind ? COROT_STABILITY_UNKNOWN : COROT_STABLE;
   return COROT_OK;
 }

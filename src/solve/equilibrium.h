@@ -4,8 +4,7 @@
 
 #include <corot/statics.h>
 
-#include "solve/pencil.h"
-#include "solve/sun_compat.h"
+#include "solve/driver.h"
 
 typedef struct equilibrium {
   const corot_model *model;
@@ -36,9 +35,9 @@ typedef struct equilibrium {
   int nhistory, capacity;
   bool recording; /* the residual of each Newton iteration goes to the history */
   int iterations;
-  corot_status fatal; /* of a callback; COROT_OK: none */
-  char reason[512];   /* why none was found */
-  char refusal[128];  /* why the last evaluation or factorisation was refused; "": it was not */
+  corot_status fatal;       /* of a callback; COROT_OK: none */
+  char reason[SUN_MESSAGE]; /* why none was found */
+  char refusal[128]; /* why the last evaluation or factorisation was refused; "": it was not */
   corot_statics_counts counts;
   double force_s;
 } equilibrium;
@@ -57,9 +56,5 @@ corot_status corot_equilibrium_search(equilibrium *e, double factor);
 
 /* Whether K is positive definite at e->u, an equilibrium that was just found. */
 corot_status corot_equilibrium_judge(equilibrium *e, corot_stability *stability);
-
-/* Negative pivots of the symmetric matrix `value` on `A` (both triangles), none of which is moved
-   from the diagonal: as many as it has negative eigenvalues. Zero pivots count, too. */
-corot_status corot_inertia(const corot_csc *A, const double *value, int *negative);
 
 #endif

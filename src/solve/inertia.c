@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <suitesparse/klu.h>
 
-#include "solve/equilibrium.h"
+#include "solve/linsol.h"
 
 static corot_status failure(const klu_common *common, const char *phase) {
   if (common->status == KLU_OUT_OF_MEMORY)

@@ -81,22 +81,21 @@ static int set_table(void *memory, const char *name) {
 static int configure(runge_kutta *m, const rk_table *table) {
   const corot_integrator_def *d = &m->driver.self->def;
   void *a = m->memory;
-  int bad = ARKStepSetUserData(a, m) || ARKStepWFtolerances(a, corot_driver_weights) ||
-            ARKStepSetMaxNumSteps(a, -1) || set_table(a, table->name) ||
-            ARKStepSetLinearSolver(a, m->driver.LS, m->driver.A) ||
-            ARKStepSetLinSysFn(a, corot_sun_linsys_ark) ||
-            ARKStepSetLSetupFrequency(a, d->refactorisation) ||
-            ARKStepSetJacEvalFrequency(a, d->reassembly) ||
-            ARKStepSetDeltaGammaMax(a, d->gamma_change) ||
-            ARKStepSetNonlinConvCoef(a, d->convergence) || ARKStepSetMaxNonlinIters(a, 10) ||
-            ARKStepSetPredictorMethod(a, d->predictor) || ARKStepSetInterpolantDegree(a, 3) ||
-            ARKStepSetDeduceImplicitRhs(a, SUNTRUE) ||
-            ARKStepSetAdaptivityMethod(a, ARK_ADAPT_PI, SUNTRUE, SUNFALSE, NULL) ||
-            ARKStepSetSafetyFactor(a, 0.9) || ARKStepSetErrorBias(a, 1);
-  if (d->first_step > 0) bad = bad || ARKStepSetInitStep(a, d->first_step);
-  if (d->min_step > 0) bad = bad || ARKStepSetMinStep(a, d->min_step);
-  if (d->max_step > 0) bad = bad || ARKStepSetMaxStep(a, d->max_step);
-  return bad;
+  /* a step of 0 leaves it to SUNDIALS */
+  return ARKStepSetUserData(a, m) || ARKStepWFtolerances(a, corot_driver_weights) ||
+         ARKStepSetMaxNumSteps(a, -1) || set_table(a, table->name) ||
+         ARKStepSetLinearSolver(a, m->driver.LS, m->driver.A) ||
+         ARKStepSetLinSysFn(a, corot_sun_linsys_ark) ||
+         ARKStepSetLSetupFrequency(a, d->refactorisation) ||
+         ARKStepSetJacEvalFrequency(a, d->reassembly) ||
+         ARKStepSetDeltaGammaMax(a, d->gamma_change) ||
+         ARKStepSetNonlinConvCoef(a, d->convergence) || ARKStepSetMaxNonlinIters(a, 10) ||
+         ARKStepSetPredictorMethod(a, d->predictor) || ARKStepSetInterpolantDegree(a, 3) ||
+         ARKStepSetDeduceImplicitRhs(a, SUNTRUE) ||
+         ARKStepSetAdaptivityMethod(a, ARK_ADAPT_PI, SUNTRUE, SUNFALSE, NULL) ||
+         ARKStepSetSafetyFactor(a, 0.9) || ARKStepSetErrorBias(a, 1) ||
+         ARKStepSetInitStep(a, d->first_step) || ARKStepSetMinStep(a, d->min_step) ||
+         ARKStepSetMaxStep(a, d->max_step);
 }
 
 static corot_status create(corot_integrator *self, const double *u, const double *v) {
@@ -112,7 +111,8 @@ static corot_status create(corot_integrator *self, const double *u, const double
   driver *d = &m->driver;
   m->memory = ARKStepCreate(NULL, corot_driver_rhs, self->t, d->y, d->ctx);
   if (!m->memory) return corot_fail(COROT_ENOMEM, "no memory for arkode");
-  if (SUN_CATCH_ERRORS(ARKStepSetErrHandlerFn, m->memory, d->ctx, corot_driver_on_error, d) ||
+  if (SUN_CATCH_ERRORS(ARKStepSetErrHandlerFn, m->memory, d->ctx, corot_driver_on_error,
+                       d->message) ||
       configure(m, table))
     return corot_driver_refuse(d, "set-up");
   self->table = table->name;

@@ -37,20 +37,17 @@ static const multistep_api api = {.setup_failed = CV_LSETUP_FAIL,
 static int configure(multistep *c) {
   const corot_integrator_def *d = &c->driver.self->def;
   void *m = c->memory;
-  int bad = CVodeSetUserData(m, c) || CVodeWFtolerances(m, corot_driver_weights) ||
-            CVodeSetMaxNumSteps(m, -1) || CVodeSetMaxOrd(m, d->max_order) ||
-            CVodeSetStabLimDet(m, d->max_order > 2) ||
-            CVodeSetLinearSolver(m, c->driver.LS, c->driver.A) ||
-            CVodeSetLinSysFn(m, corot_sun_linsys) ||
-            CVodeSetLSetupFrequency(m, d->refactorisation) ||
-            CVodeSetJacEvalFrequency(m, d->reassembly) ||
-            CVodeSetDeltaGammaMaxLSetup(m, d->gamma_change) ||
-            CVodeSetNonlinConvCoef(m, d->convergence) ||
-            CVodeQuadInit(m, corot_driver_work_rate, c->work);
-  if (d->first_step > 0) bad = bad || CVodeSetInitStep(m, d->first_step);
-  if (d->min_step > 0) bad = bad || CVodeSetMinStep(m, d->min_step);
-  if (d->max_step > 0) bad = bad || CVodeSetMaxStep(m, d->max_step);
-  return bad;
+  /* a step of 0 leaves it to SUNDIALS */
+  return CVodeSetUserData(m, c) || CVodeWFtolerances(m, corot_driver_weights) ||
+         CVodeSetMaxNumSteps(m, -1) || CVodeSetMaxOrd(m, d->max_order) ||
+         CVodeSetStabLimDet(m, d->max_order > 2) ||
+         CVodeSetLinearSolver(m, c->driver.LS, c->driver.A) ||
+         CVodeSetLinSysFn(m, corot_sun_linsys) || CVodeSetLSetupFrequency(m, d->refactorisation) ||
+         CVodeSetJacEvalFrequency(m, d->reassembly) ||
+         CVodeSetDeltaGammaMaxLSetup(m, d->gamma_change) ||
+         CVodeSetNonlinConvCoef(m, d->convergence) ||
+         CVodeQuadInit(m, corot_driver_work_rate, c->work) || CVodeSetInitStep(m, d->first_step) ||
+         CVodeSetMinStep(m, d->min_step) || CVodeSetMaxStep(m, d->max_step);
 }
 
 static void destroy(void *method) {
@@ -66,7 +63,8 @@ static corot_status create(corot_integrator *self, const double *u, const double
   driver *d = &c->driver;
   c->memory = CVodeCreate(CV_BDF, d->ctx);
   if (!c->memory) return corot_fail(COROT_ENOMEM, "no memory for cvode");
-  if (SUN_CATCH_ERRORS(CVodeSetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error, d) ||
+  if (SUN_CATCH_ERRORS(CVodeSetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error,
+                       d->message) ||
       CVodeInit(c->memory, corot_driver_rhs, self->t, d->y) || configure(c))
     return corot_driver_refuse(d, "set-up");
   return COROT_OK;

@@ -104,14 +104,12 @@ static int stable_step(N_Vector y, sunrealtype t, sunrealtype *h, void *limit) {
 static int configure(runge_kutta *m, ARKodeButcherTable table) {
   const corot_integrator_def *d = &m->driver.self->def;
   void *e = m->memory;
-  int bad = ERKStepSetUserData(e, m) || ERKStepWFtolerances(e, corot_driver_weights) ||
-            ERKStepSetMaxNumSteps(e, -1) || ERKStepSetTable(e, table) ||
-            ERKStepSetInterpolantDegree(e, 3) || ERKStepSetStabilityFn(e, stable_step, m->limit) ||
-            ERKStepSetCFLFraction(e, 0.95);
-  if (d->first_step > 0) bad = bad || ERKStepSetInitStep(e, d->first_step);
-  if (d->min_step > 0) bad = bad || ERKStepSetMinStep(e, d->min_step);
-  if (d->max_step > 0) bad = bad || ERKStepSetMaxStep(e, d->max_step);
-  return bad;
+  /* a step of 0 leaves it to SUNDIALS */
+  return ERKStepSetUserData(e, m) || ERKStepWFtolerances(e, corot_driver_weights) ||
+         ERKStepSetMaxNumSteps(e, -1) || ERKStepSetTable(e, table) ||
+         ERKStepSetInterpolantDegree(e, 3) || ERKStepSetStabilityFn(e, stable_step, m->limit) ||
+         ERKStepSetCFLFraction(e, 0.95) || ERKStepSetInitStep(e, d->first_step) ||
+         ERKStepSetMinStep(e, d->min_step) || ERKStepSetMaxStep(e, d->max_step);
 }
 
 static corot_status start(runge_kutta *m, ARKodeButcherTable table) {
@@ -123,7 +121,8 @@ static corot_status start(runge_kutta *m, ARKodeButcherTable table) {
                                         stability, &m->limit));
   m->memory = ERKStepCreate(corot_driver_rhs, self->t, d->y, d->ctx);
   if (!m->memory) return corot_fail(COROT_ENOMEM, "no memory for erk");
-  if (SUN_CATCH_ERRORS(ERKStepSetErrHandlerFn, m->memory, d->ctx, corot_driver_on_error, d) ||
+  if (SUN_CATCH_ERRORS(ERKStepSetErrHandlerFn, m->memory, d->ctx, corot_driver_on_error,
+                       d->message) ||
       configure(m, table))
     return corot_driver_refuse(d, "set-up");
   return COROT_OK;

@@ -78,15 +78,13 @@ static const multistep_api api = {.setup_failed = IDA_LSETUP_FAIL,
 static int configure(multistep *c) {
   const corot_integrator_def *d = &c->driver.self->def;
   void *m = c->memory;
-  int bad = IDASetUserData(m, c) || IDAWFtolerances(m, corot_driver_weights) ||
-            IDASetMaxNumSteps(m, -1) || IDASetMaxOrd(m, d->max_order) ||
-            IDASetLinearSolver(m, c->driver.LS, c->driver.A) || IDASetJacFn(m, jacobian) ||
-            IDASetDeltaCjLSetup(m, d->gamma_change) || IDASetNonlinConvCoef(m, d->convergence) ||
-            IDAQuadInit(m, work_rate, c->work);
-  if (d->first_step > 0) bad = bad || IDASetInitStep(m, d->first_step);
-  if (d->min_step > 0) bad = bad || IDASetMinStep(m, d->min_step);
-  if (d->max_step > 0) bad = bad || IDASetMaxStep(m, d->max_step);
-  return bad;
+  /* a step of 0 leaves it to SUNDIALS */
+  return IDASetUserData(m, c) || IDAWFtolerances(m, corot_driver_weights) ||
+         IDASetMaxNumSteps(m, -1) || IDASetMaxOrd(m, d->max_order) ||
+         IDASetLinearSolver(m, c->driver.LS, c->driver.A) || IDASetJacFn(m, jacobian) ||
+         IDASetDeltaCjLSetup(m, d->gamma_change) || IDASetNonlinConvCoef(m, d->convergence) ||
+         IDAQuadInit(m, work_rate, c->work) || IDASetInitStep(m, d->first_step) ||
+         IDASetMinStep(m, d->min_step) || IDASetMaxStep(m, d->max_step);
 }
 
 /* There is no rule by the number of steps: the linear solver is set up when c changes. */
@@ -119,7 +117,7 @@ static corot_status create(corot_integrator *self, const double *u, const double
   if (!c->rate || !c->memory) return corot_fail(COROT_ENOMEM, "no memory for ida");
   d->LS->ops->solve = corot_sun_solve_dae;
   if (find_rate(c)) return corot_driver_give_up(d, "no acceleration at the start");
-  if (SUN_CATCH_ERRORS(IDASetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error, d) ||
+  if (SUN_CATCH_ERRORS(IDASetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error, d->message) ||
       IDAInit(c->memory, corot_driver_residual, self->t, d->y, c->rate) || configure(c))
     return corot_driver_refuse(d, "set-up");
   return COROT_OK;

@@ -23,6 +23,10 @@ typedef struct linsol_ops {
 
   /* Iterations so far; NULL: the solver does not iterate. */
   long (*iterations)(const void *solver);
+
+  /* How many negative pivots A has, of a direct solver whose factor does not object to an
+     indefinite A; else NULL. */
+  corot_status (*count_negative)(const corot_csc *pattern, const double *value, int *negative);
 } linsol_ops;
 
 extern const linsol_ops corot_linsol_klu;
@@ -56,6 +60,10 @@ typedef struct linsol {
 /* On the model's pattern. What is half made is released by clear. */
 corot_status corot_linsol_create(const corot_model *model, const corot_linear_def *def, linsol *s);
 void corot_linsol_clear(linsol *s);
+
+/* Negative pivots of the symmetric matrix `value` on `A` (both triangles), none of which is moved
+   from the diagonal: as many as it has negative eigenvalues. Zero pivots count, too. */
+corot_status corot_inertia(const corot_csc *A, const double *value, int *negative);
 
 /* Fails with COROT_ESINGULAR for want of a pivot at a degree of freedom; `ratio`: of the smallest
    pivot to the largest. */

@@ -130,5 +130,5 @@ static corot_status cholesky_solve(void *solver, double *x) {
 }
 
 const linsol_ops corot_linsol_cholmod = {
-    "cholmod",        COROT_LOWER, cholesky_create, cholesky_factor, cholesky_solve,
-    cholesky_destroy, NULL};
+    "cholmod", COROT_LOWER, cholesky_create, cholesky_factor, cholesky_solve, cholesky_destroy,
+    NULL,      NULL};

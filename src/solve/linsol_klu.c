@@ -108,5 +108,5 @@ static corot_status klu_solver_solve(void *solver, double *x) {
 }
 
 const linsol_ops corot_linsol_klu = {
-    "klu", COROT_FULL, klu_solver_create, klu_solver_factor, klu_solver_solve, klu_solver_destroy,
-    NULL};
+    "klu", COROT_FULL,   klu_solver_create, klu_solver_factor, klu_solver_solve, klu_solver_destroy,
+    NULL,  corot_inertia};

@@ -176,5 +176,5 @@ static corot_status pcg_solve(void *solver, double *x) {
 
 static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
 
-const linsol_ops corot_linsol_pcg = {"pcg",     COROT_LOWER, pcg_create,    pcg_factor,
-                                     pcg_solve, pcg_destroy, pcg_iterations};
+const linsol_ops corot_linsol_pcg = {"pcg",     COROT_LOWER, pcg_create,     pcg_factor,
+                                     pcg_solve, pcg_destroy, pcg_iterations, NULL};
