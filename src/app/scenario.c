@@ -24,6 +24,8 @@ static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root;
   config_node *box = config_find(root, "mesh.box");
   s->refine = (int)number_at(root, "mesh.refine");
+  s->diagonal = text_is(root, "mesh.diagonal", "shortest") ? COROT_DIAGONAL_SHORTEST
+                                                           : COROT_DIAGONAL_CONSISTENT;
   if (!box) {
     config_node *file = config_find(root, "mesh.file");
     if (!*file->text) return config_fail(file, "the name is empty");

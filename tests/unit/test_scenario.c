@@ -440,7 +440,8 @@ static void resolved_values(void **state) {
   assert_string_equal(
       text,
       "{\"title\":\"\",\"mesh\":{\"box\":{\"size\":[1.0,1.0,2.0],\"cells\":[1,1,2],\"origin\":[0.0,"
-      "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0},\"groups\":{},\"material\":{\"lambda\":100000.0,"
+      "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0,\"diagonal\":\"consistent\"},\"groups\":{},"
+      "\"material\":{\"lambda\":100000.0,"
       "\"mu\":10000.0,\"density\":1000.0,\"damping\":{\"lambda\":0.0,\"mu\":0.0,\"mass\":0.0}},"
       "\"mass\":\"lumped\",\"strain\":\"polar\",\"dilatation\":{\"name\":\"local\",\"local\":1.0},"
       "\"viscosity\":\"corotated\",\"frames\":{\"policy\":"
