@@ -47,7 +47,7 @@ static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *me
 static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
   if (s->refine == 0 && !s->coarse_strain) return COROT_OK;
   corot_status status =
-      refine_mesh(s->refine, COROT_DIAGONAL_CONSISTENT, mesh, s->coarse_strain ? refinement : NULL);
+      refine_mesh(s->refine, s->diagonal, mesh, s->coarse_strain ? refinement : NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
 }
@@ -223,8 +223,8 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   def.dilatation_local = s->dilatation_local;
   corot_status status = corot_model_create(&def, model);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
-  /* names and coefficients are checked above: what is left is a mass that the supports do not allow,
-     and which tet has which material */
+  /* names and coefficients are checked above: what is left is a mass that the supports do not
+     allow, and which tet has which material */
   bool mass = s->mass == COROT_MASS_CONSISTENT && s->nmotion > 0;
   return config_fail_key(place(s, mass ? "mass" : "material"), "%s", corot_error());
 }
