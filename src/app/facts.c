@@ -6,6 +6,7 @@
 
 #include "config.h"
 #include "json_text.h"
+#include "warnings.h"
 
 /* --- Finding --- */
 
@@ -137,17 +138,10 @@ static void print_frames(const scenario *s, FILE *out) {
   fputc('\n', out);
 }
 
-/* Linear tets of one material lock where its lambda is many mu: ten are a nu of 0.45. */
 static void print_dilatation(const scenario *s, FILE *out) {
-  double most = 0;
-  for (int i = 0; i < s->nmaterial; i++)
-    most = fmax(most, s->material[i].lambda / s->material[i].mu);
   if (s->dilatation == COROT_DILATATION_NODAL)
     fprintf(out, "dilatation     averaged at the nodes, but for %g mu of lambda\n",
             s->dilatation_local);
-  else if (most > 10)
-    fprintf(out, "dilatation     each tet's own, which locks: nu = %.4g; see dilatation: nodal\n",
-            0.5 * most / (most + 1));
 }
 
 static void print_model(const scenario *s, const facts *f, FILE *out) {
@@ -209,6 +203,7 @@ void facts_print(const scenario *s, const facts *f, FILE *out) {
   print_mesh(s, f, out);
   print_model(s, f, out);
   print_run(s, f, out);
+  warnings_print(s, "warning        ", out);
 }
 
 /* --- JSON --- */
@@ -272,5 +267,6 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
-  return json_text_with(j, "probes", probes_json(s, f->mesh));
+  j = json_text_with(j, "probes", probes_json(s, f->mesh));
+  return json_text_with(j, "warnings", warnings_list(s));
 }

@@ -24,6 +24,8 @@ static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root;
   config_node *box = config_find(root, "mesh.box");
   s->refine = (int)number_at(root, "mesh.refine");
+  s->diagonal = text_is(root, "mesh.diagonal", "shortest") ? COROT_DIAGONAL_SHORTEST
+                                                           : COROT_DIAGONAL_CONSISTENT;
   if (!box) {
     config_node *file = config_find(root, "mesh.file");
     if (!*file->text) return config_fail(file, "the name is empty");
@@ -199,7 +201,10 @@ static void read_output(scenario *s) {
 /* --- All of it --- */
 
 static corot_status read_all(scenario *s, const char *path, int noverride, char *const *override) {
-  for (int i = 0; i < noverride; i++) COROT_TRY(config_override(s->source, override[i]));
+  for (int i = 0; i < noverride; i++) {
+    COROT_TRY(schema_expand(s->source));
+    COROT_TRY(config_override(s->source, override[i]));
+  }
   COROT_TRY(schema_apply(s->source));
   s->path = config_copy(s->source, path, strlen(path));
   if (!s->path) return no_memory();

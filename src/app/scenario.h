@@ -34,6 +34,7 @@ typedef struct scenario {
   const char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
   corot_box box;
   int refine; /* times */
+  corot_diagonal diagonal;
   int ngroup;
   const group_def *group;
 

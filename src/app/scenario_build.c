@@ -51,8 +51,7 @@ static bool solver_needs_refinement(const scenario *s) {
 static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
   if (s->refine == 0 && !s->coarse_strain) return COROT_OK;
   bool needed = s->coarse_strain || solver_needs_refinement(s);
-  corot_status status =
-      refine_mesh(s->refine, COROT_DIAGONAL_CONSISTENT, mesh, needed ? refinement : NULL);
+  corot_status status = refine_mesh(s->refine, s->diagonal, mesh, needed ? refinement : NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
 }

@@ -29,6 +29,7 @@ const schema_key schema_keys[] = {
   {"mesh.box.origin",         VECTOR,          OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, "the corner with the smallest coordinates"},
   {"mesh.box.split",          CHOICE,          OPTIONAL, ANY,          "",        "kuhn", "kuhn", "how a cell is cut into tets"},
   {"mesh.refine",             INTEGER,         OPTIONAL, NOT_NEGATIVE, "",      "0", 0, "times that each tet is cut into eight; nodes keep their numbers, the middles of edges follow"},
+  {"mesh.diagonal",           CHOICE,          OPTIONAL, ANY,          "",        "consistent", "consistent|shortest", "which diagonal of the octahedron inside a tet is an edge of the eight: consistent makes at most three shapes of a tet, shortest better ones on the average"},
 
   {"groups",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "sets of nodes, in addition to the mesh's own groups; plane and box choose among those of the refined mesh"},
   {"groups.NAME.plane",       MAP,             ONE_OF,   ANY,          "",        0, 0, "the nodes on a plane across an axis"},
