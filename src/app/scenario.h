@@ -45,6 +45,7 @@ typedef struct scenario {
   const char *coarse_strain; /* of the unrefined mesh; NULL: no hierarchy */
   int frame_level;
   bool conservative;
+  corot_coupling coupling;
 
   corot_viscosity viscosity;
   corot_mass mass;
