@@ -511,7 +511,9 @@ static void numbers_as_text(void **state) {
 
 static void build(const char *text, corot_mesh **mesh, corot_model **model) {
   scenario *s = accept(text);
-  assert_ok(scenario_build(s, mesh, model));
+  corot_refinement *refinement;
+  assert_ok(scenario_build(s, mesh, &refinement, model));
+  corot_refinement_destroy(refinement);
   scenario_destroy(s);
 }
 
@@ -624,10 +626,11 @@ static void build_refusals(void **state) {
   };
   for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
     corot_mesh *mesh = NULL;
+    corot_refinement *refinement = NULL;
     corot_model *model = NULL;
     scenario *s = accept(r[i].text);
-    assert_fails(scenario_build(s, &mesh, &model), COROT_EFORMAT, r[i].message);
-    assert_true(!mesh && !model);
+    assert_fails(scenario_build(s, &mesh, &refinement, &model), COROT_EFORMAT, r[i].message);
+    assert_true(!mesh && !refinement && !model);
     scenario_destroy(s);
   }
 }
@@ -645,8 +648,10 @@ static corot_status make_scenario(void *context) {
 
 static corot_status build_scenario(void *context) {
   corot_mesh *mesh = NULL;
+  corot_refinement *refinement = NULL;
   corot_model *model = NULL;
-  COROT_TRY(scenario_build(context, &mesh, &model));
+  COROT_TRY(scenario_build(context, &mesh, &refinement, &model));
+  corot_refinement_destroy(refinement);
   corot_model_destroy(model);
   corot_mesh_destroy(mesh);
   return COROT_OK;
