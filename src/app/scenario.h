@@ -87,6 +87,16 @@ corot_status scenario_read(const char *path, int noverride, char *const *overrid
 corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
                                 char *const *override, scenario **out);
 
+/* A value for a key, "integrator.rtol", in the place of the file's. */
+typedef struct setting {
+  const char *key;
+  const struct config_node *value;
+} setting;
+
+/* The same as scenario_read with overrides that have been read from a file themselves: messages
+   name their places there. Their tree must outlive the scenario. */
+corot_status scenario_read_with(const char *path, int nset, const setting *set, scenario **out);
+
 /* The key of each kind of load. */
 extern const char *const scenario_load_words[];
 
