@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "commands.h"
 
 static const char help[] =
     "corot: deformable solids as ordinary differential equations, integrated with error control\n"
@@ -19,6 +20,7 @@ static const char help[] =
     "  mesh box             generate the mesh of a box\n"
     "  mesh info FILE       size, shape and groups of a mesh\n"
     "  mesh refine FILE     cut every tet into eight\n"
+    "  plot DIR             draw the work-precision diagram of a study\n"
     "\n"
     "  corot COMMAND --help, corot --version\n"
     "\n"
@@ -47,6 +49,7 @@ int main(int argc, char **argv) {
       {"check", command_check},
       {"schema", command_schema},
       {"mesh", command_mesh},
+      {"plot", command_plot},
       {"--version", print_version},
       {0},
   };
