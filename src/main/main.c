@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <app/cli.h>
+#include <report/commands.h>
 #include <study/command_study.h>
 
 static const char help[] =
@@ -21,6 +22,7 @@ static const char help[] =
     "  mesh box             generate the mesh of a box\n"
     "  mesh info FILE       size, shape and groups of a mesh\n"
     "  mesh refine FILE     cut every tet into eight\n"
+    "  plot DIR             draw the work-precision diagram of a study\n"
     "\n"
     "  corot COMMAND --help, corot --version\n"
     "\n"
@@ -44,10 +46,9 @@ static void hold_standard_streams(void) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},         {"static", command_static},
-      {"check", command_check},     {"study", command_study},
-      {"schema", command_schema},   {"mesh", command_mesh},
-      {"--version", print_version}, {0},
+      {"run", command_run},     {"static", command_static},   {"check", command_check},
+      {"study", command_study}, {"plot", command_plot},       {"schema", command_schema},
+      {"mesh", command_mesh},   {"--version", print_version}, {0},
   };
   hold_standard_streams();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */

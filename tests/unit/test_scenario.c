@@ -479,7 +479,7 @@ static void resolved_values(void **state) {
       "\"start\":\"rest\",\"statics\":{\"frames\":\"exact\",\"tolerance\":1e-10,"
       "\"max_iterations\":20,\"first_step\":1.0,\"min_step\":0.0001,\"max_step\":1.0},"
       "\"probes\":{},\"output\":{\"fields\":"
-      "\"vtu\",\"every\":1}}");
+      "\"vtu\",\"every\":1,\"states\":\"none\"}}");
   free(text);
   json_decref(r);
 }
@@ -682,7 +682,8 @@ static void schema_is_sound(void **state) {
     if (k->type == SCHEMA_CHOICE) assert_non_null(k->words);
   }
   int n = 0;
-  for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, "material.damping", k));) n++;
+  for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, "material.damping", k));)
+    n++;
   assert_int_equal(n, 3);
 }
 
