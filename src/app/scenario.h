@@ -75,6 +75,7 @@ typedef struct scenario {
   const probe_def *probe;
   bool write_fields; /* output.fields: vtu */
   int field_every;   /* every so many output times */
+  bool write_states; /* output.states: binary */
 
   json_t *resolved;      /* the whole scenario, defaults and overrides included */
   struct config *source; /* the file as a tree, for the places in messages; owns the memory */
@@ -89,6 +90,16 @@ corot_status scenario_read(const char *path, int noverride, char *const *overrid
 corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
                                 char *const *override, scenario **out);
 
+/* A value for a key, "integrator.rtol", in the place of the file's. */
+typedef struct setting {
+  const char *key;
+  const struct config_node *value;
+} setting;
+
+/* The same as scenario_read with overrides that have been read from a file themselves: messages
+   name their places there. Their tree must outlive the scenario. */
+corot_status scenario_read_with(const char *path, int nset, const setting *set, scenario **out);
+
 /* The key of each kind of load. */
 extern const char *const scenario_load_words[];
 
@@ -96,8 +107,8 @@ extern const char *const scenario_load_words[];
 void scenario_destroy(scenario *s);
 
 /* The mesh with its groups, its refinement if the linear solver is to know it, else NULL, and the
-   model; all the caller's to destroy. COROT_EFORMAT: a message as above; a mesh that cannot be read
-   is one, too. */
+   model; all the caller's to destroy. Who has no use for the refinement passes NULL. COROT_EFORMAT:
+   a message as above; a mesh that cannot be read is one, too. */
 corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_refinement **refinement,
                             corot_model **model);
 
