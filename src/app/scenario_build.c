@@ -200,7 +200,11 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   COROT_TRY(check_section(s, "loads", mesh));
   COROT_TRY(check_probes(s, mesh));
   corot_model_def def = corot_model_defaults();
-  corot_hierarchy_def hierarchy = {refinement, s->coarse_strain, s->frame_level, s->conservative};
+  corot_hierarchy_def hierarchy = {.refinement = refinement,
+                                   .coarse_strain = s->coarse_strain,
+                                   .frame_level = s->frame_level,
+                                   .conservative = s->conservative,
+                                   .coupling = s->coupling};
   def.mesh = mesh;
   def.hierarchy = s->coarse_strain ? &hierarchy : NULL;
   def.strain = s->strain;

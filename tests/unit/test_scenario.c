@@ -479,7 +479,7 @@ static void resolved_values(void **state) {
       "\"start\":\"rest\",\"statics\":{\"frames\":\"exact\",\"tolerance\":1e-10,"
       "\"max_iterations\":20,\"first_step\":1.0,\"min_step\":0.0001,\"max_step\":1.0},"
       "\"probes\":{},\"output\":{\"fields\":"
-      "\"vtu\",\"every\":1}}");
+      "\"vtu\",\"every\":1,\"states\":\"none\"}}");
   free(text);
   json_decref(r);
 }
@@ -674,15 +674,16 @@ static void failed_allocations(void **state) {
 /* Parents before children, no path twice, every required key has a meaning. */
 static void schema_is_sound(void **state) {
   (void)state;
-  for (int i = 0; i < schema_nkey; i++) {
-    const schema_key *k = &schema_keys[i];
-    assert_true(schema_find(k->path) == k);
+  for (int i = 0; i < scenario_schema.nkey; i++) {
+    const schema_key *k = &scenario_schema.key[i];
+    assert_true(schema_find(&scenario_schema, k->path) == k);
     assert_true(*k->doc);
     if (k->status != SCHEMA_OPTIONAL) assert_null(k->fallback);
     if (k->type == SCHEMA_CHOICE) assert_non_null(k->words);
   }
   int n = 0;
-  for (const schema_key *k = NULL; (k = schema_child("material.damping", k));) n++;
+  for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, "material.damping", k));)
+    n++;
   assert_int_equal(n, 3);
 }
 
@@ -690,17 +691,17 @@ static void schema_as_text(void **state) {
   (void)state;
   FILE *file = tmpfile();
   assert_non_null(file);
-  assert_int_equal(schema_print("", file), schema_nkey);
-  assert_int_equal(schema_print("material.damping", file), 4);
-  assert_int_equal(schema_print("loads.gravity", file), 1);
-  assert_int_equal(schema_print("loads[]", file), 6);
-  assert_int_equal(schema_print("mat", file), 0);
+  assert_int_equal(schema_print(&scenario_schema, "", file), scenario_schema.nkey);
+  assert_int_equal(schema_print(&scenario_schema, "material.damping", file), 4);
+  assert_int_equal(schema_print(&scenario_schema, "loads.gravity", file), 1);
+  assert_int_equal(schema_print(&scenario_schema, "loads[]", file), 6);
+  assert_int_equal(schema_print(&scenario_schema, "mat", file), 0);
   fclose(file);
-  json_t *schema = schema_json();
-  assert_non_null(schema);
-  json_t *material = json_object_get(json_object_get(schema, "properties"), "material");
+  json_t *text = schema_json();
+  assert_non_null(text);
+  json_t *material = json_object_get(json_object_get(text, "properties"), "material");
   assert_int_equal(json_array_size(json_object_get(material, "anyOf")), 2);
-  json_decref(schema);
+  json_decref(text);
 }
 
 static void suggestions(void **state) {
