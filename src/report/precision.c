@@ -68,7 +68,10 @@ static void count_left_out(const study_table *t, size_t size, char *note) {
                              at ? ", " : "without a point: ", count[k], word[k]);
 }
 
-static void write_svg(const void *what, FILE *out) { chart_write(what, out); }
+static corot_status write_svg(const void *what, FILE *out) {
+  chart_write(what, out);
+  return COROT_OK;
+}
 
 static corot_status draw(const precision *p, const points *all, const char *path) {
   const study_table *t = p->table;
@@ -103,7 +106,7 @@ static void csv_number(double x, FILE *out) {
   if (isfinite(x)) fprintf(out, "%.17g", x);
 }
 
-static void write_csv(const void *what, FILE *out) {
+static corot_status write_csv(const void *what, FILE *out) {
   static const char *const status[] = {"rated", "failed", "missing"};
   const precision *p = what;
   const study_table *t = p->table;
@@ -123,6 +126,7 @@ static void write_csv(const void *what, FILE *out) {
     csv_text(c->id, out), fputc(',', out);
     csv_text(c->reason, out), fputc('\n', out);
   }
+  return COROT_OK;
 }
 
 /* BASE with a suffix; the caller's to free. */

@@ -21,7 +21,7 @@ static void python_text(const char *text, FILE *out) {
   fputc('"', out);
 }
 
-void precision_gnuplot(const void *what, FILE *out) {
+corot_status precision_gnuplot(const void *what, FILE *out) {
   const precision_script *s = what;
   const study_table *t = s->diagram->table;
   int error = s->diagram->error;
@@ -61,9 +61,10 @@ void precision_gnuplot(const void *what, FILE *out) {
   if (isfinite(t->floor[error]))
     fprintf(out, "%s  floor with lines lt 0 lw 2 title 'floor'", t->nseries ? ", \\\n" : "");
   fputc('\n', out);
+  return COROT_OK;
 }
 
-void precision_matplotlib(const void *what, FILE *out) {
+corot_status precision_matplotlib(const void *what, FILE *out) {
   const precision_script *s = what;
   const study_table *t = s->diagram->table;
   double floor = STUDY_FLOOR_FACTOR * t->floor[s->diagram->error];
@@ -104,4 +105,5 @@ void precision_matplotlib(const void *what, FILE *out) {
       ")\naxes.grid(True, which=\"both\", alpha=0.3)\naxes.legend(fontsize=\"small\")\n"
       "figure.savefig(sys.argv[1] if len(sys.argv) > 1 else here / (name + \"-matplotlib.pdf\"))\n",
       out);
+  return COROT_OK;
 }

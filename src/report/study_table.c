@@ -1,12 +1,10 @@
 #include "study_table.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "folder.h"
+#include "lookup.h"
 
 const char *const study_cost_word[STUDY_COSTS] = {
     [STUDY_CPU] = "cpu",
@@ -35,14 +33,9 @@ void study_table_free(study_table *t) {
   *t = (study_table){0};
 }
 
+/* A measure's name may have points, which paths may not. */
 static double number(const json_t *object, const char *key) {
-  const json_t *value = json_object_get(object, key);
-  return json_is_number(value) ? json_number_value(value) : NAN;
-}
-
-static const char *text(const json_t *object, const char *key) {
-  const char *s = json_string_value(json_object_get(object, key));
-  return s ? s : "";
+  return lookup_number(json_object_get(object, key), "");
 }
 
 /* The place of a name in a list that it is added to if need be; names stay where they are. */
@@ -55,7 +48,7 @@ static int place_of(const char *name, int *n, const char **list) {
 
 static corot_status read_status(const json_t *cell, int i, study_status *status) {
   static const char *const word[] = {"done", "failed", "missing"};
-  const char *given = text(cell, "status");
+  const char *given = lookup_text(cell, "status");
   for (int s = 0; s < 3; s++)
     if (strcmp(given, word[s]) == 0) return *status = (study_status)s, COROT_OK;
   return corot_fail(COROT_EFORMAT, "cell %d has the status '%s'; done, failed or missing is known",
@@ -67,17 +60,17 @@ static corot_status read_cell(study_table *t, const json_t *cell, int i) {
   const json_t *cost = json_object_get(cell, "cost"), *error = json_object_get(cell, "error");
   study_cell *c = &t->cell[i];
   *c = (study_cell){
-      .id = text(cell, "id"),
-      .reason = text(cell, "reason"),
-      .series = place_of(text(cell, "series"), &t->nseries, t->series),
-      .tolerance = number(cell, "tolerance"),
-      .cpu_min = number(cost, "cpu_min"),
-      .cpu_max = number(cost, "cpu_max"),
+      .id = lookup_text(cell, "id"),
+      .reason = lookup_text(cell, "reason"),
+      .series = place_of(lookup_text(cell, "series"), &t->nseries, t->series),
+      .tolerance = lookup_number(cell, "tolerance"),
+      .cpu_min = lookup_number(cost, "cpu_min"),
+      .cpu_max = lookup_number(cost, "cpu_max"),
       .error = t->errors + (size_t)i * (size_t)t->nerror,
       .below_floor = json_is_true(json_object_get(cell, "below_floor")),
   };
   COROT_TRY(read_status(cell, i, &c->status));
-  for (int k = 0; k < STUDY_COSTS; k++) c->cost[k] = number(cost, study_cost_word[k]);
+  for (int k = 0; k < STUDY_COSTS; k++) c->cost[k] = lookup_number(cost, study_cost_word[k]);
   for (int e = 0; e < t->nerror; e++)
     t->errors[(size_t)i * (size_t)t->nerror + (size_t)e] = number(error, t->error_name[e]);
   return COROT_OK;
@@ -137,7 +130,7 @@ static corot_status take_apart(study_table *t) {
   t->cell = calloc(n + 1, sizeof *t->cell);
   t->errors = calloc(n * (size_t)t->nerror + 1, sizeof *t->errors);
   if (!t->series || !t->cell || !t->errors) return corot_fail(COROT_ENOMEM, "out of memory");
-  t->title = text(t->root, "title");
+  t->title = lookup_text(t->root, "title");
   for (size_t i = 0; i < n; i++) COROT_TRY(read_cell(t, json_array_get(cells, i), (int)i));
   t->ncell = (int)n;
   qsort(t->cell, n, sizeof *t->cell, by_series);
@@ -145,25 +138,13 @@ static corot_status take_apart(study_table *t) {
   return COROT_OK;
 }
 
-static corot_status load(const char *path, json_t **root) {
-  json_error_t where;
-  *root = json_load_file(path, JSON_REJECT_DUPLICATES, &where);
-  if (*root) return COROT_OK;
-  if (json_error_code(&where) == json_error_cannot_open_file)
-    return corot_fail(COROT_EIO, "%s: %s", path, strerror(errno));
-  return corot_fail(COROT_EFORMAT, "%s:%d:%d: %s", path, where.line, where.column, where.text);
-}
-
 corot_status study_table_read(const char *dir, study_table *table) {
-  char *path = folder_path(dir, "table.json");
-  if (!path) return COROT_ENOMEM;
   study_table t = {0};
-  corot_status status = load(path, &t.root);
+  corot_status status = lookup_read(dir, "table.json", &t.root);
   if (status == COROT_OK) {
     status = take_apart(&t);
-    if (status != COROT_OK) corot_fail(status, "%s: %s", path, corot_error());
+    if (status != COROT_OK) corot_fail(status, "%s/table.json: %s", dir, corot_error());
   }
-  free(path);
   if (status != COROT_OK) {
     study_table_free(&t);
     return status;

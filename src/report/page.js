@@ -1,0 +1,15 @@
+/* Brings the page to life. `window.corot` is for whoever wants to look at the parts. */
+
+function takeData(figure) {
+  const script = figure.querySelector('script');
+  const data = JSON.parse(script.textContent);
+  script.remove();
+  return data;
+}
+
+const charts = {};
+for (const figure of document.querySelectorAll('figure.chart')) charts[figure.id] = new Chart(figure, takeData(figure));
+
+const view = document.querySelector('figure.body');
+const body = view ? new Body(view, takeData(view)) : null;
+window.corot = { charts, timeline, body };

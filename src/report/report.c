@@ -1,0 +1,25 @@
+#include "report.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "folder.h"
+#include "report_run.h"
+#include "save.h"
+
+static corot_status has(const char *dir, const char *name, bool *there) {
+  char *path = folder_path(dir, name);
+  if (!path) return COROT_ENOMEM;
+  *there = access(path, F_OK) == 0;
+  free(path);
+  return COROT_OK;
+}
+
+corot_status report_write(const char *dir, const char *path) {
+  bool run = false;
+  COROT_TRY(has(dir, "result.json", &run));
+  if (!run)
+    return corot_fail(COROT_EIO, "%s: no result.json of a run that has ended is there", dir);
+  return report_run(dir, path);
+}
