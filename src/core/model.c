@@ -228,7 +228,7 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   if (!of_tet) return corot_fail(COROT_ENOMEM, "no memory for %d tets", m->mesh->ntet);
   corot_status status = assign_materials(def, m, of_tet);
   if (!status)
-    status = corot_tets_create(m->mesh, m->nmaterial, of_tet,
+    status = corot_tets_create(m->mesh, m->nmaterial, of_tet, corot_levels_together(def->hierarchy),
                                strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
   if (!status && def->hierarchy && def->hierarchy->refinement->nlevel > 0)
     status = corot_levels_create(def->hierarchy, of_tet, m);
@@ -237,7 +237,7 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
 
   COROT_TRY(number_dofs(def, m));
   COROT_TRY(average_dilatation(def, m));
-  const pattern *coarse = m->levels && !m->levels->same ? &m->levels->coarse->pattern : NULL;
+  const pattern *coarse = m->levels ? corot_levels_pattern(m) : NULL;
   COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->dilatation, coarse, &m->pattern));
   if (coarse) COROT_TRY(corot_levels_place(m));
   COROT_TRY(corot_mass_create(def, m));
