@@ -234,7 +234,7 @@ corot_status scenario_build(const scenario *s, corot_mesh **out, corot_refinemen
   corot_refinement *r = NULL;
   corot_status status = build_mesh(s, &mesh, &r);
   if (status == COROT_OK) status = build_model(s, mesh, r, model);
-  if (status != COROT_OK || !scenario_solves_by_levels(s)) {
+  if (status != COROT_OK || !refinement || !scenario_solves_by_levels(s)) {
     corot_refinement_destroy(r);
     r = NULL;
   }
@@ -243,6 +243,6 @@ corot_status scenario_build(const scenario *s, corot_mesh **out, corot_refinemen
     return status;
   }
   *out = mesh;
-  *refinement = r;
+  if (refinement) *refinement = r;
   return COROT_OK;
 }
