@@ -63,7 +63,7 @@ class Chart {
       y: typeof s.y === 'string' ? doubles(s.y) : s.y,
       low: s.low, high: s.high,
     }));
-    this.sorted = this.series.every((s) => s.style !== 'marked');
+    this.sorted = this.series.every((s) => s.style !== 'marked'); /* by x, which is time */
     this.svg.setAttribute('aria-label', data.title + ': ' + data.yLabel + ' over ' + data.xLabel);
     this.drawLegend();
     this.draw();

@@ -31,9 +31,9 @@ void figure_json(const figure *f, FILE *out) {
   encode_text(f->x_label, out);
   fputs(",\"yLabel\":", out);
   encode_text(f->y_label, out);
-  fprintf(out, ",\"xLog\":%s,\"yLog\":%s,\"time\":%s,\"whole\":%s,\"floor\":",
+  fprintf(out, ",\"xLog\":%s,\"yLog\":%s,\"time\":%s,\"tall\":%s,\"whole\":%s,\"floor\":",
           f->x_log ? "true" : "false", f->y_log ? "true" : "false", f->time ? "true" : "false",
-          f->whole ? "true" : "false");
+          f->tall ? "true" : "false", f->whole ? "true" : "false");
   encode_number(f->floor, out);
   fputs(",\"series\":[", out);
   for (int k = 0; k < f->nseries; k++) {

@@ -25,6 +25,7 @@ typedef struct figure {
   const char *x_label, *y_label;    /* with their units */
   bool x_log, y_log;
   bool time;  /* figures over time are zoomed together */
+  bool tall;  /* of more than the usual height */
   bool whole; /* y counts: no ticks between whole numbers */
   int nseries;
   const figure_series *series;

@@ -1,6 +1,7 @@
 #include "page.h"
 
 #include <corot/base.h>
+#include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -57,6 +58,19 @@ static void print(FILE *out, const char *format, va_list arguments) {
   char text[1024];
   vsnprintf(text, sizeof text, format, arguments);
   markup_text(out, text);
+}
+
+void page_text(FILE *out, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  print(out, format, arguments);
+  va_end(arguments);
+}
+
+void page_number(FILE *out, double x, int digits) {
+  fputs("<td class=\"number\">", out);
+  if (isfinite(x)) fprintf(out, "%.*g", digits, x);
+  fputs("</td>", out);
 }
 
 void page_fact(FILE *out, const char *name, const char *format, ...) {

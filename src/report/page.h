@@ -15,11 +15,17 @@ void page_end(FILE *out);
 void page_section(const char *id, const char *heading, FILE *out);
 void page_section_end(FILE *out);
 
+/* A cell of a table: a number of so many digits, or empty where it is not finite. */
+void page_number(FILE *out, double x, int digits);
+
+/* Escaped text by the rules of printf, cut at 1023 bytes. */
+void page_text(FILE *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /* A row of a table of facts: a name, and a value by the rules of printf, escaped. */
 void page_fact(FILE *out, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Escaped text by the rules of printf, cut at 1023 bytes, between <TAG> and </TAG>; the closing tag
+/* The same between <TAG> and </TAG>; the closing tag
    is the first word of `tag`. */
 void page_element(FILE *out, const char *tag, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

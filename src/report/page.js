@@ -10,6 +10,9 @@ function takeData(figure) {
 const charts = {};
 for (const figure of document.querySelectorAll('figure.chart')) charts[figure.id] = new Chart(figure, takeData(figure));
 
+for (const figure of document.querySelectorAll('figure.precision'))
+  charts[figure.id] = new Precision(figure, takeData(figure)).chart;
+
 const view = document.querySelector('figure.body');
 const body = view ? new Body(view, takeData(view)) : null;
 window.corot = { charts, timeline, body };

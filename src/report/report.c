@@ -6,6 +6,7 @@
 
 #include "folder.h"
 #include "report_run.h"
+#include "report_study.h"
 #include "save.h"
 
 static corot_status has(const char *dir, const char *name, bool *there) {
@@ -17,9 +18,11 @@ static corot_status has(const char *dir, const char *name, bool *there) {
 }
 
 corot_status report_write(const char *dir, const char *path) {
-  bool run = false;
+  bool run = false, study = false;
   COROT_TRY(has(dir, "result.json", &run));
-  if (!run)
-    return corot_fail(COROT_EIO, "%s: no result.json of a run that has ended is there", dir);
-  return report_run(dir, path);
+  COROT_TRY(has(dir, "table.json", &study));
+  if (study) return report_study(dir, path);
+  if (run) return report_run(dir, path);
+  return corot_fail(
+      COROT_EIO, "%s: holds neither the result.json of a run nor the table.json of a study", dir);
 }
