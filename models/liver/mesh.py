@@ -20,7 +20,7 @@ RINGS = 48         # of the surface handed to gmsh
 ROUNDS = 150       # of moving nodes
 TIP = 0.97         # largest b of a node: the tip is blunt
 GROUPS = {     # parts of the surface, by the (a, b, c) of a triangle's middle
-    "fixed": lambda a, b, c: a < -0.25 and b < 0.35 and c > -0.1,
+    "fixed": lambda a, b, c: a < -0.45 and b < 0.0 and c > -0.1,
     "pushed": lambda a, b, c: b > 0.35 and c > 0.35,
 }
 
