@@ -201,7 +201,10 @@ static void read_output(scenario *s) {
 /* --- All of it --- */
 
 static corot_status read_all(scenario *s, const char *path, int noverride, char *const *override) {
-  for (int i = 0; i < noverride; i++) COROT_TRY(config_override(s->source, override[i]));
+  for (int i = 0; i < noverride; i++) {
+    COROT_TRY(schema_expand(s->source));
+    COROT_TRY(config_override(s->source, override[i]));
+  }
   COROT_TRY(schema_apply(s->source));
   s->path = config_copy(s->source, path, strlen(path));
   if (!s->path) return no_memory();

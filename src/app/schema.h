@@ -70,6 +70,10 @@ void schema_inside(const schema_key *key, size_t size, char *path);
    fills in defaults. */
 corot_status schema_apply(config *tree);
 
+/* Writes single values that stand for a map (SCHEMA_SHORT) as one, so that its other keys can be
+   set. */
+corot_status schema_expand(config *tree);
+
 /* A checked tree as JSON, its keys in the order of the table. NULL: no memory. */
 json_t *schema_resolve(const config *tree);
 

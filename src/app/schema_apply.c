@@ -227,16 +227,31 @@ static corot_status apply_maps(config *tree, config_node *node, const char *path
 }
 
 /* A single value becomes a map of its own with that value under the first key. */
+static corot_status expand_short(config *tree, config_node *node, const char *path) {
+  if (node->kind != CONFIG_SCALAR) return COROT_OK;
+  config_node *value = config_node_create(tree, CONFIG_SCALAR);
+  if (!value) return corot_fail(COROT_ENOMEM, "out of memory");
+  *value = *node;
+  value->key = last_segment(schema_child(path, NULL)->path);
+  node->kind = CONFIG_MAP;
+  config_append(node, value);
+  return COROT_OK;
+}
+
 static corot_status apply_short(config *tree, config_node *node, const char *path) {
-  if (node->kind == CONFIG_SCALAR) {
-    config_node *value = config_node_create(tree, CONFIG_SCALAR);
-    if (!value) return corot_fail(COROT_ENOMEM, "out of memory");
-    *value = *node;
-    value->key = last_segment(schema_child(path, NULL)->path);
-    node->kind = CONFIG_MAP;
-    config_append(node, value);
-  }
+  COROT_TRY(expand_short(tree, node, path));
   return apply_map(tree, node, path);
+}
+
+corot_status schema_expand(config *tree) {
+  const schema_key *key = NULL;
+  while ((key = schema_child("", key))) {
+    config_node *node = key->type == SCHEMA_SHORT ? config_find(tree->root, key->path) : NULL;
+    char inside[PATH];
+    schema_inside(key, sizeof inside, inside);
+    if (node && !config_is_null(node)) COROT_TRY(expand_short(tree, node, inside));
+  }
+  return COROT_OK;
 }
 
 static corot_status apply_value(config *tree, config_node *node, const schema_key *key) {

@@ -378,6 +378,25 @@ static void overrides_in_order(void **state) {
   scenario_destroy(s);
 }
 
+/* What was given by its name alone is a map when another of its keys is set. */
+static void overrides_of_short_forms(void **state) {
+  (void)state;
+  char *list[] = {(char[]){"linear_solver=pcg"}, (char[]){"linear_solver.tolerance=1e-6"},
+                  (char[]){"dilatation=nodal"}, (char[]){"dilatation.local=2"}};
+  scenario *s = NULL;
+  write_file(FILE_NAME, MINIMAL, strlen(MINIMAL));
+  assert_ok(scenario_read(FILE_NAME, 4, list, &s));
+  assert_string_equal(s->integrator.linear.solver, "pcg");
+  assert_close(s->integrator.linear.tolerance, 1e-6, 0, 0);
+  assert_true(s->dilatation == COROT_DILATATION_NODAL && s->dilatation_local == 2);
+  scenario_destroy(s);
+  list[1] = (char[]){"linear_solver=klu"}; /* the whole of it */
+  assert_ok(scenario_read(FILE_NAME, 4, list, &s));
+  assert_string_equal(s->integrator.linear.solver, "klu");
+  assert_close(s->integrator.linear.tolerance, 1e-10, 0, 0);
+  scenario_destroy(s);
+}
+
 static void bad_overrides(void **state) {
   (void)state;
   static const refusal r[] = {
@@ -707,6 +726,7 @@ int main(void) {
       cmocka_unit_test(mesh_path),
       cmocka_unit_test(overrides),
       cmocka_unit_test(overrides_in_order),
+      cmocka_unit_test(overrides_of_short_forms),
       cmocka_unit_test(bad_overrides),
       cmocka_unit_test(resolved_is_a_fixed_point),
       cmocka_unit_test(resolved_values),
