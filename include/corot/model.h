@@ -89,6 +89,22 @@ typedef struct corot_motion {
   double from, to;  /* [s] from < to; to may be INFINITY */
 } corot_motion;
 
+/* How level 0 of a hierarchical model takes part in the motion of the finest level, u. MEAN: each of
+   its tets c by the mean of the gradient F over it,
+
+     E(u) = E_fine(u; R) + sum_c V_c [psi_coarse(Fm_c) - psi_model(Fm_c; R_c)],
+     Fm_c = 1/V_c sum_i V_i F_i over the descendants i of c.
+
+   Fm follows from the means of u over the four faces of c. With frames from level 0 the energy is
+   sum_c V_c psi_coarse(Fm_c), and that of the detail F_i - Fm_c, which is linear in it, convex, and
+   zero where the motion is affine: unstable only where the coarse measure itself is. NODES: by its
+   own nodes,
+
+     E(u) = E_fine(u; R) + E_coarse(u_0) - E_linear(u_0),
+
+   u_0 the displacement of the nodes of level 0. */
+typedef enum corot_coupling { COROT_COUPLING_MEAN, COROT_COUPLING_NODES } corot_coupling;
+
 /* A strain measure of its own for level 0 of a refined mesh: nonlinear where the mesh is coarse,
    and on the finest level the model's, linear in frames that a coarser tet hands down to all its
    descendants (Hauth & Strasser 2004, their hierarchical simulation; the paper leaves the combined
@@ -123,6 +139,7 @@ typedef struct corot_hierarchy_def {
      cheaper, and off by the product of strain and difference, in a torque on each frame's tet.
      Without meaning where frames are held. Needs polar (or cauchy, whose frames do not turn). */
   bool conservative;
+  corot_coupling coupling;
 } corot_hierarchy_def;
 
 /* Coarse strain polar, frame level 0, conservative; no refinement. */

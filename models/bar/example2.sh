@@ -3,7 +3,7 @@
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
-corot=${COROT:-$root/build/release/src/app/corot}
+corot=${COROT:-$root/build/release/src/main/corot}
 [ "${COROT-}" ] || "$root/models/run" bar >/dev/null # builds corot, and runs the model
 
 # The paper's three experiments: name, model, step [s], time between updates of the frames [s]

@@ -23,17 +23,17 @@ static const struct option options[] = {
 };
 
 static int print_json(void) {
-  json_t *schema = schema_json();
-  if (!schema) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
-  json_text_write(schema, stdout);
-  json_decref(schema);
+  json_t *text = schema_json();
+  if (!text) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
+  json_text_write(text, stdout);
+  json_decref(text);
   return EXIT_OK;
 }
 
 static int no_such_key(const char *typed) {
   const char *path[256];
   int n = 0;
-  for (; n < schema_nkey && n < 256; n++) path[n] = schema_keys[n].path;
+  for (; n < scenario_schema.nkey && n < 256; n++) path[n] = scenario_schema.key[n].path;
   const char *near = suggest(typed, n, path);
   if (near) return usage_error("corot schema", "no key %s; did you mean %s?", typed, near);
   return usage_error("corot schema", "no key %s", typed);
@@ -54,5 +54,5 @@ int command_schema(int argc, char **argv) {
   if (json && optind < argc) return usage_error("corot schema", "--json prints all keys");
   if (json) return print_json();
   const char *prefix = optind < argc ? argv[optind] : "";
-  return schema_print(prefix, stdout) ? EXIT_OK : no_such_key(prefix);
+  return schema_print(&scenario_schema, prefix, stdout) ? EXIT_OK : no_such_key(prefix);
 }

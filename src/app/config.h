@@ -51,6 +51,10 @@ void config_destroy(config *tree);
    number ("loads.0.traction=[1, 0, 0]"). */
 corot_status config_override(config *tree, const char *assignment);
 
+/* The same with a value that has been read already; its texts, and the source it names in messages,
+   must outlive the tree. */
+corot_status config_set(config *tree, const char *path, const config_node *value);
+
 /* The node at a path of keys and list indices ("loads.0.group"); NULL: there is none. */
 config_node *config_find(config_node *node, const char *path);
 

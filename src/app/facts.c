@@ -48,8 +48,9 @@ static corot_status choose(const scenario *s, facts *f, corot_state *state) {
   double *zero = calloc(n + 1, sizeof *zero);
   if (!zero) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
   corot_integrator *integrator = NULL;
-  corot_status status =
-      corot_integrator_create(&s->integrator, f->model, state, 0, zero, zero, &integrator);
+  corot_integrator_def def = s->integrator;
+  def.linear.refinement = f->refinement;
+  corot_status status = corot_integrator_create(&def, f->model, state, 0, zero, zero, &integrator);
   if (status == COROT_OK) f->chosen = corot_integrator_chosen(integrator);
   corot_integrator_destroy(integrator);
   free(zero);
@@ -58,7 +59,7 @@ static corot_status choose(const scenario *s, facts *f, corot_state *state) {
 
 corot_status facts_find(const scenario *s, facts *f) {
   corot_state *state = NULL;
-  COROT_TRY(scenario_build(s, &f->mesh, &f->model));
+  COROT_TRY(scenario_build(s, &f->mesh, &f->refinement, &f->model));
   f->quality = corot_mesh_measure(f->mesh);
   f->mass = total_mass(s, f);
   COROT_TRY(corot_state_create(f->model, &state));
@@ -71,6 +72,7 @@ corot_status facts_find(const scenario *s, facts *f) {
 
 void facts_free(facts *f) {
   corot_model_destroy(f->model);
+  corot_refinement_destroy(f->refinement);
   corot_mesh_destroy(f->mesh);
 }
 

@@ -77,6 +77,7 @@ static corot_status remove_frames(const char *fields) {
 corot_status folder_clean(const char *dir) {
   COROT_TRY(remove_file(dir, "result.json"));
   COROT_TRY(remove_file(dir, "compare.csv"));
+  COROT_TRY(remove_file(dir, "states.bin"));
   COROT_TRY(remove_file(dir, "fields.pvd"));
   char *fields = folder_path(dir, "fields");
   if (!fields) return COROT_ENOMEM;

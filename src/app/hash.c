@@ -9,7 +9,7 @@ static void add_integers(SHA2_CTX *sum, const int *data, size_t n) {
   SHA256Update(sum, (const uint8_t *)data, n * sizeof *data);
 }
 
-static void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]) {
+void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]) {
   SHA2_CTX sum;
   SHA256Init(&sum);
   add_integers(&sum, (const int[3]){mesh->nnode, mesh->ntet, mesh->ngroup}, 3);
@@ -26,18 +26,27 @@ static void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]) {
   SHA256End(&sum, digest);
 }
 
-corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out) {
+void hash_text(const char *text, char digest[HASH_SIZE]) {
+  SHA256Data((const uint8_t *)text, strlen(text), digest);
+}
+
+corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out) {
   char *text = json_dumps(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   if (!text) return corot_fail(COROT_ENOMEM, "the hash of the scenario: out of memory");
   hashes h;
-  SHA256Data((const uint8_t *)text, strlen(text), h.scenario);
+  hash_text(text, h.scenario);
   free(text);
 
-  hash_mesh(mesh, h.mesh);
+  memcpy(h.mesh, mesh, HASH_SIZE);
   char identity[256];
-  int length = snprintf(identity, sizeof identity, "corot %s\n%s\n%s\n", corot_version(),
-                        h.scenario, h.mesh);
-  SHA256Data((const uint8_t *)identity, (size_t)length, h.run);
+  snprintf(identity, sizeof identity, "corot %s\n%s\n%s\n", corot_version(), h.scenario, h.mesh);
+  hash_text(identity, h.run);
   *out = h;
   return COROT_OK;
+}
+
+corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out) {
+  char digest[HASH_SIZE];
+  hash_mesh(mesh, digest);
+  return hashes_with(resolved, digest, out);
 }

@@ -15,4 +15,10 @@ typedef struct hashes {
 
 corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out);
 
+/* The same in parts, for who has many scenarios of one mesh. */
+void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]);
+corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out);
+
+void hash_text(const char *text, char digest[HASH_SIZE]);
+
 #endif

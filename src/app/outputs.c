@@ -5,6 +5,7 @@
 
 #include "compare.h"
 #include "folder.h"
+#include "states.h"
 #include "write_vtu.h"
 
 struct outputs {
@@ -13,6 +14,7 @@ struct outputs {
   table *probes, *energy, *steps;
   comparison *comparison;  /* NULL: none is asked for */
   vtu *fields;             /* NULL: none are asked for */
+  state_writer *states;    /* the same */
   int *node;               /* [nprobe] */
   const char **probe_name; /* [nprobe] */
   double (*nodal)[3];      /* [2 nnode] where there are no fields: displacement, velocity */
@@ -26,12 +28,15 @@ corot_status outputs_close(outputs *o) {
   corot_status probes = table_close(o->probes), energy = table_close(o->energy);
   corot_status steps = table_close(o->steps), compared = comparison_close(o->comparison);
   corot_status fields = o->fields ? vtu_finish(o->fields) : COROT_OK;
+  corot_status binary = states_close(o->states);
   o->probes = o->energy = o->steps = NULL;
   o->comparison = NULL;
+  o->states = NULL;
   return probes != COROT_OK     ? probes
          : energy != COROT_OK   ? energy
          : steps != COROT_OK    ? steps
          : compared != COROT_OK ? compared
+         : binary != COROT_OK   ? binary
                                 : fields;
 }
 
@@ -105,6 +110,7 @@ static corot_status open_all(outputs *o, const char *dir) {
   if (o->scenario->ncompare > 0)
     COROT_TRY(comparison_open(dir, o->model, o->scenario->ncompare, o->scenario->compare,
                               &o->comparison));
+  if (o->scenario->write_states) COROT_TRY(states_create(dir, o->model, &o->states));
   return o->scenario->write_fields ? open_fields(o, dir) : open_nodal(o);
 }
 
@@ -169,6 +175,7 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
                        (const double(*)[3])o->value.displacement));
   COROT_TRY(energy_row(o->energy, &row));
   if (o->comparison) COROT_TRY(comparison_row(o->comparison, state, now->t, now->u));
+  if (o->states) COROT_TRY(states_add(o->states, now->t, now->u, now->v));
   return frame ? vtu_write(o->fields, now->t) : COROT_OK;
 }
 

@@ -1,4 +1,5 @@
-/* The files of a run that grow with it: probes.csv, energy.csv, steps.csv, compare.csv, fields. */
+/* The files of a run that grow with it: probes.csv, energy.csv, steps.csv, compare.csv,
+   states.bin, fields. */
 #ifndef COROT_APP_OUTPUTS_H
 #define COROT_APP_OUTPUTS_H
 
@@ -21,7 +22,7 @@ typedef struct instant {
 corot_status outputs_open(const scenario *s, const corot_model *model, const char *dir,
                           outputs **out);
 
-/* Adds a row to probes.csv, energy.csv and compare.csv, and a frame to the fields if it is their
+/* Adds a row to probes.csv, energy.csv and compare.csv, a record to states.bin, and a frame to the fields if it is their
    turn (every scenario.field_every times, and the `last`). Where an evaluation fails nothing is
    written. The energy balance is taken against the first instant. */
 corot_status outputs_write(outputs *o, corot_state *state, const instant *now, bool last);

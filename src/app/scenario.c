@@ -195,17 +195,35 @@ static void read_output(scenario *s) {
   config_node *root = s->source->root;
   s->title = text_at(root, "title");
   s->write_fields = text_is(root, "output.fields", "vtu");
+  s->write_states = text_is(root, "output.states", "binary");
   s->field_every = (int)number_at(root, "output.every");
 }
 
 /* --- All of it --- */
 
-static corot_status read_all(scenario *s, const char *path, int noverride, char *const *override) {
-  for (int i = 0; i < noverride; i++) {
-    COROT_TRY(schema_expand(s->source));
-    COROT_TRY(config_override(s->source, override[i]));
+/* What is to be put in the place of the file's values: the texts, or the nodes. */
+typedef struct overrides {
+  int ntext;
+  char *const *text;
+  int nset;
+  const setting *set;
+} overrides;
+
+static corot_status apply_overrides(config *tree, const overrides *o) {
+  for (int i = 0; i < o->ntext; i++) {
+    COROT_TRY(schema_expand(&scenario_schema, tree));
+    COROT_TRY(config_override(tree, o->text[i]));
   }
-  COROT_TRY(schema_apply(s->source));
+  for (int i = 0; i < o->nset; i++) {
+    COROT_TRY(schema_expand(&scenario_schema, tree));
+    COROT_TRY(config_set(tree, o->set[i].key, o->set[i].value));
+  }
+  return COROT_OK;
+}
+
+static corot_status read_all(scenario *s, const char *path, const overrides *o) {
+  COROT_TRY(apply_overrides(s->source, o));
+  COROT_TRY(schema_apply(&scenario_schema, s->source));
   s->path = config_copy(s->source, path, strlen(path));
   if (!s->path) return no_memory();
   COROT_TRY(read_mesh(s));
@@ -225,15 +243,14 @@ static corot_status read_all(scenario *s, const char *path, int noverride, char 
 }
 
 /* Takes over the tree. */
-static corot_status from_tree(config *tree, const char *path, int noverride, char *const *override,
-                              scenario **out) {
+static corot_status from_tree(config *tree, const char *path, const overrides *o, scenario **out) {
   scenario *s = calloc(1, sizeof *s);
   if (!s) {
     config_destroy(tree);
     return no_memory();
   }
   s->source = tree;
-  corot_status status = read_all(s, path, noverride, override);
+  corot_status status = read_all(s, path, o);
   if (status == COROT_OK)
     *out = s;
   else
@@ -244,14 +261,20 @@ static corot_status from_tree(config *tree, const char *path, int noverride, cha
 corot_status scenario_read(const char *path, int noverride, char *const *override, scenario **out) {
   config *tree = NULL;
   COROT_TRY(config_read(path, &tree));
-  return from_tree(tree, path, noverride, override, out);
+  return from_tree(tree, path, &(overrides){.ntext = noverride, .text = override}, out);
+}
+
+corot_status scenario_read_with(const char *path, int nset, const setting *set, scenario **out) {
+  config *tree = NULL;
+  COROT_TRY(config_read(path, &tree));
+  return from_tree(tree, path, &(overrides){.nset = nset, .set = set}, out);
 }
 
 corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
                                 char *const *override, scenario **out) {
   config *tree = NULL;
   COROT_TRY(config_read_text(path, text, size, &tree));
-  return from_tree(tree, path, noverride, override, out);
+  return from_tree(tree, path, &(overrides){.ntext = noverride, .text = override}, out);
 }
 
 void scenario_destroy(scenario *s) {

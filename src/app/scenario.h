@@ -45,6 +45,7 @@ typedef struct scenario {
   const char *coarse_strain; /* of the unrefined mesh; NULL: no hierarchy */
   int frame_level;
   bool conservative;
+  corot_coupling coupling;
 
   corot_viscosity viscosity;
   corot_mass mass;
@@ -74,6 +75,7 @@ typedef struct scenario {
   const probe_def *probe;
   bool write_fields; /* output.fields: vtu */
   int field_every;   /* every so many output times */
+  bool write_states; /* output.states: binary */
 
   json_t *resolved;      /* the whole scenario, defaults and overrides included */
   struct config *source; /* the file as a tree, for the places in messages; owns the memory */
@@ -88,14 +90,26 @@ corot_status scenario_read(const char *path, int noverride, char *const *overrid
 corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
                                 char *const *override, scenario **out);
 
+/* A value for a key, "integrator.rtol", in the place of the file's. */
+typedef struct setting {
+  const char *key;
+  const struct config_node *value;
+} setting;
+
+/* The same as scenario_read with overrides that have been read from a file themselves: messages
+   name their places there. Their tree must outlive the scenario. */
+corot_status scenario_read_with(const char *path, int nset, const setting *set, scenario **out);
+
 /* The key of each kind of load. */
 extern const char *const scenario_load_words[];
 
 /* Takes NULL. */
 void scenario_destroy(scenario *s);
 
-/* The mesh with its groups, and the model; both the caller's to destroy. COROT_EFORMAT: a message
-   as above; a mesh that cannot be read is one, too. */
-corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_model **model);
+/* The mesh with its groups, its refinement if the linear solver is to know it, else NULL, and the
+   model; all the caller's to destroy. COROT_EFORMAT: a message as above; a mesh that cannot be read
+   is one, too. */
+corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_refinement **refinement,
+                            corot_model **model);
 
 #endif

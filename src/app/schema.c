@@ -17,7 +17,7 @@
 #define NOT_NEGATIVE SCHEMA_NOT_NEGATIVE
 
 /* clang-format off */
-const schema_key schema_keys[] = {
+static const schema_key keys[] = {
   /* path                     type             status    range         unit       default   words  doc */
   {"title",                   TEXT,            OPTIONAL, ANY,          "",        "''", 0, "what the run is about"},
 
@@ -56,6 +56,7 @@ const schema_key schema_keys[] = {
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
   {"hierarchy",               MAP,             OPTIONAL, ANY,          "",        0, 0, "with mesh.refine: a measure of its own for the unrefined mesh; strain is that of the refined one, in frames handed down"},
   {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh; green and hybrid for small strains only: with two refinements, of 2 %"},
+  {"hierarchy.coupling",      CHOICE,          OPTIONAL, ANY,          "",        "mean", "mean|nodes", "how the unrefined mesh follows the refined one: by the mean gradient over each of its tets, or by its own nodes"},
   {"hierarchy.frame_level",   INTEGER,         OPTIONAL, NOT_NEGATIVE, "",        "0", 0, "the level whose frames are handed down to finer ones, 0 (the unrefined mesh) to mesh.refine"},
   {"hierarchy.force",         CHOICE,          OPTIONAL, ANY,          "",        "conservative", "conservative|paper", "conservative: the gradient of the energy; paper: without the part by which the frames follow, which keeps momentum only"},
   {"dilatation",              SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "local", 0, "what lambda acts on; the name alone will do"},
@@ -124,7 +125,7 @@ const schema_key schema_keys[] = {
   {"linear_solver.name",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod|pcg", "klu: sparse LU; cholmod: sparse Cholesky; pcg: conjugate gradients; auto: by size"},
   {"linear_solver.ordering",  CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|amd|metis", "klu, cholmod: of the mesh's nodes, against fill"},
   {"linear_solver.factor",    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|simplicial|supernodal", "cholmod: entry by entry, or in dense blocks"},
-  {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky", "pcg: what it is preconditioned with"},
+  {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky|hierarchical", "pcg: what it is preconditioned with; hierarchical: the basis of mesh.refine, with a factor of the unrefined mesh's matrix"},
   {"linear_solver.tolerance", NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-10", 0, "pcg: residual to reach, relative to the right-hand side"},
 
   {"start",                   CHOICE,          OPTIONAL, ANY,          "",        "rest", "rest|equilibrium", "where a run begins: undeformed, or in equilibrium under the loads of t = 0; at rest in both"},
@@ -145,15 +146,17 @@ const schema_key schema_keys[] = {
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},
   {"output.every",            INTEGER,         OPTIONAL, POSITIVE,     "",        "1", 0, "fields at every so many output times"},
+  {"output.states",           CHOICE,          OPTIONAL, ANY,          "",        "none", "binary|none", "states.bin: displacement and velocity of all degrees of freedom at the output times, to the last bit"},
 };
 /* clang-format on */
 
-const int schema_nkey = sizeof schema_keys / sizeof *schema_keys;
+const schema scenario_schema = {keys, sizeof keys / sizeof *keys};
 
-const schema_key *schema_child(const char *path, const schema_key *previous) {
+const schema_key *schema_child(const schema *table, const char *path,
+                               const schema_key *previous) {
   size_t length = strlen(path);
-  for (const schema_key *k = previous ? previous + 1 : schema_keys; k < schema_keys + schema_nkey;
-       k++) {
+  const schema_key *first = previous ? previous + 1 : table->key;
+  for (const schema_key *k = first; k < table->key + table->nkey; k++) {
     const char *rest = k->path;
     if (length) {
       if (strncmp(rest, path, length) != 0 || rest[length] != '.') continue;
@@ -164,15 +167,16 @@ const schema_key *schema_child(const char *path, const schema_key *previous) {
   return NULL;
 }
 
-const schema_key *schema_find(const char *path) {
-  for (int i = 0; i < schema_nkey; i++)
-    if (strcmp(schema_keys[i].path, path) == 0) return &schema_keys[i];
+const schema_key *schema_find(const schema *table, const char *path) {
+  for (int i = 0; i < table->nkey; i++)
+    if (strcmp(table->key[i].path, path) == 0) return &table->key[i];
   return NULL;
 }
 
 void schema_inside(const schema_key *key, size_t size, char *path) {
+  bool elsewhere = key->type == SCHEMA_LIST && key->words;
   const char *suffix = key->type == SCHEMA_LIST ? "[]" : key->type == SCHEMA_NAMED ? ".NAME" : "";
-  snprintf(path, size, "%s%s", key->path, suffix);
+  snprintf(path, size, "%s%s", elsewhere ? key->words : key->path, elsewhere ? "" : suffix);
 }
 
 const char *schema_range_words(schema_range range) {

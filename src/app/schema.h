@@ -1,4 +1,4 @@
-/* What a scenario may say: one table, from which come validation, defaults and documentation. */
+/* What a file may say: one table, from which come validation, defaults and documentation. */
 #ifndef COROT_APP_SCHEMA_H
 #define COROT_APP_SCHEMA_H
 
@@ -10,7 +10,7 @@
 typedef enum schema_type {
   SCHEMA_MAP,   /* keys as the table says */
   SCHEMA_NAMED, /* keys are names given by the user, "groups.NAME" */
-  SCHEMA_LIST,  /* entries are maps, "loads[]" */
+  SCHEMA_LIST,  /* entries are maps, "loads[]", or those of the path in `words` */
   SCHEMA_MAPS,  /* one map, or a list of such */
   SCHEMA_SHORT, /* a map, or the value of its first key alone */
   SCHEMA_TEXT,
@@ -22,6 +22,10 @@ typedef enum schema_type {
   SCHEMA_INTEGERS, /* any number of integers */
   SCHEMA_WORDS,    /* some of `words`, each once */
   SCHEMA_CURVE,    /* pairs of time and value, the times increasing */
+  SCHEMA_TEXTS,    /* any number of texts; one may stand alone */
+  SCHEMA_VALUES,   /* any number of values of any kind */
+  SCHEMA_OPEN,     /* a map of keys that are not for this table to know */
+  SCHEMA_OPENS,    /* a list of such */
 } schema_type;
 
 typedef enum schema_status {
@@ -53,33 +57,40 @@ typedef struct schema_key {
 } schema_key;
 
 /* In the order of a well-kept file, every parent before its children. */
-extern const schema_key schema_keys[];
-extern const int schema_nkey;
+typedef struct schema {
+  const schema_key *key; /* [nkey] */
+  int nkey;
+} schema;
+
+extern const schema scenario_schema;
 
 /* The next key after `previous` (NULL: the first) in maps of this path ("" the root); NULL: no
    more. */
-const schema_key *schema_child(const char *path, const schema_key *previous);
+const schema_key *schema_child(const schema *table, const char *path,
+                               const schema_key *previous);
 
 /* The key of that path; NULL: there is none. */
-const schema_key *schema_find(const char *path);
+const schema_key *schema_find(const schema *table, const char *path);
 
 /* The path of what a SCHEMA_LIST, SCHEMA_NAMED or SCHEMA_MAPS holds. */
 void schema_inside(const schema_key *key, size_t size, char *path);
 
 /* Checks a tree against the table, notes the numbers in its nodes, drops keys without a value and
    fills in defaults. */
-corot_status schema_apply(config *tree);
+corot_status schema_apply(const schema *table, config *tree);
 
 /* Writes single values that stand for a map (SCHEMA_SHORT) as one, so that its other keys can be
    set. */
-corot_status schema_expand(config *tree);
+corot_status schema_expand(const schema *table, config *tree);
 
-/* A checked tree as JSON, its keys in the order of the table. NULL: no memory. */
+/* A checked scenario as JSON, its keys in the order of the table. NULL: no memory. */
 json_t *schema_resolve(const config *tree);
 
-/* The table, for people and, as a JSON Schema, for programs. `prefix` narrows the former to the
-   keys that begin with it; returns the number of keys printed. */
-int schema_print(const char *prefix, FILE *out);
+/* The table for people, narrowed to the keys that begin with `prefix`; returns the number of keys
+   printed. */
+int schema_print(const schema *table, const char *prefix, FILE *out);
+
+/* That of scenarios as a JSON Schema, for programs. */
 json_t *schema_json(void);
 
 /* A range in words, "> 0"; "" for SCHEMA_ANY. */

@@ -9,7 +9,13 @@
 
 enum { PATH = 128, LIST = 512 };
 
-static corot_status apply_map(config *tree, config_node *map, const char *path);
+/* A tree on its way through a table. */
+typedef struct application {
+  const schema *table;
+  config *tree;
+} application;
+
+static corot_status apply_map(const application *a, config_node *map, const char *path);
 
 /* --- Words for messages --- */
 
@@ -49,10 +55,10 @@ static void comma_list(const char *words, size_t size, char *list) {
 }
 
 /* The keys of a map as "a|b|c". */
-static void keys_of(const char *path, size_t size, char *words) {
+static void keys_of(const schema *table, const char *path, size_t size, char *words) {
   size_t used = 0;
   words[0] = '\0';
-  for (const schema_key *k = NULL; (k = schema_child(path, k)) && used < size;)
+  for (const schema_key *k = NULL; (k = schema_child(table, path, k)) && used < size;)
     used +=
         (size_t)snprintf(words + used, size - used, "%s%s", used ? "|" : "", last_segment(k->path));
 }
@@ -67,14 +73,14 @@ static bool among(const char *word, const char *words) {
   return false;
 }
 
-static corot_status unknown_key(const config_node *node, const char *path) {
+static corot_status unknown_key(const schema *table, const config_node *node, const char *path) {
   char words[LIST], list[LIST], near[PATH];
-  keys_of(path, sizeof words, words);
+  keys_of(table, path, sizeof words, words);
   suggest_among(node->key, words, sizeof near, near);
   if (*near) return config_fail_key(node, "unknown key; did you mean %s?", near);
-  for (int i = 0; i < schema_nkey; i++)
-    if (strcmp(last_segment(schema_keys[i].path), node->key) == 0)
-      return config_fail_key(node, "unknown key here; did you mean %s?", schema_keys[i].path);
+  for (int i = 0; i < table->nkey; i++)
+    if (strcmp(last_segment(table->key[i].path), node->key) == 0)
+      return config_fail_key(node, "unknown key here; did you mean %s?", table->key[i].path);
   comma_list(words, sizeof list, list);
   return config_fail_key(node, "unknown key; known here: %s", list);
 }
@@ -202,72 +208,105 @@ static corot_status check_curve(config_node *node) {
   return COROT_OK;
 }
 
-/* --- Maps --- */
-
-static corot_status apply_named(config *tree, config_node *map, const char *path) {
-  if (map->kind != CONFIG_MAP) return expected(map, "a map of names");
-  for (config_node *c = map->child; c; c = c->next) {
-    if (!*c->key) return config_fail_key(c, "a name is empty");
-    COROT_TRY(apply_map(tree, c, path));
-  }
+static corot_status check_values(const config_node *node) {
+  if (node->kind != CONFIG_LIST) return expected(node, "a list of values, such as [1, 2]");
+  if (node->nchild == 0) return config_fail(node, "the list is empty");
   return COROT_OK;
 }
 
-static corot_status apply_list(config *tree, config_node *list, const char *path) {
-  if (list->kind != CONFIG_LIST) return expected(list, "a list of maps, each begun by \"- \"");
-  for (config_node *c = list->child; c; c = c->next) COROT_TRY(apply_map(tree, c, path));
+static corot_status check_open(const config_node *node) {
+  if (node->kind != CONFIG_MAP) return expected(node, "a map");
+  for (const config_node *c = node->child; c; c = c->next)
+    if (!*c->key) return config_fail_key(c, "a key is empty");
   return COROT_OK;
 }
 
-static corot_status apply_maps(config *tree, config_node *node, const char *path) {
-  if (node->kind == CONFIG_MAP) return apply_map(tree, node, path);
-  if (node->kind != CONFIG_LIST || node->nchild == 0)
-    return expected(node, "a map or a list of maps");
-  return apply_list(tree, node, path);
+static corot_status check_opens(const config_node *node) {
+  if (node->kind != CONFIG_LIST) return expected(node, "a list of maps, each begun by \"- \"");
+  for (const config_node *c = node->child; c; c = c->next) COROT_TRY(check_open(c));
+  return COROT_OK;
 }
 
-/* A single value becomes a map of its own with that value under the first key. */
-static corot_status expand_short(config *tree, config_node *node, const char *path) {
-  if (node->kind != CONFIG_SCALAR) return COROT_OK;
-  config_node *value = config_node_create(tree, CONFIG_SCALAR);
+/* A value that stands alone becomes the first in a list or map. */
+static corot_status wrap(const application *a, config_node *node, config_kind kind,
+                         const char *key) {
+  config_node *value = config_node_create(a->tree, CONFIG_SCALAR);
   if (!value) return corot_fail(COROT_ENOMEM, "out of memory");
   *value = *node;
-  value->key = last_segment(schema_child(path, NULL)->path);
-  node->kind = CONFIG_MAP;
+  value->key = key;
+  node->kind = kind;
   config_append(node, value);
   return COROT_OK;
 }
 
-static corot_status apply_short(config *tree, config_node *node, const char *path) {
-  COROT_TRY(expand_short(tree, node, path));
-  return apply_map(tree, node, path);
+static corot_status apply_texts(const application *a, config_node *node) {
+  if (node->kind == CONFIG_SCALAR) COROT_TRY(wrap(a, node, CONFIG_LIST, NULL));
+  if (node->kind != CONFIG_LIST || node->nchild == 0) return expected(node, "a text, or a list");
+  for (const config_node *c = node->child; c; c = c->next) COROT_TRY(check_text(c));
+  return COROT_OK;
 }
 
-corot_status schema_expand(config *tree) {
-  const schema_key *key = NULL;
-  while ((key = schema_child("", key))) {
-    config_node *node = key->type == SCHEMA_SHORT ? config_find(tree->root, key->path) : NULL;
-    char inside[PATH];
-    schema_inside(key, sizeof inside, inside);
-    if (node && !config_is_null(node)) COROT_TRY(expand_short(tree, node, inside));
+/* --- Maps --- */
+
+static corot_status apply_named(const application *a, config_node *map, const char *path) {
+  if (map->kind != CONFIG_MAP) return expected(map, "a map of names");
+  for (config_node *c = map->child; c; c = c->next) {
+    if (!*c->key) return config_fail_key(c, "a name is empty");
+    COROT_TRY(apply_map(a, c, path));
   }
   return COROT_OK;
 }
 
-static corot_status apply_value(config *tree, config_node *node, const schema_key *key) {
+static corot_status apply_list(const application *a, config_node *list, const char *path) {
+  if (list->kind != CONFIG_LIST) return expected(list, "a list of maps, each begun by \"- \"");
+  for (config_node *c = list->child; c; c = c->next) COROT_TRY(apply_map(a, c, path));
+  return COROT_OK;
+}
+
+static corot_status apply_maps(const application *a, config_node *node, const char *path) {
+  if (node->kind == CONFIG_MAP) return apply_map(a, node, path);
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return expected(node, "a map or a list of maps");
+  return apply_list(a, node, path);
+}
+
+/* A single value becomes a map of its own with that value under the first key. */
+static corot_status expand_short(const application *a, config_node *node, const char *path) {
+  if (node->kind != CONFIG_SCALAR) return COROT_OK;
+  return wrap(a, node, CONFIG_MAP, last_segment(schema_child(a->table, path, NULL)->path));
+}
+
+static corot_status apply_short(const application *a, config_node *node, const char *path) {
+  COROT_TRY(expand_short(a, node, path));
+  return apply_map(a, node, path);
+}
+
+corot_status schema_expand(const schema *table, config *tree) {
+  application a = {.table = table, .tree = tree};
+  const schema_key *key = NULL;
+  while ((key = schema_child(table, "", key))) {
+    config_node *node = key->type == SCHEMA_SHORT ? config_find(tree->root, key->path) : NULL;
+    char inside[PATH];
+    schema_inside(key, sizeof inside, inside);
+    if (node && !config_is_null(node)) COROT_TRY(expand_short(&a, node, inside));
+  }
+  return COROT_OK;
+}
+
+static corot_status apply_value(const application *a, config_node *node, const schema_key *key) {
   char inside[PATH];
   schema_inside(key, sizeof inside, inside);
   switch (key->type) {
     case SCHEMA_MAP:
-      return apply_map(tree, node, inside);
+      return apply_map(a, node, inside);
     case SCHEMA_NAMED:
-      return apply_named(tree, node, inside);
+      return apply_named(a, node, inside);
     case SCHEMA_LIST:
-      return apply_list(tree, node, inside);
+      return apply_list(a, node, inside);
     case SCHEMA_MAPS:
-      return apply_maps(tree, node, inside);
+      return apply_maps(a, node, inside);
     case SCHEMA_SHORT:
-      return apply_short(tree, node, inside);
+      return apply_short(a, node, inside);
     case SCHEMA_TEXT:
       return check_text(node);
     case SCHEMA_CHOICE:
@@ -286,47 +325,56 @@ static corot_status apply_value(config *tree, config_node *node, const schema_ke
       return check_words(node, key);
     case SCHEMA_CURVE:
       return check_curve(node);
+    case SCHEMA_TEXTS:
+      return apply_texts(a, node);
+    case SCHEMA_VALUES:
+      return check_values(node);
+    case SCHEMA_OPEN:
+      return check_open(node);
+    case SCHEMA_OPENS:
+      return check_opens(node);
   }
   return COROT_OK;
 }
 
-static corot_status apply_given(config *tree, config_node *map, const char *path) {
+static corot_status apply_given(const application *a, config_node *map, const char *path) {
   for (config_node *c = map->child, *next; c; c = next) {
     next = c->next;
     const schema_key *key = NULL;
-    while ((key = schema_child(path, key)) && strcmp(last_segment(key->path), c->key) != 0)
+    while ((key = schema_child(a->table, path, key)) &&
+           strcmp(last_segment(key->path), c->key) != 0)
       continue;
-    if (!key) return unknown_key(c, path);
+    if (!key) return unknown_key(a->table, c, path);
     if (config_is_null(c))
       config_remove(c);
     else
-      COROT_TRY(apply_value(tree, c, key));
+      COROT_TRY(apply_value(a, c, key));
   }
   return COROT_OK;
 }
 
-static corot_status add_default(config *tree, config_node *map, const schema_key *key) {
+static corot_status add_default(const application *a, config_node *map, const schema_key *key) {
   static const config_source table = {.name = "default"};
-  config_source *source = config_alloc(tree, 1, sizeof *source);
+  config_source *source = config_alloc(a->tree, 1, sizeof *source);
   if (!source) return corot_fail(COROT_ENOMEM, "out of memory");
   *source = table;
   source->text = key->fallback;
   source->size = strlen(key->fallback);
   config_node *node = NULL;
-  COROT_TRY(config_parse(tree, source, false, &node));
+  COROT_TRY(config_parse(a->tree, source, false, &node));
   node->source = NULL;
   for (config_node *c = node->child; c; c = c->next) c->source = NULL;
   node->key = last_segment(key->path);
   config_append(map, node);
-  return apply_value(tree, node, key);
+  return apply_value(a, node, key);
 }
 
 /* Exactly one of the keys marked so. */
-static corot_status check_one_of(const config_node *map, const char *path) {
+static corot_status check_one_of(const schema *table, const config_node *map, const char *path) {
   const config_node *found = NULL;
   char words[LIST] = "";
   size_t used = 0;
-  for (const schema_key *k = NULL; (k = schema_child(path, k));) {
+  for (const schema_key *k = NULL; (k = schema_child(table, path, k));) {
     if (k->status != SCHEMA_ONE_OF) continue;
     const char *name = last_segment(k->path);
     used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", used ? " or " : "", name);
@@ -340,20 +388,23 @@ static corot_status check_one_of(const config_node *map, const char *path) {
   return COROT_OK;
 }
 
-static corot_status apply_map(config *tree, config_node *map, const char *path) {
+static corot_status apply_map(const application *a, config_node *map, const char *path) {
   if (map->kind != CONFIG_MAP) return expected(map, "a map");
-  COROT_TRY(apply_given(tree, map, path));
-  COROT_TRY(check_one_of(map, path));
-  for (const schema_key *k = NULL; (k = schema_child(path, k));) {
+  COROT_TRY(apply_given(a, map, path));
+  COROT_TRY(check_one_of(a->table, map, path));
+  for (const schema_key *k = NULL; (k = schema_child(a->table, path, k));) {
     const char *name = last_segment(k->path);
     bool given = false;
     for (const config_node *c = map->child; c; c = c->next) given |= strcmp(c->key, name) == 0;
     if (given) continue;
     if (k->status == SCHEMA_REQUIRED)
       return config_fail_key(map, "%s is missing (%s)", name, k->doc);
-    if (k->fallback) COROT_TRY(add_default(tree, map, k));
+    if (k->fallback) COROT_TRY(add_default(a, map, k));
   }
   return COROT_OK;
 }
 
-corot_status schema_apply(config *tree) { return apply_map(tree, tree->root, ""); }
+corot_status schema_apply(const schema *table, config *tree) {
+  application a = {table, tree};
+  return apply_map(&a, tree->root, "");
+}

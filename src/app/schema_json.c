@@ -75,7 +75,7 @@ static json_t *value_schema(const schema_key *key) {
                        list_schema(map_schema(inside), 1, 0));
     case SCHEMA_SHORT:
       return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
-                       value_schema(schema_child(inside, NULL)));
+                       value_schema(schema_child(&scenario_schema, inside, NULL)));
     case SCHEMA_TEXT:
       return of_type("string");
     case SCHEMA_CHOICE:
@@ -95,6 +95,15 @@ static json_t *value_schema(const schema_key *key) {
                             "uniqueItems", json_true());
     case SCHEMA_CURVE:
       return list_schema(list_schema(of_type("number"), 2, 2), 1, 0);
+    case SCHEMA_TEXTS:
+      return json_pack("{s:[o, o]}", "anyOf", of_type("string"),
+                       list_schema(of_type("string"), 1, 0));
+    case SCHEMA_VALUES:
+      return list_schema(json_object(), 1, 0);
+    case SCHEMA_OPEN:
+      return of_type("object");
+    case SCHEMA_OPENS:
+      return list_schema(of_type("object"), 0, 0);
   }
   return NULL;
 }
@@ -115,7 +124,7 @@ static json_t *key_schema(const schema_key *key) {
 
 static json_t *map_schema(const char *path) {
   json_t *properties = json_object(), *required = json_array(), *one_of = json_array();
-  for (const schema_key *k = NULL; (k = schema_child(path, k));) {
+  for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, path, k));) {
     const char *dot = strrchr(k->path, '.');
     const char *name = dot ? dot + 1 : k->path;
     properties = json_text_with(properties, name, key_schema(k));

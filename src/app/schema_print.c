@@ -34,6 +34,14 @@ static const char *type_words(schema_type type) {
       return "list of words";
     case SCHEMA_CURVE:
       return "list of pairs";
+    case SCHEMA_TEXTS:
+      return "text or list";
+    case SCHEMA_VALUES:
+      return "list of values";
+    case SCHEMA_OPEN:
+      return "map of keys";
+    case SCHEMA_OPENS:
+      return "list of maps";
   }
   return "";
 }
@@ -68,7 +76,7 @@ static void print_key(const schema_key *key, FILE *out) {
   type_and_range(key, sizeof type, type);
   fprintf(out, "%-35s %-19s %-8s %-10s %s", key->path, type, *key->unit ? key->unit : "-",
           default_words(key), key->doc);
-  if (key->words) {
+  if (key->words && key->type != SCHEMA_LIST) {
     bool alternative = key->type == SCHEMA_NUMBER || key->type == SCHEMA_INTEGER;
     fputs(alternative ? " [or " : " [", out);
     print_words(key->words, out);
@@ -86,10 +94,10 @@ static bool begins_with(const char *key, const char *prefix) {
   return *key == '\0' || *key == '.' || *key == '[';
 }
 
-int schema_print(const char *prefix, FILE *out) {
+int schema_print(const schema *table, const char *prefix, FILE *out) {
   int n = 0;
-  for (int i = 0; i < schema_nkey; i++) {
-    const schema_key *key = &schema_keys[i];
+  for (int i = 0; i < table->nkey; i++) {
+    const schema_key *key = &table->key[i];
     if (*prefix && !begins_with(key->path, prefix)) continue;
     if (n++ == 0)
       fprintf(out, "%-35s %-19s %-8s %-10s %s\n", "KEY", "TYPE", "UNIT", "DEFAULT", "MEANING");

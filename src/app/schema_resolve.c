@@ -86,7 +86,7 @@ static json_t *resolve_value(const config_node *node, const schema_key *key) {
 
 static json_t *resolve_map(const config_node *map, const char *path) {
   json_t *object = json_object();
-  for (const schema_key *k = NULL; (k = schema_child(path, k));) {
+  for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, path, k));) {
     const char *dot = strrchr(k->path, '.');
     const char *name = dot ? dot + 1 : k->path;
     const config_node *c = map->child;

@@ -39,8 +39,8 @@ corot_status corot_levels_check(const corot_hierarchy_def *def, const corot_mesh
 }
 
 /* The tets of a level: node k of tet e is node k of its child 8 e + k, and so on down. */
-static corot_status level_mesh(const corot_mesh *fine, const corot_refinement *r, int level,
-                               corot_mesh **mesh) {
+static corot_status level_tets(const corot_mesh *fine, const corot_refinement *r, int level,
+                               int (**out)[4]) {
   int ntet = r->ntet[level];
   int(*tet)[4] = malloc(ntet * sizeof *tet);
   if (!tet) return corot_fail(COROT_ENOMEM, "no memory for the %d tets of level %d", ntet, level);
@@ -50,8 +50,50 @@ static corot_status level_mesh(const corot_mesh *fine, const corot_refinement *r
       for (int l = level; l < r->nlevel; l++) child = 8 * child + k;
       tet[e][k] = fine->tet[child][k];
     }
-  corot_status status = corot_mesh_create(r->nnode[level], (const double(*)[3])fine->x, ntet,
-                                          (const int(*)[4])tet, mesh);
+  *out = tet;
+  return COROT_OK;
+}
+
+/* Whether the parts of a level have means: on the finest a tet has no more than its own nodes. */
+static bool has_means(corot_coupling coupling, const corot_refinement *r, int level) {
+  return coupling == COROT_COUPLING_MEAN && level < r->nlevel;
+}
+
+/* The same tets apart: each with four nodes of its own. */
+static corot_status take_apart(const corot_mesh *fine, int ntet, int (*tet)[4], corot_mesh **mesh) {
+  double(*x)[3] = malloc(4 * (size_t)ntet * sizeof *x);
+  if (!x) return corot_fail(COROT_ENOMEM, "no memory for the nodes of %d tets", ntet);
+  for (int e = 0; e < ntet; e++)
+    for (int k = 0; k < 4; k++) {
+      memcpy(x[4 * e + k], fine->x[tet[e][k]], sizeof *x);
+      tet[e][k] = 4 * e + k;
+    }
+  corot_status status =
+      corot_mesh_create(4 * ntet, (const double(*)[3])x, ntet, (const int(*)[4])tet, mesh);
+  free(x);
+  return status;
+}
+
+static corot_status level_mesh(const corot_mesh *fine, const corot_refinement *r, int level,
+                               bool means, corot_mesh **mesh) {
+  int ntet = r->ntet[level], (*tet)[4] = NULL;
+  COROT_TRY(level_tets(fine, r, level, &tet));
+  corot_status status = means ? take_apart(fine, ntet, tet, mesh)
+                              : corot_mesh_create(r->nnode[level], (const double(*)[3])fine->x,
+                                                  ntet, (const int(*)[4])tet, mesh);
+  free(tet);
+  return status;
+}
+
+static corot_status make_coarsening(const corot_mesh *fine, const corot_refinement *r, int level,
+                                    bool means, coarsening *c) {
+  if (!means) {
+    corot_coarsening_by_values(r->nnode[level], c);
+    return COROT_OK;
+  }
+  int(*tet)[4] = NULL;
+  COROT_TRY(level_tets(fine, r, level, &tet));
+  corot_status status = corot_coarsening_by_means(r, level, (const int(*)[4])tet, c);
   free(tet);
   return status;
 }
@@ -69,7 +111,8 @@ static corot_status part_tets(const corot_model *m, const int *of_tet, int shift
 
 static corot_status fill_part(const corot_model *m, const corot_refinement *r, int level,
                               const int *of_tet, corot_model *p) {
-  COROT_TRY(level_mesh(m->mesh, r, level, &p->mesh));
+  bool means = has_means(m->levels->coupling, r, level);
+  COROT_TRY(level_mesh(m->mesh, r, level, means, &p->mesh));
   int nnode = p->mesh->nnode;
   p->damped = m->damped;
   p->nmaterial = m->nmaterial;
@@ -112,8 +155,10 @@ static corot_status check_materials(const corot_refinement *r, const int *of_tet
   return COROT_OK;
 }
 
-static corot_status check_strain(const corot_hierarchy_def *def, const corot_model *m) {
+static corot_status check_choices(const corot_hierarchy_def *def, const corot_model *m) {
   const strain_measure *s = &strain_measures[m->strain];
+  if (def->coupling != COROT_COUPLING_MEAN && def->coupling != COROT_COUPLING_NODES)
+    return corot_fail(COROT_EINVAL, "hierarchy: no coupling has the number %d", (int)def->coupling);
   if (s->pressure != BY_FRAME || s->shear != BY_FRAME)
     return corot_fail(COROT_EINVAL,
                       "hierarchy: strain %s is not linear in a given frame; cauchy, warp and polar "
@@ -153,29 +198,43 @@ static corot_status list_above(corot_model *m) {
   return COROT_OK;
 }
 
+static corot_status make_parts(const corot_refinement *r, int coarse, const int *of_tet,
+                               corot_model *m) {
+  levels *l = m->levels;
+  int level = l->frame_level;
+  COROT_TRY(make_part(m, r, 0, coarse, of_tet, &l->coarse));
+  COROT_TRY(make_part(m, r, 0, m->strain, of_tet, &l->linear));
+  COROT_TRY(make_coarsening(m->mesh, r, 0, has_means(l->coupling, r, 0), &l->to_coarse));
+  l->framer = l->linear;
+  if (level == 0) return COROT_OK;
+  l->framer = NULL;
+  COROT_TRY(make_part(m, r, level, m->strain, of_tet, &l->framer));
+  return make_coarsening(m->mesh, r, level, has_means(l->coupling, r, level), &l->to_framer);
+}
+
 corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_tet,
                                  corot_model *m) {
   const corot_refinement *r = def->refinement;
   int coarse;
   COROT_TRY(corot_model_find_strain(def->coarse_strain, &coarse));
-  COROT_TRY(check_strain(def, m));
+  COROT_TRY(check_choices(def, m));
   COROT_TRY(check_materials(r, of_tet));
   levels *l = m->levels = calloc(1, sizeof *l);
   if (!l) return corot_fail(COROT_ENOMEM, "no memory for the levels of a hierarchy");
   l->nlevel = r->nlevel;
   l->frame_level = def->frame_level;
+  l->coupling = def->coupling;
   l->same = coarse == m->strain;
   l->turning = def->conservative && strain_measures[m->strain].frame == FRAME_POLAR;
   snprintf(l->name, sizeof l->name, "%s+%s", strain_measures[coarse].name,
            strain_measures[m->strain].name);
-  COROT_TRY(make_part(m, r, 0, coarse, of_tet, &l->coarse));
-  COROT_TRY(make_part(m, r, 0, m->strain, of_tet, &l->linear));
-  l->framer = l->linear;
-  if (l->frame_level > 0) {
-    l->framer = NULL;
-    COROT_TRY(make_part(m, r, l->frame_level, m->strain, of_tet, &l->framer));
-  }
+  COROT_TRY(make_parts(r, coarse, of_tet, m));
   return list_above(m);
+}
+
+const pattern *corot_levels_pattern(const corot_model *m) {
+  const levels *l = m->levels;
+  return l->same || l->coupling == COROT_COUPLING_MEAN ? NULL : &l->coarse->pattern;
 }
 
 corot_status corot_levels_place(corot_model *m) {
@@ -194,6 +253,8 @@ void corot_levels_destroy(levels *l) {
   if (l->framer != l->linear) corot_model_destroy(l->framer);
   corot_model_destroy(l->linear);
   corot_model_destroy(l->coarse);
+  corot_coarsening_clear(&l->to_coarse);
+  corot_coarsening_clear(&l->to_framer);
   free(l->above);
   free(l->place);
   free(l);
@@ -203,6 +264,7 @@ size_t corot_levels_bytes(const corot_model *m) {
   const levels *l = m->levels;
   size_t bytes = sizeof *l + corot_model_bytes(l->coarse) + corot_model_bytes(l->linear);
   if (l->framer != l->linear) bytes += corot_model_bytes(l->framer);
+  bytes += corot_coarsening_bytes(&l->to_coarse) + corot_coarsening_bytes(&l->to_framer);
   if (l->place) bytes += l->coarse->pattern.nblock * sizeof *l->place;
   return bytes + (size_t)m->tets.nblock * W * sizeof *l->above;
 }

@@ -237,7 +237,7 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
 
   COROT_TRY(number_dofs(def, m));
   COROT_TRY(average_dilatation(def, m));
-  const pattern *coarse = m->levels && !m->levels->same ? &m->levels->coarse->pattern : NULL;
+  const pattern *coarse = m->levels ? corot_levels_pattern(m) : NULL;
   COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->dilatation, coarse, &m->pattern));
   if (coarse) COROT_TRY(corot_levels_place(m));
   COROT_TRY(corot_mass_create(def, m));

@@ -27,13 +27,10 @@ static void list_blocks(const corot_csc *csc, node_matrix *A) {
   A->colptr[A->n] = nbelow;
 }
 
-/* Unknowns fill the components of their node from the first. */
+/* The source of a diagonal entry is on the diagonal of a block, too: 0, 4 or 8 into it. */
 static void number_unknowns(const corot_csc *csc, node_matrix *A) {
-  for (int i = 0, node = 0, c = 0; i < csc->n; i++, c++) {
-    int own = A->slot[i];
-    if (own != node) node = own, c = 0;
-    A->slot[i] = 3 * own + c;
-  }
+  for (int i = 0; i < csc->n; i++)
+    A->slot[i] = 3 * A->slot[i] + csc->source[csc->diagonal[i]] % 9 / 4;
 }
 
 /* Where each entry of the lower triangle goes. */
@@ -142,6 +139,27 @@ static void scale_rows(node_matrix *A) {
     times_transposed(&A->value[9 * i], &A->Cinv[9 * i]);
     times_left(&A->Cinv[9 * i], &A->value[9 * i]);
   }
+}
+
+void corot_nodes_keep(node_matrix *A) {
+  for (int i = 0; i < 9 * A->n; i++) A->C[i] = A->Cinv[i] = i % 9 % 4 == 0;
+}
+
+bool corot_nodes_invert(const double block[9], double inverse[9]) {
+  double C[9], T[9];
+  if (!root(block, block, 0, C, T)) return false;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      inverse[3 * i + j] = T[i] * T[j] + T[3 + i] * T[3 + j] + T[6 + i] * T[6 + j];
+  return true;
+}
+
+corot_status corot_nodes_indefinite(const node_matrix *A, const corot_csc *csc, int node) {
+  int dof = 0;
+  while (A->slot[dof] / 3 < node) dof++;
+  return corot_fail(COROT_RETRY,
+                    "pcg: the matrix is not positive definite (degree of freedom %d of node %d)",
+                    dof, csc->node[dof]);
 }
 
 bool corot_nodes_jacobi(node_matrix *A, int *at) {

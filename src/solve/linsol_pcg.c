@@ -3,7 +3,7 @@
 
    The preconditioner C C' or C (I + L)(I + L') C' is applied to the system from both sides, so
    that what SUNDIALS sees has none: with incomplete Cholesky an iteration then costs one product.
- */
+   With that of the hierarchical basis C is I, and SUNDIALS applies it. */
 #include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -12,13 +12,17 @@
 #include <sunlinsol/sunlinsol_pcg.h>
 
 #include "solve/linsol.h"
-#include "solve/linsol_nodes.h"
+#include "solve/linsol_hierarchical.h"
 #include "solve/sun_compat.h"
+
+typedef enum preconditioner { BLOCK_JACOBI, INCOMPLETE_CHOLESKY, HIERARCHICAL } preconditioner;
 
 typedef struct pcg {
   const corot_csc *csc;
   node_matrix A;
-  bool cholesky; /* or else Jacobi */
+  preconditioner by;
+  hierarchical levels; /* HIERARCHICAL only */
+  corot_status status; /* of the last product with it */
   bool factored;
   double tolerance; /* of the residual, relative to the right-hand side */
   long iterations;
@@ -34,10 +38,18 @@ static int multiply(void *data, N_Vector x, N_Vector y) {
   pcg *p = data;
   const double *in = N_VGetArrayPointer(x);
   double *out = N_VGetArrayPointer(y), curvature = 0;
-  (p->cholesky ? corot_nodes_sandwich : corot_nodes_multiply)(&p->A, in, out);
+  (p->by == INCOMPLETE_CHOLESKY ? corot_nodes_sandwich : corot_nodes_multiply)(&p->A, in, out);
   for (int i = 0; i < 3 * p->A.n; i++) curvature += in[i] * out[i];
   p->curvature = curvature;
   return curvature > 0 ? 0 : 1;
+}
+
+/* z = M^-1 r */
+static int apply(void *data, N_Vector r, N_Vector z, sunrealtype tolerance, int side) {
+  pcg *p = data;
+  (void)tolerance, (void)side;
+  p->status = corot_hierarchical_apply(&p->levels, N_VGetArrayPointer(r), N_VGetArrayPointer(z));
+  return p->status;
 }
 
 static void pcg_destroy(void *solver) {
@@ -47,26 +59,42 @@ static void pcg_destroy(void *solver) {
   if (p->from) N_VDestroy(p->from);
   if (p->to) N_VDestroy(p->to);
   if (p->ctx) SUNContext_Free(&p->ctx);
+  corot_hierarchical_clear(&p->levels);
   corot_nodes_clear(&p->A);
   free(p->b);
   free(p);
 }
 
-static corot_status prepare(pcg *p) {
+static bool make_cg(pcg *p) {
+  /* in exact arithmetic as many iterations as unknowns suffice; rounding may ask for some more */
+  int most = 30 * p->A.n + 100;
+  bool left = p->by == HIERARCHICAL;
+  p->cg = SUNLinSol_PCG(p->to, left ? SUN_PREC_LEFT : SUN_PREC_NONE, most, p->ctx);
+  return p->cg && !SUNLinSolSetATimes(p->cg, p, multiply) &&
+         (!left || !SUNLinSolSetPreconditioner(p->cg, p, NULL, apply)) &&
+         !SUNLinSolInitialize(p->cg);
+}
+
+static corot_status prepare(pcg *p, const corot_refinement *refinement) {
   COROT_TRY(corot_nodes_create(p->csc, &p->A));
+  corot_nodes_keep(&p->A);
+  if (p->by == HIERARCHICAL)
+    COROT_TRY(corot_hierarchical_create(p->csc, &p->A, refinement, &p->levels));
   int n = 3 * p->A.n;
   p->b = malloc(4 * (size_t)n * sizeof *p->b);
   p->r = p->b + n, p->x = p->r + n, p->z = p->x + n;
   if (sun_context_create(&p->ctx) == 0) {
     p->to = N_VNewEmpty_Serial(n, p->ctx);
     p->from = N_VNewEmpty_Serial(n, p->ctx);
-    /* in exact arithmetic n iterations suffice; rounding may ask for some more */
-    if (p->to) p->cg = SUNLinSol_PCG(p->to, SUN_PREC_NONE, 10 * n + 100, p->ctx);
   }
-  if (!p->b || !p->from || !p->cg || SUNLinSolSetATimes(p->cg, p, multiply) ||
-      SUNLinSolInitialize(p->cg))
+  if (!p->b || !p->from || !p->to || !make_cg(p))
     return corot_fail(COROT_ENOMEM, "no memory for pcg on %d unknowns", p->csc->n);
   return COROT_OK;
+}
+
+static preconditioner named(const char *name) {
+  if (strcmp(name, "hierarchical") == 0) return HIERARCHICAL;
+  return strcmp(name, "incomplete-cholesky") == 0 ? INCOMPLETE_CHOLESKY : BLOCK_JACOBI;
 }
 
 static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan, void **solver) {
@@ -74,8 +102,8 @@ static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for pcg");
   p->csc = pattern;
   p->tolerance = plan->def.tolerance;
-  p->cholesky = strcmp(plan->def.preconditioner, "incomplete-cholesky") == 0;
-  corot_status status = prepare(p);
+  p->by = named(plan->def.preconditioner);
+  corot_status status = prepare(p, plan->def.refinement);
   if (status) {
     pcg_destroy(p);
     return status;
@@ -86,9 +114,7 @@ static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan
 
 /* What is positive definite may have an incomplete factor that is not: then the diagonal is raised
    until it is (Manteuffel 1980). */
-static bool precondition(pcg *p, const double *value, int *at) {
-  corot_nodes_load(&p->A, p->csc, value);
-  if (!p->cholesky) return corot_nodes_jacobi(&p->A, at);
+static bool incomplete_cholesky(pcg *p, const double *value, int *at) {
   for (double shift = 0; !corot_nodes_cholesky(&p->A, shift, at);) {
     if (shift > 100) return false;
     shift = fmax(0.01, 2 * shift);
@@ -101,34 +127,40 @@ static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
   pcg *p = solver;
   int at = 0;
   *fresh = true;
-  p->factored = precondition(p, value, &at);
-  if (p->factored) return COROT_OK;
-  int dof = 0;
-  while (p->A.slot[dof] / 3 < at) dof++;
-  return corot_fail(COROT_RETRY,
-                    "pcg: the matrix is not positive definite (degree of freedom %d of node %d)",
-                    dof, p->csc->node[dof]);
+  p->factored = false;
+  corot_nodes_load(&p->A, p->csc, value);
+  if (p->by == HIERARCHICAL) {
+    COROT_TRY(corot_hierarchical_factor(&p->levels));
+  } else if (!(p->by == BLOCK_JACOBI ? corot_nodes_jacobi(&p->A, &at)
+                                     : incomplete_cholesky(p, value, &at))) {
+    return corot_nodes_indefinite(&p->A, p->csc, at);
+  }
+  p->factored = true;
+  return COROT_OK;
 }
 
 /* x += the solution for the residual, as closely as brings |r| from `norm` to `target`. */
 static corot_status improve(pcg *p, double norm, double target) {
   int n = 3 * p->A.n;
   double square = 0;
-  if (p->cholesky) corot_nodes_forward(&p->A, p->r);
+  bool cholesky = p->by == INCOMPLETE_CHOLESKY;
+  if (cholesky) corot_nodes_forward(&p->A, p->r);
   for (int i = 0; i < n; i++) square += p->r[i] * p->r[i];
   memset(p->z, 0, n * sizeof *p->z);
   N_VSetArrayPointer(p->z, p->to);
   N_VSetArrayPointer(p->r, p->from);
   SUNLinSolSetZeroGuess(p->cg, 1);
+  p->status = COROT_OK;
   int status = SUNLinSolSolve(p->cg, NULL, p->to, p->from, target / norm * sqrt(square));
   p->iterations += SUNLinSolNumIters(p->cg);
+  if (p->status) return p->status;
   if (status && !(p->curvature > 0))
     return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (p'Sp = %.3g)",
                       p->curvature);
   if (status)
     return corot_fail(COROT_RETRY, "pcg: not converged to %g in %d iterations", p->tolerance,
                       SUNLinSolNumIters(p->cg));
-  if (p->cholesky) corot_nodes_backward(&p->A, p->z);
+  if (cholesky) corot_nodes_backward(&p->A, p->z);
   for (int i = 0; i < n; i++) p->x[i] += p->z[i];
   return COROT_OK;
 }

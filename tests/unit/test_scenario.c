@@ -479,7 +479,7 @@ static void resolved_values(void **state) {
       "\"start\":\"rest\",\"statics\":{\"frames\":\"exact\",\"tolerance\":1e-10,"
       "\"max_iterations\":20,\"first_step\":1.0,\"min_step\":0.0001,\"max_step\":1.0},"
       "\"probes\":{},\"output\":{\"fields\":"
-      "\"vtu\",\"every\":1}}");
+      "\"vtu\",\"every\":1,\"states\":\"none\"}}");
   free(text);
   json_decref(r);
 }
@@ -511,7 +511,9 @@ static void numbers_as_text(void **state) {
 
 static void build(const char *text, corot_mesh **mesh, corot_model **model) {
   scenario *s = accept(text);
-  assert_ok(scenario_build(s, mesh, model));
+  corot_refinement *refinement;
+  assert_ok(scenario_build(s, mesh, &refinement, model));
+  corot_refinement_destroy(refinement);
   scenario_destroy(s);
 }
 
@@ -624,10 +626,11 @@ static void build_refusals(void **state) {
   };
   for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
     corot_mesh *mesh = NULL;
+    corot_refinement *refinement = NULL;
     corot_model *model = NULL;
     scenario *s = accept(r[i].text);
-    assert_fails(scenario_build(s, &mesh, &model), COROT_EFORMAT, r[i].message);
-    assert_true(!mesh && !model);
+    assert_fails(scenario_build(s, &mesh, &refinement, &model), COROT_EFORMAT, r[i].message);
+    assert_true(!mesh && !refinement && !model);
     scenario_destroy(s);
   }
 }
@@ -645,8 +648,10 @@ static corot_status make_scenario(void *context) {
 
 static corot_status build_scenario(void *context) {
   corot_mesh *mesh = NULL;
+  corot_refinement *refinement = NULL;
   corot_model *model = NULL;
-  COROT_TRY(scenario_build(context, &mesh, &model));
+  COROT_TRY(scenario_build(context, &mesh, &refinement, &model));
+  corot_refinement_destroy(refinement);
   corot_model_destroy(model);
   corot_mesh_destroy(mesh);
   return COROT_OK;
@@ -669,15 +674,16 @@ static void failed_allocations(void **state) {
 /* Parents before children, no path twice, every required key has a meaning. */
 static void schema_is_sound(void **state) {
   (void)state;
-  for (int i = 0; i < schema_nkey; i++) {
-    const schema_key *k = &schema_keys[i];
-    assert_true(schema_find(k->path) == k);
+  for (int i = 0; i < scenario_schema.nkey; i++) {
+    const schema_key *k = &scenario_schema.key[i];
+    assert_true(schema_find(&scenario_schema, k->path) == k);
     assert_true(*k->doc);
     if (k->status != SCHEMA_OPTIONAL) assert_null(k->fallback);
     if (k->type == SCHEMA_CHOICE) assert_non_null(k->words);
   }
   int n = 0;
-  for (const schema_key *k = NULL; (k = schema_child("material.damping", k));) n++;
+  for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, "material.damping", k));)
+    n++;
   assert_int_equal(n, 3);
 }
 
@@ -685,17 +691,17 @@ static void schema_as_text(void **state) {
   (void)state;
   FILE *file = tmpfile();
   assert_non_null(file);
-  assert_int_equal(schema_print("", file), schema_nkey);
-  assert_int_equal(schema_print("material.damping", file), 4);
-  assert_int_equal(schema_print("loads.gravity", file), 1);
-  assert_int_equal(schema_print("loads[]", file), 6);
-  assert_int_equal(schema_print("mat", file), 0);
+  assert_int_equal(schema_print(&scenario_schema, "", file), scenario_schema.nkey);
+  assert_int_equal(schema_print(&scenario_schema, "material.damping", file), 4);
+  assert_int_equal(schema_print(&scenario_schema, "loads.gravity", file), 1);
+  assert_int_equal(schema_print(&scenario_schema, "loads[]", file), 6);
+  assert_int_equal(schema_print(&scenario_schema, "mat", file), 0);
   fclose(file);
-  json_t *schema = schema_json();
-  assert_non_null(schema);
-  json_t *material = json_object_get(json_object_get(schema, "properties"), "material");
+  json_t *text = schema_json();
+  assert_non_null(text);
+  json_t *material = json_object_get(json_object_get(text, "properties"), "material");
   assert_int_equal(json_array_size(json_object_get(material, "anyOf")), 2);
-  json_decref(schema);
+  json_decref(text);
 }
 
 static void suggestions(void **state) {

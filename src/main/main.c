@@ -5,7 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli.h"
+#include <app/cli.h>
+#include <report/commands.h>
+#include <study/command_study.h>
 
 static const char help[] =
     "corot: deformable solids as ordinary differential equations, integrated with error control\n"
@@ -15,10 +17,12 @@ static const char help[] =
     "  run MODEL.yaml       integrate a scenario and write its tables and fields\n"
     "  static MODEL.yaml    find its equilibrium under the full loads instead\n"
     "  check MODEL.yaml     say what is wrong with a scenario, or what it amounts to\n"
+    "  study STUDY.yaml     run a scenario many times along axes, and compare: errors and costs\n"
     "  schema [KEY]         every key of a scenario: type, unit, default, meaning\n"
     "  mesh box             generate the mesh of a box\n"
     "  mesh info FILE       size, shape and groups of a mesh\n"
     "  mesh refine FILE     cut every tet into eight\n"
+    "  plot DIR             draw the work-precision diagram of a study\n"
     "\n"
     "  corot COMMAND --help, corot --version\n"
     "\n"
@@ -42,13 +46,9 @@ static void hold_standard_streams(void) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},
-      {"static", command_static},
-      {"check", command_check},
-      {"schema", command_schema},
-      {"mesh", command_mesh},
-      {"--version", print_version},
-      {0},
+      {"run", command_run},     {"static", command_static},   {"check", command_check},
+      {"study", command_study}, {"plot", command_plot},       {"schema", command_schema},
+      {"mesh", command_mesh},   {"--version", print_version}, {0},
   };
   hold_standard_streams();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */

@@ -1,0 +1,58 @@
+#include "command_folder.h"
+
+#include <app/cli.h>
+#include <app/suggest.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "store.h"
+
+/* One folder, and no options but --help. -1: go on with *dir; otherwise an exit code. */
+static int only_folder(const char *program, int argc, char **argv, const char **dir) {
+  char name[64];
+  snprintf(name, sizeof name, "corot study %s", program);
+  if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
+    printf("usage: %s DIR\n\nSee corot study --help.\n", name);
+    return EXIT_OK;
+  }
+  if (argc != 2) return usage_error("corot study", "%s: expected one folder", program);
+  if (argv[1][0] == '-') return usage_error("corot study", "unknown option %s", argv[1]);
+  *dir = argv[1];
+  return -1;
+}
+
+int command_study_status(int argc, char **argv) {
+  const char *dir = NULL;
+  int code = only_folder("status", argc, argv, &dir), count[3] = {0};
+  if (code >= 0) return code;
+  manifest *m = NULL;
+  corot_status status = manifest_read(dir, &m);
+  for (int i = 0; status == COROT_OK && i < m->nrun; i++) {
+    run_record record;
+    status = store_look(dir, &m->run[i], &record);
+    if (status != COROT_OK) break;
+    count[record.state]++;
+    if (record.state == RUN_FAILED) printf("%s failed: %s\n", m->run[i].id, record.reason);
+    run_record_free(&record);
+  }
+  if (status == COROT_OK)
+    printf("%s: %d cells, %d runs: %d done, %d failed, %d missing\n", m->title, m->ncell, m->nrun,
+           count[RUN_DONE], count[RUN_FAILED], count[RUN_MISSING]);
+  if (status == COROT_OK && strcmp(m->version, corot_version()) != 0)
+    printf("runs by corot %s; this is %s, and would do all of them again\n", m->version,
+           corot_version());
+  manifest_destroy(m);
+  return status == COROT_OK ? EXIT_OK : failure(status);
+}
+
+int command_study_schema(int argc, char **argv) {
+  const char *path[128];
+  int n = 0;
+  if (argc > 2) return usage_error("corot study", "schema: expected at most one key");
+  const char *prefix = argc == 2 ? argv[1] : "";
+  if (schema_print(&study_schema, prefix, stdout) > 0) return EXIT_OK;
+  for (; n < study_schema.nkey && n < 128; n++) path[n] = study_schema.key[n].path;
+  const char *near = suggest(prefix, n, path);
+  if (near) return usage_error("corot study", "no key %s; did you mean %s?", prefix, near);
+  return usage_error("corot study", "no key %s", prefix);
+}

@@ -1,0 +1,192 @@
+#include "command_study.h"
+
+#include <app/cli.h>
+#include <app/folder.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "command_folder.h"
+#include "execute.h"
+#include "plan.h"
+#include "pool.h"
+#include "store.h"
+
+static const char help[] =
+    "usage: corot study STUDY.yaml [-o DIR] [-j N] [--shard I/N] [--dry-run] ...\n"
+    "       corot study status DIR\n"
+    "       corot study schema [KEY]\n"
+    "\n"
+    "Runs a scenario many times, as a study file (YAML, or JSON) says: with some of its keys "
+    "varied\n"
+    "along axes, and against references. Each run is a process with a folder of its own. A study\n"
+    "that was stopped or killed goes on where it was; runs that are done are not repeated.\n"
+    "\n"
+    "  -o, --output DIR    the study's folder, made if need be; default: out/STUDY in this folder\n"
+    "  -j, --jobs N        so many runs at once; default: one a processor\n"
+    "      --shard I/N     only the I-th of N parts of the runs, for N machines with one folder;\n"
+    "                      all must have the same N\n"
+    "      --dry-run       lists the runs and what has become of them; runs nothing\n"
+    "      --retry-failed  those that failed before, again\n"
+    "  -q, --quiet         nothing on stderr but errors\n"
+    "\n"
+    "  status DIR          how far a study is\n"
+    "  schema [KEY]        every key of a study file: type, unit, default, meaning\n"
+    "\n"
+    "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 input or\n"
+    "output, 130 and 143 interrupted.\n"
+    "\n"
+    "example: corot study models/studies/integrators.yaml -o out/integrators -j 8\n";
+
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'}, {"jobs", required_argument, NULL, 'j'},
+    {"shard", required_argument, NULL, 's'},  {"dry-run", no_argument, NULL, 'd'},
+    {"retry-failed", no_argument, NULL, 'r'}, {"quiet", no_argument, NULL, 'q'},
+    {"help", no_argument, NULL, 'h'},         {0},
+};
+
+/* --- What the arguments say --- */
+
+typedef struct arguments {
+  execute_options o;
+  bool dry;
+} arguments;
+
+static bool parse_count(const char *text, int most, int *out) {
+  char *end;
+  long n = strtol(text, &end, 10);
+  if (end == text || *end || n < 1 || n > most || text[0] == ' ' || text[0] == '+') return false;
+  *out = (int)n;
+  return true;
+}
+
+static bool parse_shard(const char *text, int *shard, int *nshard) {
+  char first[16];
+  size_t length = strcspn(text, "/");
+  if (length >= sizeof first || text[length] != '/') return false;
+  memcpy(first, text, length);
+  first[length] = '\0';
+  return parse_count(text + length + 1, 1000000, nshard) && parse_count(first, *nshard, shard);
+}
+
+/* -1, or an exit code. */
+static int take_option(int answer, char **argv, arguments *a) {
+  switch (answer) {
+    case 'o':
+      a->o.dir = optarg;
+      if (!*optarg) return usage_error("corot study", "--output: the name is empty");
+      return -1;
+    case 'j':
+      if (parse_count(optarg, POOL_MAX, &a->o.njob)) return -1;
+      return usage_error("corot study", "--jobs %s: expected 1 to %d", optarg, POOL_MAX);
+    case 's':
+      if (parse_shard(optarg, &a->o.shard, &a->o.nshard)) return -1;
+      return usage_error("corot study", "--shard %s: expected I/N, such as 1/4", optarg);
+    case 'd':
+      a->dry = true;
+      return -1;
+    case 'r':
+      a->o.retry_failed = true;
+      return -1;
+    case 'q':
+      a->o.quiet = true;
+      return -1;
+    case 'h':
+      fputs(help, stdout);
+      return EXIT_OK;
+    default:
+      return option_error("corot study", answer, argv, options);
+  }
+}
+
+/* --- Running --- */
+
+static void announce(const manifest *m, const execute_options *o) {
+  int nown = 0;
+  for (int i = 0; i < m->ncell; i++) {
+    bool shared = false;
+    for (int k = 0; k < i && !shared; k++) shared = m->cell[k].run == m->cell[i].run;
+    nown += !shared;
+  }
+  fprintf(stderr, "%s: %d cells, %d runs; %s\n", m->title, m->ncell, m->nrun, o->dir);
+  if (nown < m->ncell)
+    fprintf(stderr, "%d cells are the same run as another; each run is made once\n",
+            m->ncell - nown);
+}
+
+static int conclude(const execute_options *o, const execute_totals *t, int signal_number) {
+  if (!o->quiet || t->nfailed + t->nlost > 0)
+    fprintf(stderr, "%s: %d of %d runs done (%d now), %d failed\n", o->dir, t->ndone, t->nrun,
+            t->nnew, t->nfailed);
+  if (signal_number) {
+    fputs("interrupted; the same command goes on from here\n", stderr);
+    return 128 + signal_number;
+  }
+  if (t->nlost > 0) {
+    fprintf(stderr, "%d stopped for reasons from outside; the same command tries them again\n",
+            t->nlost);
+    return EXIT_SYSTEM;
+  }
+  return t->nfailed > 0 ? EXIT_CHECK : EXIT_OK;
+}
+
+static int execute_here(const manifest *m, const execute_options *o) {
+  store_lock lock;
+  execute_totals totals;
+  int signal_number;
+  corot_status status = store_enter(o->dir, m, o->shard, o->nshard, &lock);
+  if (status != COROT_OK) return failure(status);
+  if (!o->quiet) announce(m, o);
+  status = execute_study(m, o, &totals, &signal_number);
+  int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
+  store_leave(lock);
+  return code;
+}
+
+static int run_study(const char *path, arguments *a) {
+  study *s = NULL;
+  manifest *m = NULL;
+  corot_status status = study_read(path, &s);
+  if (status == COROT_EIO) status = COROT_EFORMAT; /* no study is a bad study */
+  if (status == COROT_OK) status = plan_study(s, &m);
+  char *folder = status == COROT_OK && !a->o.dir ? folder_path("out", s->name) : NULL;
+  if (folder) a->o.dir = folder;
+  int code;
+  if (status != COROT_OK || !a->o.dir)
+    code = failure(status);
+  else if (a->dry)
+    code = (status = execute_dry(m, &a->o, stdout)) == COROT_OK ? EXIT_OK : failure(status);
+  else
+    code = execute_here(m, &a->o);
+  free(folder);
+  manifest_destroy(m);
+  study_destroy(s);
+  return code;
+}
+
+static int command_study_run(int argc, char **argv) {
+  long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  arguments a = {.o = {.shard = 1, .nshard = 1, .progress = true}};
+  a.o.njob = processors < 1 ? 1 : processors > POOL_MAX ? POOL_MAX : (int)processors;
+  int code = -1;
+  opterr = 0;
+  for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":o:j:qh", options, NULL)) != -1;)
+    code = take_option(answer, argv, &a);
+  if (code < 0 && argc - optind != 1)
+    code = usage_error("corot study", "expected one study, found %d", argc - optind);
+  return code < 0 ? run_study(argv[optind], &a) : code;
+}
+
+int command_study(int argc, char **argv) {
+  static const command verbs[] = {
+      {"status", command_study_status},
+      {"schema", command_study_schema},
+      {0},
+  };
+  for (const command *v = verbs; v->name; v++)
+    if (argc > 1 && strcmp(argv[1], v->name) == 0) return v->run(argc - 1, argv + 1);
+  if (argc > 1) return command_study_run(argc, argv);
+  fputs(help, stderr);
+  return EXIT_USAGE;
+}

@@ -1,0 +1,118 @@
+#include "pool.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+/* The handler of signals has no other way to know of them. */
+static struct {
+  int size, count;
+  volatile pid_t pid[POOL_MAX]; /* 0: free */
+  int job[POOL_MAX];
+  volatile sig_atomic_t stop;
+  struct sigaction before[2];
+} pool;
+
+static const int heeded[2] = {SIGINT, SIGTERM};
+
+static void hand_on(int number) {
+  int saved = errno;
+  pool.stop = number;
+  for (int i = 0; i < pool.size; i++)
+    if (pool.pid[i] > 0) kill(pool.pid[i], number);
+  errno = saved;
+}
+
+corot_status pool_open(int size) {
+  if (size < 1 || size > POOL_MAX)
+    return corot_fail(COROT_EINVAL, "%d processes at once; 1 to %d are possible", size, POOL_MAX);
+  pool.size = size;
+  pool.count = 0;
+  pool.stop = 0;
+  for (int i = 0; i < size; i++) pool.pid[i] = 0;
+  struct sigaction action = {.sa_handler = hand_on, .sa_flags = SA_RESTART};
+  sigemptyset(&action.sa_mask);
+  for (int i = 0; i < 2; i++) sigaction(heeded[i], &action, &pool.before[i]);
+  return COROT_OK;
+}
+
+void pool_close(void) {
+  int job, ended;
+  while (!pool_is_empty() && pool_wait(&job, &ended) == COROT_OK) continue;
+  for (int i = 0; i < 2; i++) sigaction(heeded[i], &pool.before[i], NULL);
+}
+
+bool pool_is_full(void) { return pool.count == pool.size; }
+bool pool_is_empty(void) { return pool.count == 0; }
+int pool_signal(void) { return pool.stop; }
+
+/* In the new process: never returns. */
+static void become(const char *const *argv, const char *messages, pid_t parent,
+                   const sigset_t *mask) {
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127); /* it died before */
+#else
+  (void)parent;
+#endif
+  for (int i = 0; i < 2; i++) signal(heeded[i], SIG_DFL);
+  sigprocmask(SIG_SETMASK, mask, NULL);
+  int nothing = open("/dev/null", O_RDONLY);
+  int file = open(messages, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0666);
+  if (nothing < 0 || file < 0) _exit(5);
+  dup2(nothing, 0);
+  dup2(file, 1);
+  dup2(file, 2);
+  if (nothing > 2) close(nothing);
+  if (file > 2) close(file);
+  /* one thread each: they share the machine, and sums do not depend on how many run */
+  setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  setenv("OMP_NUM_THREADS", "1", 0);
+  execv("/proc/self/exe", (char *const *)argv);
+  _exit(127);
+}
+
+corot_status pool_start(int job, const char *const *argv, const char *messages) {
+  int slot = 0;
+  while (slot < pool.size && pool.pid[slot] != 0) slot++;
+  if (slot == pool.size) return corot_fail(COROT_EINVAL, "%d processes run already", pool.size);
+
+  /* no signal between the birth of a process and its entry in the list */
+  sigset_t both, before;
+  sigemptyset(&both);
+  for (int i = 0; i < 2; i++) sigaddset(&both, heeded[i]);
+  sigprocmask(SIG_BLOCK, &both, &before);
+  pid_t parent = getpid(), child = fork();
+  if (child == 0) become(argv, messages, parent, &before);
+  int why = errno;
+  if (child > 0) {
+    pool.pid[slot] = child;
+    pool.job[slot] = job;
+    pool.count++;
+  }
+  sigprocmask(SIG_SETMASK, &before, NULL);
+  if (child < 0) return corot_fail(COROT_EIO, "cannot start a process: %s", strerror(why));
+  return COROT_OK;
+}
+
+corot_status pool_wait(int *job, int *ended) {
+  siginfo_t info;
+  while (waitid(P_ALL, 0, &info, WEXITED | WNOWAIT) != 0)
+    if (errno != EINTR) return corot_fail(COROT_EIO, "cannot wait: %s", strerror(errno));
+  int slot = 0, status;
+  while (slot < pool.size && pool.pid[slot] != info.si_pid) slot++;
+  if (slot < pool.size) pool.pid[slot] = 0; /* before its number can be another's */
+  waitpid(info.si_pid, &status, 0);
+  if (slot == pool.size) return pool_wait(job, ended); /* none of ours */
+  pool.count--;
+  *job = pool.job[slot];
+  *ended = WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+  return COROT_OK;
+}

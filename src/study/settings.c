@@ -1,0 +1,114 @@
+/* Keys of a scenario and values for them, as a study file writes them. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "study.h"
+
+static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
+
+/* --- Values --- */
+
+/* Reads back as the same word wherever it stands. */
+static bool is_plain(const char *text) {
+  static const char safe[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./ ";
+  size_t length = strlen(text);
+  return length > 0 && strspn(text, safe) == length && text[0] != ' ' && text[length - 1] != ' ';
+}
+
+/* JSON's quotes are YAML's. */
+static void write_quoted(const char *text, FILE *out) {
+  json_t *string = json_string(text);
+  json_dumpf(string, out, JSON_ENCODE_ANY);
+  json_decref(string);
+}
+
+static void write_word(const char *text, bool quoted, FILE *out) {
+  if (quoted || !is_plain(text))
+    write_quoted(text, out);
+  else
+    fputs(text, out);
+}
+
+static void write_value(const config_node *value, FILE *out) {
+  if (value->kind == CONFIG_SCALAR) {
+    if (config_is_null(value))
+      fputs("null", out);
+    else
+      write_word(value->text, value->quoted, out);
+    return;
+  }
+  bool map = value->kind == CONFIG_MAP;
+  fputc(map ? '{' : '[', out);
+  for (const config_node *c = value->child; c; c = c->next) {
+    if (c != value->child) fputs(", ", out);
+    if (map) {
+      write_word(c->key, false, out);
+      fputs(": ", out);
+    }
+    write_value(c, out);
+  }
+  fputc(map ? '}' : ']', out);
+}
+
+corot_status study_value_text(config *tree, const config_node *value, const char **text) {
+  char *buffer = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&buffer, &size);
+  if (!out) return no_memory();
+  write_value(value, out);
+  bool written = fclose(out) == 0;
+  *text = written ? config_copy(tree, buffer, size) : NULL;
+  free(buffer);
+  return *text ? COROT_OK : no_memory();
+}
+
+static json_t *scalar_json(const config_node *value) {
+  double number;
+  if (config_is_null(value)) return json_null();
+  if (!config_parse_number(value, &number)) return json_string(value->text);
+  bool whole = !strpbrk(value->text, ".eE") && number > -1e15 && number < 1e15;
+  return whole ? json_integer((json_int_t)number) : json_real(number);
+}
+
+json_t *study_value_json(const config_node *value) {
+  if (value->kind == CONFIG_SCALAR) return scalar_json(value);
+  bool map = value->kind == CONFIG_MAP;
+  json_t *json = map ? json_object() : json_array();
+  for (const config_node *c = value->child; c; c = c->next) {
+    json_t *item = study_value_json(c);
+    if (map ? json_object_set_new(json, c->key, item) : json_array_append_new(json, item)) {
+      json_decref(json);
+      return NULL;
+    }
+  }
+  return json;
+}
+
+bool study_same_value(const config_node *a, const config_node *b) {
+  double x, y;
+  if (config_parse_number(a, &x) && config_parse_number(b, &y)) return x == y;
+  if (a->kind != b->kind) return false;
+  if (a->kind == CONFIG_SCALAR) return strcmp(a->text, b->text) == 0;
+  const config_node *c = a->child, *d = b->child;
+  for (; c && d; c = c->next, d = d->next)
+    if ((c->key && strcmp(c->key, d->key) != 0) || !study_same_value(c, d)) return false;
+  return !c && !d;
+}
+
+/* --- Settings --- */
+
+static int by_key(const void *a, const void *b) {
+  return strcmp(((const setting *)a)->key, ((const setting *)b)->key);
+}
+
+corot_status study_read_settings(config *tree, const config_node *map, int *nset,
+                                 const setting **out) {
+  setting *set = config_alloc(tree, (size_t)map->nchild, sizeof *set);
+  if (!set) return no_memory();
+  int n = 0;
+  for (const config_node *c = map->child; c; c = c->next) set[n++] = (setting){c->key, c};
+  qsort(set, (size_t)n, sizeof *set, by_key);
+  *nset = n;
+  *out = set;
+  return COROT_OK;
+}

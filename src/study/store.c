@@ -1,0 +1,171 @@
+#include "store.h"
+
+#include <app/folder.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "json_file.h"
+
+static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
+
+char *store_path(const char *dir, const study_run *run, const char *name) {
+  size_t size = strlen(dir) + strlen(run->id) + strlen(name) + sizeof "/runs//";
+  char *path = malloc(size);
+  if (!path) {
+    no_memory();
+    return NULL;
+  }
+  snprintf(path, size, "%s/runs/%s%s%s", dir, run->id, *name ? "/" : "", name);
+  return path;
+}
+
+/* A file of a run, or nothing if it is missing, damaged or about another run. */
+static corot_status read_own(const char *dir, const study_run *run, const char *name,
+                             const char *hash_path, json_t **out) {
+  char *path = store_path(dir, run, name);
+  if (!path) return COROT_ENOMEM;
+  json_t *json = NULL;
+  if (access(path, F_OK) == 0) json_file_read(path, &json);
+  free(path);
+  const json_t *hash = json_object_get(json, "hash");
+  if (strcmp(hash_path, "hashes.run") == 0)
+    hash = json_object_get(json_object_get(json, "hashes"), "run");
+  if (!json_is_string(hash) || strcmp(json_string_value(hash), run->hash) != 0) {
+    json_decref(json);
+    json = NULL;
+  }
+  *out = json;
+  return COROT_OK;
+}
+
+/* --- Runs --- */
+
+/* Exit code 5: the system refused something, which it may grant another time. */
+static bool is_lasting(const json_t *result) {
+  json_int_t code = json_integer_value(json_object_get(result, "exit_code"));
+  const char *status = json_string_value(json_object_get(result, "status"));
+  return status && strcmp(status, "failed") == 0 && code != 5;
+}
+
+static corot_status keep_reason(const json_t *json, run_record *record) {
+  const char *reason = json_string_value(json_object_get(json, "reason"));
+  if (!reason) reason = "no reason is given";
+  record->reason = malloc(strlen(reason) + 1);
+  if (!record->reason) return no_memory();
+  strcpy(record->reason, reason);
+  record->state = RUN_FAILED;
+  return COROT_OK;
+}
+
+corot_status store_look(const char *dir, const study_run *run, run_record *record) {
+  run_record r = {RUN_MISSING, NULL, NULL};
+  json_t *result = NULL, *failure = NULL;
+  COROT_TRY(read_own(dir, run, "result.json", "hashes.run", &result));
+  const char *status = json_string_value(json_object_get(result, "status"));
+  corot_status looked = COROT_OK;
+  if (status && strcmp(status, "ok") == 0) {
+    r.state = RUN_DONE;
+    r.result = json_incref(result);
+  } else if (is_lasting(result)) {
+    looked = keep_reason(result, &r);
+  } else {
+    looked = read_own(dir, run, "failure.json", "hash", &failure);
+    if (failure) looked = keep_reason(failure, &r);
+  }
+  json_decref(result);
+  json_decref(failure);
+  if (looked == COROT_OK) *record = r;
+  return looked;
+}
+
+void run_record_free(run_record *record) {
+  free(record->reason);
+  json_decref(record->result);
+  *record = (run_record){0};
+}
+
+static corot_status remove_own(const char *dir, const study_run *run, const char *name) {
+  char *path = store_path(dir, run, name);
+  if (!path) return COROT_ENOMEM;
+  corot_status status = COROT_OK;
+  if (unlink(path) != 0 && errno != ENOENT)
+    status = corot_fail(COROT_EIO, "%s: cannot remove it: %s", path, strerror(errno));
+  free(path);
+  return status;
+}
+
+corot_status store_clear(const char *dir, const study_run *run) {
+  char *path = store_path(dir, run, "");
+  if (!path) return COROT_ENOMEM;
+  corot_status status = folder_make(path);
+  free(path);
+  COROT_TRY(status);
+  COROT_TRY(remove_own(dir, run, "result.json"));
+  return remove_own(dir, run, "failure.json");
+}
+
+corot_status store_fail(const char *dir, const study_run *run, int ended, const char *reason) {
+  char *path = store_path(dir, run, "");
+  json_t *failure = json_pack("{s:s, s:s, s:i}", "hash", run->hash, "reason", reason,
+                              ended < 0 ? "signal" : "exit_code", abs(ended));
+  corot_status status =
+      path && failure ? json_file_write(path, "failure.json", failure) : no_memory();
+  json_decref(failure);
+  free(path);
+  return status;
+}
+
+/* --- Timings --- */
+
+static corot_status timings_grow(timings *t, double cpu, double wall) {
+  size_t size = (size_t)(t->n + 1) * sizeof *t->cpu;
+  double *more = realloc(t->cpu, size);
+  if (more) t->cpu = more;
+  double *longer = more ? realloc(t->wall, size) : NULL;
+  if (!longer) return no_memory();
+  t->wall = longer;
+  t->cpu[t->n] = cpu;
+  t->wall[t->n++] = wall;
+  return COROT_OK;
+}
+
+corot_status timings_read(const char *dir, const study_run *run, timings *out) {
+  json_t *json = NULL;
+  COROT_TRY(read_own(dir, run, "timings.json", "hash", &json));
+  const json_t *runs = json_object_get(json, "runs");
+  timings t = {0};
+  corot_status status = COROT_OK;
+  for (size_t i = 0; i < json_array_size(runs) && status == COROT_OK; i++) {
+    const json_t *entry = json_array_get(runs, i);
+    status = timings_grow(&t, json_number_value(json_object_get(entry, "cpu")),
+                          json_number_value(json_object_get(entry, "wall")));
+  }
+  json_decref(json);
+  if (status == COROT_OK)
+    *out = t;
+  else
+    timings_free(&t);
+  return status;
+}
+
+corot_status timings_add(const char *dir, const study_run *run, timings *t, double cpu,
+                         double wall) {
+  COROT_TRY(timings_grow(t, cpu, wall));
+  json_t *list = json_array();
+  for (int i = 0; i < t->n; i++)
+    json_array_append_new(list, json_pack("{s:f, s:f}", "cpu", t->cpu[i], "wall", t->wall[i]));
+  json_t *json = json_pack("{s:s, s:o}", "hash", run->hash, "runs", list);
+  char *path = store_path(dir, run, "");
+  corot_status status = json && path ? json_file_write(path, "timings.json", json) : no_memory();
+  json_decref(json);
+  free(path);
+  return status;
+}
+
+void timings_free(timings *t) {
+  free(t->cpu);
+  free(t->wall);
+  *t = (timings){0};
+}

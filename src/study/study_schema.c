@@ -1,0 +1,54 @@
+#include "study.h"
+
+#define MAP SCHEMA_MAP
+#define NUMBER SCHEMA_NUMBER
+#define INTEGER SCHEMA_INTEGER
+#define TEXT SCHEMA_TEXT
+#define CHOICE SCHEMA_CHOICE
+#define OPTIONAL SCHEMA_OPTIONAL
+#define REQUIRED SCHEMA_REQUIRED
+#define ONE_OF SCHEMA_ONE_OF
+#define ANY SCHEMA_ANY
+#define POSITIVE SCHEMA_POSITIVE
+
+/* clang-format off */
+static const schema_key keys[] = {
+  /* path                  type           status    range     unit default  words  doc */
+  {"study",                TEXT,          REQUIRED, ANY,      "",  0, 0, "what is asked"},
+  {"base",                 TEXT,          REQUIRED, ANY,      "",  0, 0, "the scenario, relative to the study's folder"},
+  {"set",                  SCHEMA_OPEN,   OPTIONAL, ANY,      "",  "{}", 0, "keys of the scenario, as with --set, for all runs"},
+
+  {"axes",                 SCHEMA_LIST,   OPTIONAL, ANY,      "",  "[]", 0, "what is varied: all combinations are run, and with all cells of each grid"},
+  {"axes[].key",           TEXT,          ONE_OF,   ANY,      "",  0, 0, "a key of the scenario, with values or log"},
+  {"axes[].zip",           SCHEMA_OPEN,   ONE_OF,   ANY,      "",  0, 0, "several keys, each with a list of values: the first of each together, the second, ..."},
+  {"axes[].variants",      SCHEMA_LIST,   ONE_OF,   ANY,      "",  0, 0, "labelled sets of keys"},
+  {"axes[].values",        SCHEMA_VALUES, OPTIONAL, ANY,      "",  0, 0, "of the key"},
+  {"axes[].log",           MAP,           OPTIONAL, ANY,      "",  0, 0, "values of the key at equal ratios"},
+  {"axes[].log.from",      NUMBER,        REQUIRED, POSITIVE, "",  0, 0, "the first"},
+  {"axes[].log.to",        NUMBER,        REQUIRED, POSITIVE, "",  0, 0, "the last, larger or smaller"},
+  {"axes[].log.per_decade", INTEGER,      ONE_OF,   POSITIVE, "",  0, 0, "values for each factor of ten; the last is the last of these that does not pass `to`"},
+  {"axes[].log.points",    INTEGER,       ONE_OF,   POSITIVE, "",  0, 0, "values in all, `from` and `to` included"},
+  {"axes[].name",          TEXT,          OPTIONAL, ANY,      "",  0, 0, "of variants: the column for their labels"},
+  {"axes[].variants[].label", TEXT,       REQUIRED, ANY,      "",  0, 0, "how it is called in tables"},
+  {"axes[].variants[].set", SCHEMA_OPEN,  REQUIRED, ANY,      "",  0, 0, "keys of the scenario"},
+  {"exclude",              SCHEMA_OPENS,  OPTIONAL, ANY,      "",  "[]", 0, "combinations to leave out: those that have all values of an entry"},
+  {"grids",                SCHEMA_LIST,   OPTIONAL, ANY,      "",  "[]", 0, "sets of axes, one beside the other, where not all keys go with all others"},
+  {"grids[].set",          SCHEMA_OPEN,   OPTIONAL, ANY,      "",  "{}", 0, "as above, for this one"},
+  {"grids[].axes",         SCHEMA_LIST,   OPTIONAL, ANY,      "",  "[]", "axes[]", "as above, for this one"},
+  {"grids[].exclude",      SCHEMA_OPENS,  OPTIONAL, ANY,      "",  "[]", 0, "as above, for this one"},
+
+  {"repeat",               INTEGER,       OPTIONAL, SCHEMA_NOT_NEGATIVE, "", "0", 0, "timed repetitions of each run, alone on the machine; 0: times are those of the one run, with others beside it"},
+  {"reference",            SCHEMA_SHORT,  OPTIONAL, ANY,      "",  "auto", 0, "what errors are measured against: two tight runs of the same solid; auto or none will do"},
+  {"reference.use",        CHOICE,        OPTIONAL, ANY,      "",  "auto", "auto|none", "none: no errors are measured"},
+  {"reference.rtol",       NUMBER,        OPTIONAL, SCHEMA_FRACTION, "", "auto", "auto", "of both; auto: 1e-9, or a hundredth of the tightest cell down to 1e-11"},
+  {"reference.methods",    SCHEMA_WORDS,  OPTIONAL, ANY,      "",  "[cvode, arkode]", "cvode|ida|arkode|erk", "two: cells are held against the first, and it against the second"},
+  {"reference.set",        SCHEMA_OPEN,   OPTIONAL, ANY,      "",  "{}", 0, "keys that are the same for all references, such as the strain: errors are then those of the model, too"},
+
+  {"tolerance",            SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  "[integrator.rtol, integrator.step]", 0, "the key that makes a run finer along a series; of several, the first that is varied"},
+  {"group",                SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  0, 0, "the columns that tell series apart; default: all but the tolerance"},
+  {"cost",                 CHOICE,        OPTIONAL, ANY,      "",  "cpu", "cpu|wall|steps|rhs|factorisations|solves", "by which runs are compared"},
+  {"measure",              CHOICE,        OPTIONAL, ANY,      "",  "displacement", "displacement|velocity|energy|mixed", "the error by which runs are compared"},
+};
+/* clang-format on */
+
+const schema study_schema = {keys, sizeof keys / sizeof *keys};

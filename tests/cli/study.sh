@@ -1,0 +1,103 @@
+. "$(dirname "$0")/lib.sh"
+
+study() { printf '%s\n' "study: which one" "base: model.yaml" "set: {time.end: 0.02}" "$@" >study.yaml; }
+
+# What does not make sense is answered for with its place in the file.
+refuse() {
+  study "$@"
+  expect 3 study study.yaml -o refused
+  no_out
+  [ ! -e refused ] || complain "a folder for $*"
+}
+refuse 'axes: [{key: integrator.methd, values: [cvode]}]'
+err "study.yaml:4:14: integrator.methd: unknown key; did you mean method?"
+refuse 'axes: [{key: integrator.method, values: [cvod, ida]}]'; err "did you mean cvode?"
+refuse 'axes: [{key: integrator.rtol, values: []}]'; err "study.yaml:4:39: axes[0].values: the list is empty"
+refuse 'axes: []'; err "axes is missing"
+refuse 'axs: []'; err "study.yaml:4:1: axs: unknown key; did you mean axes?"
+refuse 'axes: [{key: integrator.rtol, values: [1e-3]}]' 'exclude: [{integrator.rtol: 0.001}]'
+err "study.yaml:5:1: exclude: nothing is left to run"
+refuse 'axes: [{key: integrator.rtol, values: [1e-3]}]' 'exclude: [{integrator.rtl: 1e-3}]'
+err "no axis varies integrator.rtl; did you mean integrator.rtol?"
+refuse 'axes: [{key: integrator.method, values: [cvode, bdf2]}]'
+err "(in the cell integrator.method = bdf2"
+refuse 'axes: [{zip: {strain: [green, polar], integrator.rtol: [1e-3]}}]'; err "1 values, but strain has 2"
+refuse 'axes: [{key: strain, values: [green]}]' 'reference: {methods: [cvode]}'; err "two methods"
+study 'axes: [{key: strain, values: [green]}]'
+printf '%s\n' 'study: of a study' 'base: study.yaml' 'axes: [{key: strain, values: [green]}]' >outer.yaml
+expect 3 study outer.yaml; err "outer.yaml:2:7: base: study.yaml is a study itself"
+expect 3 study none.yaml; err "none.yaml"
+expect 2 study study.yaml -j 0; err "--jobs 0: expected 1 to"
+expect 2 study study.yaml --shard 3/2; err "--shard 3/2"
+expect 2 study study.yaml --dryrun; err "did you mean --dry-run?"
+expect 2 study status; err "status: expected one folder"
+expect 5 study status nowhere; err "nowhere/study.json"
+expect 0 study schema axes; out "axes[].zip"
+expect 2 study schema axs; err "did you mean axes?"
+
+# A study, twice: the second time there is nothing left to do, until there is more to it.
+study 'axes: [{key: integrator.rtol, values: [1e-3, 1e-4]}, {key: integrator.method, values: [cvode, ida]}]' 'repeat: 1'
+expect 0 study study.yaml --dry-run; no_err
+[ "$(grep -c missing stdout)" = 6 ] || complain "not 6 runs"
+[ ! -e out/study ] || complain "a dry run leaves a folder"
+expect 0 study study.yaml; err "out/study: 6 of 6 runs done (6 now), 0 failed"
+[ "$(cat out/study/runs/*/timings.json | grep -c '"cpu"')" = 4 ] || complain "not one timing for each cell"
+[ "$(ls out/study/runs/*/states.bin | wc -l)" = 6 ] || complain "not 6 files of states"
+expect 0 study study.yaml --quiet; no_err
+study 'axes: [{key: integrator.method, values: [ida, cvode, arkode]}, {key: integrator.rtol, values: [0.001, 1e-4]}]' 'repeat: 1'
+expect 0 study study.yaml -j 1; err "8 of 8 runs done (2 now)"
+expect 0 study status out/study; out "6 cells, 8 runs: 8 done, 0 failed, 0 missing"
+
+# Another study's folder is refused, and so is one that is in use.
+sed -i 's/which one/which other one/' study.yaml
+expect 3 study study.yaml -o out/study; err 'out/study: belongs to the study "which one"; choose another folder'
+sed -i 's/which other one/which one/' study.yaml
+sed 's/density: 1000/density: 1001/' model.yaml >other.yaml
+sed 's/model.yaml/other.yaml/' study.yaml >on_other.yaml
+expect 3 study on_other.yaml -o out/study; err "out/study: holds this study for another base"
+exec 9>>out/study/.lock
+flock 9
+expect 3 study study.yaml; err "out/study: another study is at work here"
+exec 9>&-
+
+# Failures: recorded with their reason, not repeated unless asked for, and no matter to the rest.
+study 'axes: [{key: integrator.max_steps, values: [none, 3]}]' 'reference: none'
+expect 1 study study.yaml -o f; err "1 of 2 runs done (2 now), 1 failed"; err "max_steps"
+expect 1 study study.yaml -o f; err "1 of 2 runs done (0 now), 1 failed"
+expect 1 study study.yaml -o f --retry-failed; err "1 of 2 runs done (1 now), 1 failed"
+expect 0 study status f; out "failed: "; out "1 done, 1 failed, 0 missing"
+study 'axes: [{key: boundary.0.group, values: [bse, base]}]' 'reference: none'
+expect 1 study study.yaml -o g; err "did you mean base?"
+grep -q '"exit_code": 3' g/runs/*/failure.json || complain "no exit code in failure.json"
+
+# Shards: between them, all of it.
+study 'axes: [{key: integrator.rtol, values: [1e-3, 1e-4, 1e-5]}]'
+for i in 1 2 3; do "$corot" study study.yaml -o shards --shard $i/3 -q 2>"shard$i" & done
+wait
+cat shard1 shard2 shard3 >stderr; what="three shards at once"; no_err
+expect 0 study status shards; out "5 runs: 5 done, 0 failed, 0 missing"
+
+# A full disk loses what was under way, and no more.
+if [ -w /dev/full ]; then
+  run=$(ls -d shards/runs/* | head -1)
+  rm "$run/result.json" && ln -s /dev/full "$run/result.json.tmp"
+  expect 5 study study.yaml -o shards; err "4 of 5 runs done (1 now), 0 failed"; err "No space left"
+  expect 0 study study.yaml -o shards; err "5 of 5 runs done (1 now), 0 failed"
+fi
+
+# Interrupted: what there is stays, and the exit code says by what.
+study 'axes: [{key: time.end, values: [1e6, 2e6, 0.01]}]' 'reference: none'
+for signal in INT:130 TERM:143; do
+  "$corot" study study.yaml -o i -j 3 >stdout 2>stderr &
+  what="interrupted study"
+  tries=0
+  until [ "$(ls i/runs/*/steps.csv 2>/dev/null | wc -l)" = 3 ] || [ $tries = 100 ]; do sleep 0.05; tries=$((tries + 1)); done
+  sleep 0.3
+  kill -"${signal%:*}" $!
+  wait $!
+  got=$?
+  [ $got = "${signal#*:}" ] || complain "signal ${signal%:*}: exit code $got"
+  err "the same command goes on from here"
+  expect 0 study status i; out "1 done, 0 failed, 2 missing"
+done
+exit $failed
