@@ -14,14 +14,6 @@ static corot_status check(const limit_def *d) {
   return COROT_OK;
 }
 
-static corot_status try_value(double value, limit_try *try, void *context, limit_result *r) {
-  limit_trial *trial = &r->trial[r->ntrial];
-  *trial = (limit_trial){.value = value};
-  COROT_TRY(try(context, trial));
-  r->ntrial++;
-  return COROT_OK;
-}
-
 /* The first unstable value and the one below it. */
 static void bracket(limit_result *r) {
   r->stable = 0;
@@ -39,18 +31,20 @@ static int by_value(const void *a, const void *b) {
 
 corot_status limit_find(const limit_def *def, limit_try *try, void *context, limit_result *out) {
   COROT_TRY(check(def));
-  limit_result r = {0};
+  limit_result r = {.ntrial = def->nscan};
   for (int i = 0; i < def->nscan; i++) {
     double part = (double)i / (def->nscan - 1);
-    double value = i == 0               ? def->from
-                   : i < def->nscan - 1 ? def->from * pow(def->to / def->from, part)
-                                        : def->to;
-    COROT_TRY(try_value(value, try, context, &r));
+    r.trial[i].value = i == 0               ? def->from
+                       : i < def->nscan - 1 ? def->from * pow(def->to / def->from, part)
+                                            : def->to;
   }
+  COROT_TRY(try(context, def->nscan, r.trial));
   bracket(&r);
   while (r.stable > 0 && isfinite(r.unstable) && r.unstable / r.stable - 1 > def->precision &&
          r.ntrial < LIMIT_TRIAL_MOST) {
-    COROT_TRY(try_value(sqrt(r.stable * r.unstable), try, context, &r));
+    limit_trial *trial = &r.trial[r.ntrial++];
+    *trial = (limit_trial){.value = sqrt(r.stable * r.unstable)};
+    COROT_TRY(try(context, 1, trial));
     bracket(&r);
   }
   qsort(r.trial, (size_t)r.ntrial, sizeof *r.trial, by_value);

@@ -13,8 +13,8 @@ typedef struct limit_trial {
   char reason[256]; /* where it is not stable: why */
 } limit_trial;
 
-/* Tries trial->value, and fills in the rest. A failure ends the search. */
-typedef corot_status limit_try(void *context, limit_trial *trial);
+/* Tries the values of some trials [n], and fills in the rest of each. A failure ends the search. */
+typedef corot_status limit_try(void *context, int n, limit_trial *trial);
 
 enum { LIMIT_SCAN_MOST = 64, LIMIT_TRIAL_MOST = 128 };
 
