@@ -107,8 +107,8 @@ extern const char *const scenario_load_words[];
 void scenario_destroy(scenario *s);
 
 /* The mesh with its groups, its refinement if the linear solver is to know it, else NULL, and the
-   model; all the caller's to destroy. COROT_EFORMAT: a message as above; a mesh that cannot be read
-   is one, too. */
+   model; all the caller's to destroy. Who has no use for the refinement passes NULL. COROT_EFORMAT:
+   a message as above; a mesh that cannot be read is one, too. */
 corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_refinement **refinement,
                             corot_model **model);
 

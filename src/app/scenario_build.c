@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "config.h"
 #include "refine.h"
-#include "scenario.h"
+#include "scenario_parts.h"
 #include "suggest.h"
 
 static config_node *place(const scenario *s, const char *path) {
@@ -44,13 +43,9 @@ static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *me
   return COROT_OK;
 }
 
-static bool solver_needs_refinement(const scenario *s) {
-  return strcmp(s->integrator.linear.preconditioner, "hierarchical") == 0;
-}
-
 static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
   if (s->refine == 0 && !s->coarse_strain) return COROT_OK;
-  bool needed = s->coarse_strain || solver_needs_refinement(s);
+  bool needed = s->coarse_strain || scenario_solves_by_levels(s);
   corot_status status = refine_mesh(s->refine, s->diagonal, mesh, needed ? refinement : NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
@@ -239,7 +234,7 @@ corot_status scenario_build(const scenario *s, corot_mesh **out, corot_refinemen
   corot_refinement *r = NULL;
   corot_status status = build_mesh(s, &mesh, &r);
   if (status == COROT_OK) status = build_model(s, mesh, r, model);
-  if (status != COROT_OK || !solver_needs_refinement(s)) {
+  if (status != COROT_OK || !refinement || !scenario_solves_by_levels(s)) {
     corot_refinement_destroy(r);
     r = NULL;
   }
@@ -248,6 +243,6 @@ corot_status scenario_build(const scenario *s, corot_mesh **out, corot_refinemen
     return status;
   }
   *out = mesh;
-  *refinement = r;
+  if (refinement) *refinement = r;
   return COROT_OK;
 }

@@ -95,17 +95,17 @@ static corot_status read_stages(config_node *node, corot_integrator_def *def) {
   return COROT_OK;
 }
 
-/* Its refinement is known when the mesh is. */
-static corot_status read_linear_solver(const scenario *s, config_node *node,
-                                       corot_linear_def *def) {
+bool scenario_solves_by_levels(const scenario *s) {
+  const char *preconditioner = s->integrator.linear.preconditioner;
+  return strcmp(preconditioner, "hierarchical") == 0 || strcmp(preconditioner, "multigrid") == 0;
+}
+
+static void read_linear_solver(config_node *node, corot_linear_def *def) {
   def->solver = text_at(node, "name");
   def->ordering = text_at(node, "ordering");
   def->factor = text_at(node, "factor");
   def->preconditioner = text_at(node, "preconditioner");
   def->tolerance = number_at(node, "tolerance");
-  if (s->refine == 0 && text_is(node, "preconditioner", "hierarchical"))
-    return config_fail(config_find(node, "preconditioner"), "hierarchical needs mesh.refine");
-  return COROT_OK;
 }
 
 static corot_tangent tangent_at(config_node *node) {
@@ -145,11 +145,14 @@ static corot_status read_integrator(scenario *s) {
   def.refactorisation = (int)number_at(node, "jacobian.refactorisation");
   def.gamma_change = number_at(node, "jacobian.gamma_change");
   def.convergence = number_at(node, "jacobian.convergence");
-  COROT_TRY(read_linear_solver(s, config_find(root, "linear_solver"), &def.linear));
+  read_linear_solver(config_find(root, "linear_solver"), &def.linear);
   COROT_TRY(read_controlled_step(node, &def));
   COROT_TRY(read_stages(node, &def));
   COROT_TRY(read_constant_step(node, &def));
   s->integrator = def;
+  if (s->refine == 0 && scenario_solves_by_levels(s))
+    return config_fail(config_find(root, "linear_solver.preconditioner"), "%s needs mesh.refine",
+                       def.linear.preconditioner);
   return COROT_OK;
 }
 

@@ -6,6 +6,33 @@
 
 /* --- Making it ------------------------------------------------------------------------------- */
 
+/* The tets of a level: node k of tet e is node k of its child 8 e + k, and so on down. */
+static corot_status level_tets(const corot_mesh *fine, const corot_refinement *r, int level,
+                               int (**out)[4]) {
+  int ntet = r->ntet[level], (*tet)[4];
+  COROT_TRY(COROT_ALLOC(tet, ntet));
+  for (int e = 0; e < ntet; e++)
+    for (int k = 0; k < 4; k++) {
+      int child = e;
+      for (int l = level; l < r->nlevel; l++) child = 8 * child + k;
+      tet[e][k] = fine->tet[child][k];
+    }
+  *out = tet;
+  return COROT_OK;
+}
+
+corot_status corot_coarsening_by_values(const corot_mesh *fine, const corot_refinement *r,
+                                        int level, coarsening *c, corot_mesh **mesh) {
+  int(*tet)[4] = NULL;
+  COROT_TRY(level_tets(fine, r, level, &tet));
+  corot_status status = corot_mesh_create(r->nnode[level], (const double(*)[3])fine->x,
+                                          r->ntet[level], (const int(*)[4])tet, mesh);
+  free(tet);
+  COROT_TRY(status);
+  *c = (coarsening){.nnode = r->nnode[level], .volume = 1};
+  return COROT_OK;
+}
+
 /* The middle, on the level after `level`, of the edge between two nodes; -1: there is none. */
 static int middle_of(const corot_refinement *r, int level, int a, int b) {
   int p = a < b ? a : b, q = a < b ? b : a, low = r->nnode[level], end = r->nnode[level + 1];
@@ -54,116 +81,114 @@ static void find_weights(int n, double *weight) {
       weight[place_of(n, i, j)] = triangles[(i == 0) + (j == 0) + (i + j == n)] / (3.0 * n * n);
 }
 
-/* The faces, and of which tets they are. */
-static int number_faces(int nside, const corot_face *side, int (*face)[4], int (*corner)[3]) {
+/* The faces as nodes, each once: opposite[e][k] is the face of tet e opposite to its node k. */
+static int number_faces(int nside, const corot_face *side, int (*corner)[3], int (*opposite)[4]) {
   int n = 0;
   for (int k = 0; k < nside; k++) {
     if (k == 0 || corot_face_compare(&side[k - 1], &side[k]) != 0)
       memcpy(corner[n++], side[k].v, sizeof *corner);
-    face[side[k].side / 4][side[k].side % 4] = n - 1;
+    opposite[side[k].side / 4][side[k].side % 4] = n - 1;
   }
   return n;
 }
 
-static corot_status fill(const corot_refinement *r, int level, const corot_face *side, int n,
-                         coarsening *c) {
-  int(*corner)[3];
-  COROT_TRY(COROT_ALLOC(c->face, c->ntet));
+/* The tets between centroids of faces; turned inside out, which a model does not mind. */
+static corot_status mesh_of_faces(const corot_mesh *fine, int ntet, const corot_face *side,
+                                  int (*corner)[3], corot_mesh *mesh) {
+  mesh->ntet = ntet;
+  COROT_TRY(COROT_ALLOC(mesh->tet, ntet));
+  mesh->nnode = number_faces(4 * ntet, side, corner, mesh->tet);
+  COROT_TRY(COROT_ALLOC(mesh->x, mesh->nnode));
+  for (int f = 0; f < mesh->nnode; f++)
+    for (int k = 0; k < 3; k++)
+      for (int i = 0; i < 3; i++) mesh->x[f][i] += fine->x[corner[f][k]][i] / 3;
+  return COROT_OK;
+}
+
+static corot_status points_of_faces(const corot_refinement *r, int level, const int (*corner)[3],
+                                    coarsening *c) {
+  int n = 1 << (r->nlevel - level);
+  c->npoint = (n + 1) * (n + 2) / 2;
   COROT_TRY(COROT_ALLOC(c->weight, c->npoint));
-  COROT_TRY(COROT_ALLOC(corner, 4 * (size_t)c->ntet));
-  c->nface = number_faces(4 * c->ntet, side, c->face, corner);
-  corot_status status = COROT_ALLOC(c->point, (size_t)c->nface * c->npoint);
-  for (int f = 0; !status && f < c->nface; f++) {
+  COROT_TRY(COROT_ALLOC(c->point, (size_t)c->nnode * c->npoint));
+  find_weights(n, c->weight);
+  for (int f = 0; f < c->nnode; f++) {
     int *point = c->point + (size_t)f * c->npoint;
     point[place_of(n, 0, 0)] = corner[f][0];
     point[place_of(n, n, 0)] = corner[f][1];
     point[place_of(n, 0, n)] = corner[f][2];
-    status = list_points(r, level, n, point);
+    COROT_TRY(list_points(r, level, n, point));
   }
-  free(corner);
-  find_weights(n, c->weight);
-  return status;
+  return COROT_OK;
 }
 
-void corot_coarsening_by_values(int nnode, coarsening *c) { *c = (coarsening){.nnode = nnode}; }
-
-corot_status corot_coarsening_by_means(const corot_refinement *r, int level, const int (*tet)[4],
-                                       coarsening *out) {
-  int n = 1 << (r->nlevel - level), ntet = r->ntet[level];
-  coarsening c = {.nnode = 4 * ntet, .ntet = ntet, .npoint = (n + 1) * (n + 2) / 2};
+/* What is made on the way, for one place to free it. */
+typedef struct draft {
+  int (*tet)[4], (*corner)[3];
   corot_face *side;
-  COROT_TRY(corot_faces_sort(r->nnode[level], ntet, tet, &side));
-  corot_status status = fill(r, level, side, n, &c);
-  free(side);
+  corot_mesh *mesh;
+  coarsening c;
+} draft;
+
+static corot_status fill(const corot_mesh *fine, const corot_refinement *r, int level, draft *d) {
+  int ntet = r->ntet[level];
+  COROT_TRY(level_tets(fine, r, level, &d->tet));
+  COROT_TRY(corot_faces_sort(r->nnode[level], ntet, (const int(*)[4])d->tet, &d->side));
+  COROT_TRY(COROT_ALLOC(d->corner, 4 * (size_t)ntet));
+  COROT_TRY(COROT_ALLOC(d->mesh, 1));
+  COROT_TRY(mesh_of_faces(fine, ntet, d->side, d->corner, d->mesh));
+  d->c = (coarsening){.nnode = d->mesh->nnode, .volume = 27};
+  return points_of_faces(r, level, (const int(*)[3])d->corner, &d->c);
+}
+
+corot_status corot_coarsening_by_means(const corot_mesh *fine, const corot_refinement *r, int level,
+                                       coarsening *c, corot_mesh **mesh) {
+  draft d = {0};
+  corot_status status = fill(fine, r, level, &d);
+  free(d.tet);
+  free(d.corner);
+  free(d.side);
   if (status) {
-    corot_coarsening_clear(&c);
+    corot_coarsening_clear(&d.c);
+    corot_mesh_destroy(d.mesh);
     return status;
   }
-  *out = c;
+  *c = d.c;
+  *mesh = d.mesh;
   return COROT_OK;
 }
 
 void corot_coarsening_clear(coarsening *c) {
-  free(c->face);
   free(c->point);
   free(c->weight);
   *c = (coarsening){0};
 }
 
 size_t corot_coarsening_bytes(const coarsening *c) {
-  return c->ntet * sizeof *c->face + (size_t)c->nface * c->npoint * sizeof *c->point +
-         c->npoint * sizeof *c->weight;
+  return (size_t)c->nnode * c->npoint * sizeof *c->point + c->npoint * sizeof *c->weight;
 }
 
 /* --- Using it -------------------------------------------------------------------------------- */
 
-static void coarsen_by_means(const coarsening *c, const double (*u)[4], double (*mean)[4],
-                             double *w) {
+void corot_coarsen(const coarsening *c, const double (*u)[4], double *w) {
   const int *point = c->point;
-  for (int f = 0; f < c->nface; f++, point += c->npoint) {
+  for (int n = 0; n < c->nnode; n++) {
     double sum[3] = {0, 0, 0};
+    if (!point) memcpy(sum, u[n], sizeof sum);
     for (int k = 0; k < c->npoint; k++)
       for (int i = 0; i < 3; i++) sum[i] += c->weight[k] * u[point[k]][i];
-    for (int i = 0; i < 3; i++) mean[f][i] = sum[i];
-  }
-  for (int e = 0; e < c->ntet; e++, w += 12) {
-    const int *f = c->face[e];
-    for (int i = 0; i < 3; i++) {
-      double sum = mean[f[0]][i] + mean[f[1]][i] + mean[f[2]][i] + mean[f[3]][i];
-      for (int j = 0; j < 4; j++) w[3 * j + i] = sum - 3 * mean[f[j]][i];
-    }
+    for (int i = 0; i < 3; i++) w[3 * n + i] = sum[i];
+    if (point) point += c->npoint;
   }
 }
 
-void corot_coarsen(const coarsening *c, const double (*u)[4], double (*mean)[4], double *w) {
-  if (c->ntet) {
-    coarsen_by_means(c, u, mean, w);
-    return;
-  }
-  for (int n = 0; n < c->nnode; n++)
-    for (int i = 0; i < 3; i++) w[3 * n + i] = u[n][i];
-}
-
-static void transposed_by_means(const coarsening *c, const double *g, double (*mean)[4],
-                                double (*f)[4]) {
-  memset(mean, 0, c->nface * sizeof *mean);
-  for (int e = 0; e < c->ntet; e++, g += 12)
-    for (int i = 0; i < 3; i++) {
-      double sum = g[i] + g[3 + i] + g[6 + i] + g[9 + i];
-      for (int j = 0; j < 4; j++) mean[c->face[e][j]][i] += sum - 3 * g[3 * j + i];
-    }
+void corot_coarsen_transposed(const coarsening *c, const double *g, double (*f)[4]) {
   const int *point = c->point;
-  for (int k = 0; k < c->nface; k++, point += c->npoint)
-    for (int p = 0; p < c->npoint; p++)
-      for (int i = 0; i < 3; i++) f[point[p]][i] += c->weight[p] * mean[k][i];
-}
-
-void corot_coarsen_transposed(const coarsening *c, const double *g, double (*mean)[4],
-                              double (*f)[4]) {
-  if (c->ntet) {
-    transposed_by_means(c, g, mean, f);
-    return;
+  for (int n = 0; n < c->nnode; n++, g += 3) {
+    if (!point)
+      for (int i = 0; i < 3; i++) f[n][i] += g[i];
+    for (int k = 0; k < c->npoint; k++)
+      for (int i = 0; i < 3; i++) f[point[k]][i] += c->weight[k] * g[i];
+    if (point) point += c->npoint;
   }
-  for (int n = 0; n < c->nnode; n++)
-    for (int i = 0; i < 3; i++) f[n][i] += g[3 * n + i];
 }

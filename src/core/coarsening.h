@@ -1,14 +1,14 @@
 /* How the tets of a coarser level see a field on the finest one: the linear map L from the nodes of
-   the finest level to those of a part (levels.h).
+   the finest level to those of a part (levels.h), and the part's mesh.
 
-   By values, the part's nodes are the first ones of the finest level, and L reads their values.
+   By values: the nodes of a level are the first ones of the finest, and L reads their values.
 
-   By means, each of the part's tets has four nodes of its own, with the values of the affine field
-   that has the mean gradient of the field over the tet. By Gauss's theorem it follows from the
-   means u_f over the four faces, grad = -3 sum u_f (x) grad lambda_f (Crouzeix & Raviart 1973), and
-   its value at node j is sum u_f - 3 u_j, u_j that of the face opposite to it. The mean over a face
-   is that of its n^2 triangles, n = 2^(levels between), each the mean of its corners. Of a field
-   that is affine on the tet, w are its own values there. */
+   By means: L takes the mean over each face of the level's tets, that is, of the n^2 triangles into
+   which the finest level cuts it, each the mean of its corners. By Gauss's theorem the mean
+   gradient over a tet follows from those over its faces, and it is the gradient of the affine field
+   that has these values at the centroids of the faces (Crouzeix & Raviart 1973). So the part's
+   nodes are these centroids, and its tets the tets between the four of each, with a 27th of the
+   volume. */
 #ifndef COROT_CORE_COARSENING_H
 #define COROT_CORE_COARSENING_H
 
@@ -16,30 +16,28 @@
 #include <stddef.h>
 
 typedef struct coarsening {
-  int nnode; /* of the part */
-  int ntet;  /* of the part, by means; 0: by values */
-  int nface;
-  int (*face)[4]; /* [ntet] the face opposite to each node */
-  int npoint;     /* nodes of the finest level on a face */
-  int *point;     /* [nface][npoint] */
+  int nnode;      /* of the part */
+  double volume;  /* of the level's tets, that of the part's being one */
+  int npoint;     /* by means: nodes of the finest level on a face; else 0 */
+  int *point;     /* [nnode][npoint] */
   double *weight; /* [npoint] they sum to one */
 } coarsening;
 
-void corot_coarsening_by_values(int nnode, coarsening *c);
-
-/* For the tets of `level` < nlevel. COROT_EINVAL: the refinement lacks the middle of an edge. */
-corot_status corot_coarsening_by_means(const corot_refinement *r, int level, const int (*tet)[4],
-                                       coarsening *c);
+/* L, and the mesh of `level`, tet by tet; `fine` is the finest one. By means, level < nlevel, and
+   COROT_EINVAL if the refinement lacks the middle of an edge. */
+corot_status corot_coarsening_by_values(const corot_mesh *fine, const corot_refinement *r,
+                                        int level, coarsening *c, corot_mesh **mesh);
+corot_status corot_coarsening_by_means(const corot_mesh *fine, const corot_refinement *r, int level,
+                                       coarsening *c, corot_mesh **mesh);
 
 void corot_coarsening_clear(coarsening *c);
 
 size_t corot_coarsening_bytes(const coarsening *c);
 
-/* w [nnode][3] = L u; `mean` [nface] is for scratch. */
-void corot_coarsen(const coarsening *c, const double (*u)[4], double (*mean)[4], double *w);
+/* w [nnode][3] = L u */
+void corot_coarsen(const coarsening *c, const double (*u)[4], double *w);
 
 /* f += L' g for g [nnode][3]. */
-void corot_coarsen_transposed(const coarsening *c, const double *g, double (*mean)[4],
-                              double (*f)[4]);
+void corot_coarsen_transposed(const coarsening *c, const double *g, double (*f)[4]);
 
 #endif

@@ -32,7 +32,8 @@ typedef struct levels {
   corot_model *framer;  /* the frame level, the model's measure: `linear` if it is level 0 */
   coarsening to_coarse; /* and to `linear` */
   coarsening to_framer; /* if it is not `linear` */
-  int *above;           /* [tets.nblock * W] the framer's tet over each, as block * W + lane */
+  int *above; /* [tets.nblock] the framer's tet over those of a block, as block * W + lane; NULL:
+                 its tets are the model's */
   int *place; /* [coarse->pattern.nblock] where its blocks are in the pattern; NULL: they are not
                  in the matrices */
 } levels;
@@ -50,7 +51,6 @@ typedef struct levels_state {
   level_fields on_coarse;                /* of coarse and linear */
   level_fields on_framer;                /* the same arrays if the framer is linear */
   double *r;                             /* [3 nnode] force of coarse or linear */
-  double (*mean)[4];                     /* [nface] of the level that has more faces: scratch */
   double (*nodal)[4];                    /* [the model's nnode] the parts' force */
   double (*K)[9], (*D)[9];               /* [coarse->pattern.nblock] of a part; NULL, see place */
   size_t bytes;                          /* of these arrays */
@@ -58,6 +58,9 @@ typedef struct levels_state {
 
 /* Whether the definition is sound, and the mesh the refined one. */
 corot_status corot_levels_check(const corot_hierarchy_def *def, const corot_mesh *mesh);
+
+/* So many of the mesh's tets, from the first one on, have one frame. The definition may be NULL. */
+int corot_levels_together(const corot_hierarchy_def *def);
 
 /* m->levels, once strain, materials and tets are known; of_tet [ntet] says what each is made of. */
 corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_tet, corot_model *m);
@@ -88,8 +91,8 @@ void corot_levels_stand_still(levels_state *ls);
 /* --- Evaluations; s->u and, where it matters, s->v are set ----------------------------------- */
 
 /* A nodal field as the parts see it. */
-void corot_levels_coarsen(const levels *l, levels_state *ls, const double (*field)[4],
-                          double *on_coarse, double *on_framer);
+void corot_levels_coarsen(const levels *l, const double (*field)[4], double *on_coarse,
+                          double *on_framer);
 
 /* The displacement as the parts see it, and the frames of time t into s->R. */
 corot_status corot_levels_hand_down(const corot_model *m, corot_state *s, double t);

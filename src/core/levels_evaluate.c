@@ -20,42 +20,25 @@ static corot_status frames_now(const corot_model *m, corot_state *s, mat3 *R) {
   return COROT_OK;
 }
 
-/* Matrices of the framer's tets to the lanes below them. */
-static void spread_down(const corot_model *m, const mat3 *from, mat3 *to) {
-  const int *above = m->levels->above;
-  for (int b = 0; b < m->tets.nblock; b++)
-    for (int l = 0; l < W; l++) {
-      int k = above[b * W + l];
-      EACH_IJ to[b].m[i][j][l] = from[k / W].m[i][j][k % W];
-    }
+void corot_levels_coarsen(const levels *l, const double (*field)[4], double *on_coarse,
+                          double *on_framer) {
+  corot_coarsen(&l->to_coarse, field, on_coarse);
+  if (on_framer != on_coarse) corot_coarsen(&l->to_framer, field, on_framer);
 }
 
-/* Vectors of the model's tets summed over those below each of the framer's. */
-static void sum_up(const corot_model *m, const vec3 *from, vec3 *to) {
-  const int *above = m->levels->above;
-  memset(to, 0, m->levels->framer->tets.nblock * sizeof *to);
-  for (int b = 0; b < m->tets.nblock; b++)
-    for (int l = 0; l < m->tets.block[b].ntet; l++) {
-      int k = above[b * W + l];
-      for (int c = 0; c < 3; c++) to[k / W].v[c][k % W] += from[b].v[c][l];
-    }
-}
-
-void corot_levels_coarsen(const levels *l, levels_state *ls, const double (*field)[4],
-                          double *on_coarse, double *on_framer) {
-  corot_coarsen(&l->to_coarse, field, ls->mean, on_coarse);
-  if (on_framer != on_coarse) corot_coarsen(&l->to_framer, field, ls->mean, on_framer);
+/* The displacement as the parts see it, and the framer's frames of time t. */
+static corot_status find_frames(const corot_model *m, corot_state *s, double t) {
+  const levels *l = m->levels;
+  levels_state *ls = s->levels;
+  corot_levels_coarsen(l, (const double(*)[4])s->u, ls->on_coarse.u, ls->on_framer.u);
+  corot_state_displace(l->framer, ls->framer, t, ls->on_framer.u);
+  corot_status status = frames_now(l->framer, ls->framer, ls->framer->now_R);
+  return part_status(l, s, l->frame_level, ls->framer, status);
 }
 
 corot_status corot_levels_hand_down(const corot_model *m, corot_state *s, double t) {
-  const levels *l = m->levels;
-  levels_state *ls = s->levels;
-  const double(*u)[4] = (const double(*)[4])s->u;
-  corot_levels_coarsen(l, ls, u, ls->on_coarse.u, ls->on_framer.u);
-  corot_state_displace(l->framer, ls->framer, t, ls->on_framer.u);
-  corot_status status = frames_now(l->framer, ls->framer, ls->framer->now_R);
-  COROT_TRY(part_status(l, s, l->frame_level, ls->framer, status));
-  spread_down(m, ls->framer->now_R, s->R);
+  COROT_TRY(find_frames(m, s, t));
+  corot_kernel_hand_down(m, s);
   return COROT_OK;
 }
 
@@ -76,6 +59,13 @@ static corot_status add_turning(const corot_model *m, corot_state *s, double t,
   return COROT_OK;
 }
 
+/* The kernels of the model's tets add to them. */
+static void clear_moments(const corot_model *m, levels_state *ls) {
+  size_t nblock = m->levels->framer->tets.nblock;
+  memset(ls->framer->moment, 0, nblock * sizeof *ls->framer->moment);
+  memset(ls->framer->dmoment, 0, nblock * sizeof *ls->framer->dmoment);
+}
+
 /* Frames that are held do not turn with u. */
 static bool turning(const corot_model *m, const corot_state *s) {
   return m->levels->turning && s->levels->frames == COROT_FRAMES_EXACT;
@@ -90,9 +80,8 @@ static void clear_sums(const levels *l, levels_state *ls) {
 static void gather_parts(const corot_model *m, levels_state *ls) {
   const levels *l = m->levels;
   memset(ls->nodal, 0, m->mesh->nnode * sizeof *ls->nodal);
-  corot_coarsen_transposed(&l->to_coarse, ls->on_coarse.sum, ls->mean, ls->nodal);
-  if (l->framer != l->linear)
-    corot_coarsen_transposed(&l->to_framer, ls->on_framer.sum, ls->mean, ls->nodal);
+  corot_coarsen_transposed(&l->to_coarse, ls->on_coarse.sum, ls->nodal);
+  if (l->framer != l->linear) corot_coarsen_transposed(&l->to_framer, ls->on_framer.sum, ls->nodal);
 }
 
 /* Coarse less linear force. */
@@ -116,13 +105,10 @@ static corot_status parts_force(const corot_model *m, corot_state *s, double t, 
   const levels *l = m->levels;
   levels_state *ls = s->levels;
   const double(*v)[4] = (const double(*)[4])s->v;
-  if (damped) corot_levels_coarsen(l, ls, v, ls->on_coarse.v, ls->on_framer.v);
+  if (damped) corot_levels_coarsen(l, v, ls->on_coarse.v, ls->on_framer.v);
   clear_sums(l, ls);
   COROT_TRY(coarse_force(m, s, t));
-  if (turning(m, s)) {
-    sum_up(m, s->moment, ls->framer->moment);
-    COROT_TRY(add_turning(m, s, t, corot_kernel_turning_force));
-  }
+  if (turning(m, s)) COROT_TRY(add_turning(m, s, t, corot_kernel_turning_force));
   gather_parts(m, ls);
   return COROT_OK;
 }
@@ -138,7 +124,8 @@ static void add_parts(const corot_model *m, corot_state *s) {
 }
 
 corot_status corot_levels_force(const corot_model *m, corot_state *s, double t, bool damped) {
-  COROT_TRY(corot_levels_hand_down(m, s, t));
+  COROT_TRY(find_frames(m, s, t));
+  clear_moments(m, s->levels);
   COROT_TRY(corot_sum_forces(m, s, t, corot_kernel_handed_force, damped));
   COROT_TRY(parts_force(m, s, t, damped));
   add_parts(m, s);
@@ -148,7 +135,8 @@ corot_status corot_levels_force(const corot_model *m, corot_state *s, double t, 
 corot_status corot_levels_nodal_force(const corot_model *m, corot_state *s, double t, bool damped,
                                       double (*f)[4]) {
   const double(*parts)[4] = (const double(*)[4])s->levels->nodal;
-  COROT_TRY(corot_levels_hand_down(m, s, t));
+  COROT_TRY(find_frames(m, s, t));
+  clear_moments(m, s->levels);
   COROT_TRY(corot_nodal_forces(m, s, corot_kernel_handed_force, damped, f));
   COROT_TRY(parts_force(m, s, t, damped));
   for (int n = 0; n < m->mesh->nnode; n++)
@@ -181,8 +169,6 @@ static corot_status parts_derivative(const corot_model *m, corot_state *s, doubl
   clear_sums(m->levels, ls);
   COROT_TRY(coarse_derivative(m, s, t, tangent));
   if (turning(m, s) && tangent > COROT_TANGENT_HELD) {
-    sum_up(m, s->moment, ls->framer->moment);
-    sum_up(m, s->dmoment, ls->framer->dmoment);
     corot_model_spread(m->levels->framer, ls->on_framer.du, ls->framer->du[0], 4);
     COROT_TRY(add_turning(m, s, t, corot_kernel_turning_derivative));
   }
@@ -196,16 +182,16 @@ corot_status corot_levels_derivative(const corot_model *m, corot_state *s, doubl
   levels_state *ls = s->levels;
   corot_state *fs = ls->framer;
   const level_fields *c = &ls->on_coarse, *f = &ls->on_framer;
-  COROT_TRY(corot_levels_hand_down(m, s, t));
-  corot_levels_coarsen(l, ls, (const double(*)[4])s->v, c->v, f->v);
-  corot_levels_coarsen(l, ls, (const double(*)[4])s->du, c->du, f->du);
-  corot_levels_coarsen(l, ls, (const double(*)[4])s->dv, c->dv, f->dv);
+  COROT_TRY(find_frames(m, s, t));
+  clear_moments(m, ls);
+  corot_levels_coarsen(l, (const double(*)[4])s->v, c->v, f->v);
+  corot_levels_coarsen(l, (const double(*)[4])s->du, c->du, f->du);
+  corot_levels_coarsen(l, (const double(*)[4])s->dv, c->dv, f->dv);
   if (tangent > COROT_TANGENT_HELD) {
     corot_model_spread(l->framer, f->du, fs->du[0], 4);
     corot_kernel_frames_change(l->framer, fs);
-    spread_down(m, fs->dR, s->dR);
   } else {
-    memset(s->dR, 0, m->tets.nblock * sizeof *s->dR);
+    memset(fs->dR, 0, l->framer->tets.nblock * sizeof *fs->dR);
   }
   bool damped = m->damped && !s->still;
   COROT_TRY(corot_sum_forces(m, s, t, corot_kernel_handed_derivative, damped));
@@ -254,7 +240,7 @@ corot_status corot_levels_energy(const corot_model *m, corot_state *s, double t,
   double coarse[2] = {0}, linear[2] = {0}, fine[2];
   COROT_TRY(corot_levels_hand_down(m, s, t));
   const level_fields *f = &ls->on_coarse;
-  if (damped) corot_levels_coarsen(l, ls, (const double(*)[4])s->v, f->v, ls->on_framer.v);
+  if (damped) corot_levels_coarsen(l, (const double(*)[4])s->v, f->v, ls->on_framer.v);
   COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, damped, &fine[0], &fine[1])));
   if (!l->same) {
     corot_status status = part_energy(l->coarse, ls->coarse, t, f, damped, &coarse[0], &coarse[1]);

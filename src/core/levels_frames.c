@@ -65,8 +65,8 @@ corot_status corot_levels_frames_spin(const corot_model *m, corot_state *s, doub
   part parts[3];
   int n = list_parts(m, s, parts);
   const level_fields *c = &ls->on_coarse, *f = &ls->on_framer;
-  corot_levels_coarsen(m->levels, ls, (const double(*)[4])s->u, c->u, f->u);
-  corot_levels_coarsen(m->levels, ls, (const double(*)[4])s->v, c->v, f->v);
+  corot_levels_coarsen(m->levels, (const double(*)[4])s->u, c->u, f->u);
+  corot_levels_coarsen(m->levels, (const double(*)[4])s->v, c->v, f->v);
   for (int k = 0; k < n; k++)
     COROT_TRY(corot_frames_spin(parts[k].model, parts[k].state, t, parts[k].fields->u,
                                 parts[k].fields->v, spin_max));

@@ -15,19 +15,17 @@ static corot_status allocate(const corot_model *m, levels_state *ls) {
   const levels *l = m->levels;
   size_t n = l->coarse->ndof, nf = l->framer == l->linear ? 0 : l->framer->ndof;
   size_t nblock = l->place ? l->coarse->pattern.nblock : 0, nnode = m->mesh->nnode;
-  size_t nface = l->to_coarse.nface > l->to_framer.nface ? l->to_coarse.nface : l->to_framer.nface;
   COROT_TRY(allocate_fields((int)n, &ls->on_coarse));
   ls->on_framer = ls->on_coarse;
   if (nf) COROT_TRY(allocate_fields((int)nf, &ls->on_framer));
   ls->r = calloc(n, sizeof *ls->r);
-  ls->nodal = calloc(nnode + nface, sizeof *ls->nodal);
+  ls->nodal = calloc(nnode, sizeof *ls->nodal);
   if (nblock) ls->K = malloc(2 * nblock * sizeof *ls->K);
   if (!ls->r || !ls->nodal || (nblock && !ls->K))
     return corot_fail(COROT_ENOMEM, "no memory for the forces on %zu nodes", nnode);
-  ls->mean = ls->nodal + nnode;
   if (nblock) ls->D = ls->K + nblock;
-  ls->bytes = (6 * n + 5 * nf) * sizeof *ls->r + (nnode + nface) * sizeof *ls->nodal +
-              2 * nblock * sizeof *ls->K;
+  ls->bytes =
+      (6 * n + 5 * nf) * sizeof *ls->r + nnode * sizeof *ls->nodal + 2 * nblock * sizeof *ls->K;
   return COROT_OK;
 }
 

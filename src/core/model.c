@@ -228,7 +228,7 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   if (!of_tet) return corot_fail(COROT_ENOMEM, "no memory for %d tets", m->mesh->ntet);
   corot_status status = assign_materials(def, m, of_tet);
   if (!status)
-    status = corot_tets_create(m->mesh, m->nmaterial, of_tet,
+    status = corot_tets_create(m->mesh, m->nmaterial, of_tet, corot_levels_together(def->hierarchy),
                                strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
   if (!status && def->hierarchy && def->hierarchy->refinement->nlevel > 0)
     status = corot_levels_create(def->hierarchy, of_tet, m);

@@ -6,6 +6,7 @@
 
 #include "solve/linsol.h"
 #include "solve/linsol_graph.h"
+#include "solve/linsol_multilevel.h"
 
 #ifdef COROT_HAVE_CHOLMOD
 enum { HAVE_CHOLMOD = 1 };
@@ -21,14 +22,14 @@ enum { NORDERING = 1 };
 
 /* The names that a choice has beside auto, and how it is called. */
 typedef struct choice {
-  const char *what, *name[4]; /* up to a NULL */
+  const char *what, *name[5]; /* up to a NULL */
 } choice;
 
 static const choice solvers = {"linear solver", {"klu", "cholmod", "pcg"}};
 static const choice orderings = {"ordering", {"amd", "metis"}};
 static const choice factors = {"factor", {"simplicial", "supernodal"}};
-static const choice preconditioners = {"preconditioner",
-                                       {"block-jacobi", "incomplete-cholesky", "hierarchical"}};
+static const choice preconditioners = {
+    "preconditioner", {"block-jacobi", "incomplete-cholesky", "hierarchical", "multigrid"}};
 
 const char *const corot_linsol_direct = HAVE_CHOLMOD ? "cholmod" : "klu";
 
@@ -72,6 +73,7 @@ static const struct full_name {
     {"pcg, block-jacobi", "pcg", NULL, "block-jacobi", NULL},
     {"pcg, incomplete-cholesky", "pcg", NULL, "incomplete-cholesky", NULL},
     {"pcg, hierarchical", "pcg", NULL, "hierarchical", NULL},
+    {"pcg, multigrid", "pcg", NULL, "multigrid", NULL},
 };
 
 static bool fits(const char *wanted, const char *chosen) {
@@ -98,9 +100,10 @@ static corot_status find(linsol_plan *plan) {
 }
 
 static corot_status check_refinement(const corot_linear_def *d) {
-  bool needed = strcmp(d->solver, "pcg") == 0 && strcmp(d->preconditioner, "hierarchical") == 0;
+  bool needed = strcmp(d->solver, "pcg") == 0 && corot_multilevel_find(d->preconditioner);
   if (!needed || d->refinement) return COROT_OK;
-  return corot_fail(COROT_EINVAL, "preconditioner hierarchical: the mesh has no refinement");
+  return corot_fail(COROT_EINVAL, "preconditioner %s: the mesh has no refinement",
+                    d->preconditioner);
 }
 
 /* The given ordering, or the one of fewest operations. */

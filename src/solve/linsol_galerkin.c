@@ -171,7 +171,7 @@ static size_t block_count(const galerkin_level *level) {
 static corot_status make_level(const galerkin *g, galerkin_level *fine, galerkin_level *coarse) {
   COROT_TRY(make_pattern(g, fine, coarse));
   fine->to = malloc((block_count(fine) + 1) * sizeof *fine->to);
-  coarse->value = malloc((9 * block_count(coarse) + 1) * sizeof *coarse->value);
+  coarse->value = calloc(9 * block_count(coarse) + 3, sizeof *coarse->value);
   if (!fine->to || !coarse->value)
     return corot_fail(COROT_ENOMEM, "no memory for a matrix of %zu blocks", block_count(fine));
   place_blocks(g, fine, coarse);
@@ -262,4 +262,16 @@ static COROT_CLONES void restrict_to(const galerkin *g, const galerkin_level *fi
 
 void corot_galerkin_load(galerkin *g) {
   for (int l = g->nlevel; l > 0; l--) restrict_to(g, &g->level[l], &g->level[l - 1]);
+}
+
+int corot_galerkin_invert(const galerkin *g, int l, int first, double (*inverse)[9]) {
+  const galerkin_level *level = &g->level[l];
+  for (int i = first; i < level->n; i++) {
+    double D[9];
+    memcpy(D, level->value + 9 * (size_t)i, sizeof D);
+    for (int c = 0; c < 3; c++)
+      if (g->held[i] >> c & 1) D[4 * c] = 1;
+    if (!corot_nodes_invert(D, inverse[i - first])) return i;
+  }
+  return -1;
 }

@@ -13,7 +13,7 @@
 typedef struct galerkin_level {
   int n;             /* nodes that have a free component: the first ones of all finer levels */
   int *colptr, *row; /* [n + 1], [colptr[n]] blocks below the diagonal, as in node_matrix */
-  double *value;     /* blocks of 9, those of the diagonal first, as in node_matrix */
+  double *value;     /* blocks of 9 and 3 more, as in node_matrix */
   int (*to)[4];      /* of each block, where its parts go on the next coarser level: twice a block,
                         plus one where it is transposed; -1: nowhere */
 } galerkin_level;
@@ -35,6 +35,10 @@ void corot_galerkin_clear(galerkin *g);
 
 /* The values of the coarser levels, those of A being loaded and not scaled. */
 void corot_galerkin_load(galerkin *g);
+
+/* inverse [level[l].n - first]: of the diagonal blocks of level l from node `first` on, where held
+   components count as one. Returns the node whose block is not positive definite; -1: none. */
+int corot_galerkin_invert(const galerkin *g, int l, int first, double (*inverse)[9]);
 
 /* The block of a level at row i and column j <= i, which must be there. */
 int corot_galerkin_find(const galerkin_level *level, int i, int j);

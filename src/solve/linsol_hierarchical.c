@@ -1,52 +1,63 @@
-#include "solve/linsol_hierarchical.h"
-
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/simd.h"
+#include "solve/linsol_multilevel.h"
 
-corot_status corot_hierarchical_create(const corot_csc *csc, const node_matrix *A,
-                                       const corot_refinement *refinement, hierarchical *h) {
-  *h = (hierarchical){.A = A, .csc = csc};
-  COROT_TRY(corot_galerkin_create(csc, A, refinement, &h->levels));
-  size_t n = A->n, later = n - h->levels.level[0].n;
-  h->inverse = malloc((later + 1) * sizeof *h->inverse);
-  h->v = malloc((n + 1) * sizeof *h->v);
-  if (!h->inverse || !h->v)
+typedef struct basis {
+  const corot_csc *csc;
+  const node_matrix *A;
+  galerkin levels;
+  coarse_level coarse;
+  double (*inverse)[9]; /* [nodes not of level 0] of their blocks of D */
+  double (*v)[3];       /* [nodes + 1] the last stands for all that are wholly held */
+} basis;
+
+static void basis_destroy(void *self) {
+  basis *b = self;
+  if (!b) return;
+  corot_galerkin_clear(&b->levels);
+  corot_coarse_clear(&b->coarse);
+  free(b->inverse);
+  free(b->v);
+  free(b);
+}
+
+static corot_status fill(const corot_refinement *refinement, basis *b) {
+  COROT_TRY(corot_galerkin_create(b->csc, b->A, refinement, &b->levels));
+  size_t n = b->A->n, later = n - b->levels.level[0].n;
+  b->inverse = malloc((later + 1) * sizeof *b->inverse);
+  b->v = malloc((n + 1) * sizeof *b->v);
+  if (!b->inverse || !b->v)
     return corot_fail(COROT_ENOMEM, "no memory for the hierarchical basis of %zu nodes", n);
-  return corot_coarse_create(csc, A, &h->levels.level[0], &h->coarse);
+  return corot_coarse_create(b->csc, b->A, &b->levels.level[0], &b->coarse);
 }
 
-void corot_hierarchical_clear(hierarchical *h) {
-  corot_galerkin_clear(&h->levels);
-  corot_coarse_clear(&h->coarse);
-  free(h->inverse), free(h->v);
-}
-
-/* --- factors --- */
-
-static corot_status invert_blocks(hierarchical *h) {
-  const galerkin *g = &h->levels;
-  int i = g->level[0].n;
-  double(*inverse)[9] = h->inverse;
-  for (int l = 1; l <= g->nlevel; l++)
-    for (; i < g->level[l].n; i++, inverse++) {
-      double D[9];
-      memcpy(D, g->level[l].value + 9 * (size_t)i, sizeof D);
-      for (int c = 0; c < 3; c++)
-        if (g->held[i] >> c & 1) D[4 * c] = 1;
-      if (!corot_nodes_invert(D, *inverse)) return corot_nodes_indefinite(h->A, h->csc, i);
-    }
+static corot_status basis_create(const corot_csc *csc, const node_matrix *A,
+                                 const corot_refinement *refinement, void **self) {
+  basis *b = calloc(1, sizeof *b);
+  if (!b) return corot_fail(COROT_ENOMEM, "no memory for a hierarchical basis");
+  b->csc = csc, b->A = A;
+  corot_status status = fill(refinement, b);
+  if (status) {
+    basis_destroy(b);
+    return status;
+  }
+  *self = b;
   return COROT_OK;
 }
 
-corot_status corot_hierarchical_factor(hierarchical *h) {
-  corot_galerkin_load(&h->levels);
-  COROT_TRY(invert_blocks(h));
-  return corot_coarse_factor(&h->coarse);
+static corot_status basis_factor(void *self) {
+  basis *b = self;
+  const galerkin *g = &b->levels;
+  int n0 = g->level[0].n;
+  corot_galerkin_load(&b->levels);
+  for (int l = 1; l <= g->nlevel; l++) {
+    int first = g->level[l - 1].n, at = corot_galerkin_invert(g, l, first, b->inverse + first - n0);
+    if (at >= 0) return corot_nodes_indefinite(b->A, b->csc, at);
+  }
+  return corot_coarse_factor(&b->coarse);
 }
-
-/* --- products --- */
 
 static void clear_held(int held, double v[3]) {
   for (int c = 0; c < 3; c++)
@@ -78,14 +89,17 @@ static COROT_CLONES void ascend(const galerkin *g, double (*v)[3]) {
   }
 }
 
-corot_status corot_hierarchical_apply(hierarchical *h, const double *r, double *z) {
-  int n = h->levels.n;
-  memcpy(h->v, r, n * sizeof *h->v);
-  memset(h->v[n], 0, sizeof *h->v);
-  descend(&h->levels, (const double(*)[9])h->inverse, h->v);
-  COROT_TRY(corot_coarse_solve(&h->coarse, h->v));
-  memset(h->v[n], 0, sizeof *h->v);
-  ascend(&h->levels, h->v);
-  memcpy(z, h->v, n * sizeof *h->v);
+static corot_status basis_apply(void *self, const double *r, double *z) {
+  basis *b = self;
+  int n = b->levels.n;
+  memcpy(b->v, r, n * sizeof *b->v);
+  descend(&b->levels, (const double(*)[9])b->inverse, b->v);
+  COROT_TRY(corot_coarse_solve(&b->coarse, b->v));
+  memset(b->v[n], 0, sizeof *b->v);
+  ascend(&b->levels, b->v);
+  memcpy(z, b->v, n * sizeof *b->v);
   return COROT_OK;
 }
+
+const multilevel_ops corot_hierarchical_basis = {"hierarchical", basis_create, basis_factor,
+                                                 basis_apply, basis_destroy};

@@ -3,7 +3,7 @@
 
    The preconditioner C C' or C (I + L)(I + L') C' is applied to the system from both sides, so
    that what SUNDIALS sees has none: with incomplete Cholesky an iteration then costs one product.
-   With that of the hierarchical basis C is I, and SUNDIALS applies it. */
+   Those of a refined mesh SUNDIALS applies, and C is I. */
 #include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -12,17 +12,16 @@
 #include <sunlinsol/sunlinsol_pcg.h>
 
 #include "solve/linsol.h"
-#include "solve/linsol_hierarchical.h"
+#include "solve/linsol_multilevel.h"
 #include "solve/sun_compat.h"
-
-typedef enum preconditioner { BLOCK_JACOBI, INCOMPLETE_CHOLESKY, HIERARCHICAL } preconditioner;
 
 typedef struct pcg {
   const corot_csc *csc;
   node_matrix A;
-  preconditioner by;
-  hierarchical levels; /* HIERARCHICAL only */
-  corot_status status; /* of the last product with it */
+  bool cholesky;             /* or else Jacobi, if `ops` is NULL */
+  const multilevel_ops *ops; /* of what works by levels */
+  void *levels;
+  corot_status status; /* of its last product */
   bool factored;
   double tolerance; /* of the residual, relative to the right-hand side */
   long iterations;
@@ -38,7 +37,7 @@ static int multiply(void *data, N_Vector x, N_Vector y) {
   pcg *p = data;
   const double *in = N_VGetArrayPointer(x);
   double *out = N_VGetArrayPointer(y), curvature = 0;
-  (p->by == INCOMPLETE_CHOLESKY ? corot_nodes_sandwich : corot_nodes_multiply)(&p->A, in, out);
+  (p->cholesky ? corot_nodes_sandwich : corot_nodes_multiply)(&p->A, in, out);
   for (int i = 0; i < 3 * p->A.n; i++) curvature += in[i] * out[i];
   p->curvature = curvature;
   return curvature > 0 ? 0 : 1;
@@ -48,7 +47,7 @@ static int multiply(void *data, N_Vector x, N_Vector y) {
 static int apply(void *data, N_Vector r, N_Vector z, sunrealtype tolerance, int side) {
   pcg *p = data;
   (void)tolerance, (void)side;
-  p->status = corot_hierarchical_apply(&p->levels, N_VGetArrayPointer(r), N_VGetArrayPointer(z));
+  p->status = p->ops->apply(p->levels, N_VGetArrayPointer(r), N_VGetArrayPointer(z));
   return p->status;
 }
 
@@ -59,7 +58,7 @@ static void pcg_destroy(void *solver) {
   if (p->from) N_VDestroy(p->from);
   if (p->to) N_VDestroy(p->to);
   if (p->ctx) SUNContext_Free(&p->ctx);
-  corot_hierarchical_clear(&p->levels);
+  if (p->ops) p->ops->destroy(p->levels);
   corot_nodes_clear(&p->A);
   free(p->b);
   free(p);
@@ -68,18 +67,16 @@ static void pcg_destroy(void *solver) {
 static bool make_cg(pcg *p) {
   /* in exact arithmetic as many iterations as unknowns suffice; rounding may ask for some more */
   int most = 30 * p->A.n + 100;
-  bool left = p->by == HIERARCHICAL;
-  p->cg = SUNLinSol_PCG(p->to, left ? SUN_PREC_LEFT : SUN_PREC_NONE, most, p->ctx);
+  p->cg = SUNLinSol_PCG(p->to, p->ops ? SUN_PREC_LEFT : SUN_PREC_NONE, most, p->ctx);
   return p->cg && !SUNLinSolSetATimes(p->cg, p, multiply) &&
-         (!left || !SUNLinSolSetPreconditioner(p->cg, p, NULL, apply)) &&
+         (!p->ops || !SUNLinSolSetPreconditioner(p->cg, p, NULL, apply)) &&
          !SUNLinSolInitialize(p->cg);
 }
 
 static corot_status prepare(pcg *p, const corot_refinement *refinement) {
   COROT_TRY(corot_nodes_create(p->csc, &p->A));
   corot_nodes_keep(&p->A);
-  if (p->by == HIERARCHICAL)
-    COROT_TRY(corot_hierarchical_create(p->csc, &p->A, refinement, &p->levels));
+  if (p->ops) COROT_TRY(p->ops->create(p->csc, &p->A, refinement, &p->levels));
   int n = 3 * p->A.n;
   p->b = malloc(4 * (size_t)n * sizeof *p->b);
   p->r = p->b + n, p->x = p->r + n, p->z = p->x + n;
@@ -92,17 +89,13 @@ static corot_status prepare(pcg *p, const corot_refinement *refinement) {
   return COROT_OK;
 }
 
-static preconditioner named(const char *name) {
-  if (strcmp(name, "hierarchical") == 0) return HIERARCHICAL;
-  return strcmp(name, "incomplete-cholesky") == 0 ? INCOMPLETE_CHOLESKY : BLOCK_JACOBI;
-}
-
 static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan, void **solver) {
   pcg *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for pcg");
   p->csc = pattern;
   p->tolerance = plan->def.tolerance;
-  p->by = named(plan->def.preconditioner);
+  p->cholesky = strcmp(plan->def.preconditioner, "incomplete-cholesky") == 0;
+  p->ops = corot_multilevel_find(plan->def.preconditioner);
   corot_status status = prepare(p, plan->def.refinement);
   if (status) {
     pcg_destroy(p);
@@ -129,12 +122,10 @@ static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
   *fresh = true;
   p->factored = false;
   corot_nodes_load(&p->A, p->csc, value);
-  if (p->by == HIERARCHICAL) {
-    COROT_TRY(corot_hierarchical_factor(&p->levels));
-  } else if (!(p->by == BLOCK_JACOBI ? corot_nodes_jacobi(&p->A, &at)
-                                     : incomplete_cholesky(p, value, &at))) {
+  if (p->ops)
+    COROT_TRY(p->ops->factor(p->levels));
+  else if (!(p->cholesky ? incomplete_cholesky(p, value, &at) : corot_nodes_jacobi(&p->A, &at)))
     return corot_nodes_indefinite(&p->A, p->csc, at);
-  }
   p->factored = true;
   return COROT_OK;
 }
@@ -143,8 +134,7 @@ static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
 static corot_status improve(pcg *p, double norm, double target) {
   int n = 3 * p->A.n;
   double square = 0;
-  bool cholesky = p->by == INCOMPLETE_CHOLESKY;
-  if (cholesky) corot_nodes_forward(&p->A, p->r);
+  if (p->cholesky) corot_nodes_forward(&p->A, p->r);
   for (int i = 0; i < n; i++) square += p->r[i] * p->r[i];
   memset(p->z, 0, n * sizeof *p->z);
   N_VSetArrayPointer(p->z, p->to);
@@ -160,7 +150,7 @@ static corot_status improve(pcg *p, double norm, double target) {
   if (status)
     return corot_fail(COROT_RETRY, "pcg: not converged to %g in %d iterations", p->tolerance,
                       SUNLinSolNumIters(p->cg));
-  if (cholesky) corot_nodes_backward(&p->A, p->z);
+  if (p->cholesky) corot_nodes_backward(&p->A, p->z);
   for (int i = 0; i < n; i++) p->x[i] += p->z[i];
   return COROT_OK;
 }

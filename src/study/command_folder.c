@@ -1,11 +1,17 @@
 #include "command_folder.h"
 
 #include <app/cli.h>
+#include <app/folder.h>
 #include <app/suggest.h>
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "collect.h"
+#include "json_file.h"
 #include "store.h"
+#include "table_text.h"
 
 /* One folder, and no options but --help. -1: go on with *dir; otherwise an exit code. */
 static int only_folder(const char *program, int argc, char **argv, const char **dir) {
@@ -43,6 +49,50 @@ int command_study_status(int argc, char **argv) {
            corot_version());
   manifest_destroy(m);
   return status == COROT_OK ? EXIT_OK : failure(status);
+}
+
+/* Collects what there is now; the manifest is that of the folder. */
+static corot_status collect_folder(const char *dir) {
+  manifest *m = NULL;
+  COROT_TRY(manifest_read(dir, &m));
+  corot_status status = collect_study(m, dir);
+  manifest_destroy(m);
+  return status;
+}
+
+int command_study_collect(int argc, char **argv) {
+  const char *dir = NULL;
+  int code = only_folder("collect", argc, argv, &dir);
+  if (code >= 0) return code;
+  corot_status status = collect_folder(dir);
+  return status == COROT_OK ? EXIT_OK : failure(status);
+}
+
+int command_study_table(int argc, char **argv) {
+  const char *dir = NULL;
+  int code = only_folder("table", argc, argv, &dir);
+  if (code >= 0) return code;
+  char *path = folder_path(dir, "table.json");
+  json_t *table = NULL;
+  corot_status status = path ? json_file_read(path, &table) : COROT_ENOMEM;
+  free(path);
+  if (status == COROT_OK) status = table_print(table, stdout);
+  json_decref(table);
+  return status == COROT_OK ? EXIT_OK : failure(status);
+}
+
+int command_study_csv(int argc, char **argv) {
+  const char *dir = NULL;
+  int code = only_folder("csv", argc, argv, &dir);
+  if (code >= 0) return code;
+  char *path = folder_path(dir, "table.csv");
+  if (!path) return failure(COROT_ENOMEM);
+  FILE *file = fopen(path, "re");
+  if (!file) code = failure(corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno)));
+  for (int c; file && (c = getc(file)) != EOF;) putchar(c);
+  if (file) fclose(file);
+  free(path);
+  return code < 0 ? EXIT_OK : code;
 }
 
 int command_study_schema(int argc, char **argv) {

@@ -3,6 +3,9 @@
 #define COROT_STUDY_COMMAND_FOLDER_H
 
 int command_study_status(int argc, char **argv);
+int command_study_collect(int argc, char **argv);
+int command_study_table(int argc, char **argv);
+int command_study_csv(int argc, char **argv);
 int command_study_schema(int argc, char **argv);
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "collect.h"
 #include "command_folder.h"
 #include "execute.h"
 #include "plan.h"
@@ -15,7 +16,7 @@
 
 static const char help[] =
     "usage: corot study STUDY.yaml [-o DIR] [-j N] [--shard I/N] [--dry-run] ...\n"
-    "       corot study status DIR\n"
+    "       corot study status | collect | table | csv DIR\n"
     "       corot study schema [KEY]\n"
     "\n"
     "Runs a scenario many times, as a study file (YAML, or JSON) says: with some of its keys "
@@ -32,6 +33,10 @@ static const char help[] =
     "  -q, --quiet         nothing on stderr but errors\n"
     "\n"
     "  status DIR          how far a study is\n"
+    "  collect DIR         table.json, table.csv and index.sqlite anew, from the folders of the "
+    "runs\n"
+    "  table DIR           the table in columns; errors below ten times the floor in parentheses\n"
+    "  csv DIR             the table as CSV\n"
     "  schema [KEY]        every key of a study file: type, unit, default, meaning\n"
     "\n"
     "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 input or\n"
@@ -140,6 +145,10 @@ static int execute_here(const manifest *m, const execute_options *o) {
   if (!o->quiet) announce(m, o);
   status = execute_study(m, o, &totals, &signal_number);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
+  if (status == COROT_OK && !signal_number && o->nshard == 1) {
+    status = collect_study(m, o->dir);
+    if (status != COROT_OK) code = failure(status);
+  }
   store_leave(lock);
   return code;
 }
@@ -180,9 +189,9 @@ static int command_study_run(int argc, char **argv) {
 
 int command_study(int argc, char **argv) {
   static const command verbs[] = {
-      {"status", command_study_status},
-      {"schema", command_study_schema},
-      {0},
+      {"status", command_study_status}, {"collect", command_study_collect},
+      {"table", command_study_table},   {"csv", command_study_csv},
+      {"schema", command_study_schema}, {0},
   };
   for (const command *v = verbs; v->name; v++)
     if (argc > 1 && strcmp(argv[1], v->name) == 0) return v->run(argc - 1, argv + 1);

@@ -45,14 +45,12 @@ static corot_status mesh_digest(planner *p, const scenario *s, char digest[HASH_
     memcpy(digest, known, HASH_SIZE);
   } else {
     corot_mesh *mesh = NULL;
-    corot_refinement *refinement = NULL;
     corot_model *model = NULL; /* built once, for what may be wrong with it */
-    status = scenario_build(s, &mesh, &refinement, &model);
+    status = scenario_build(s, &mesh, NULL, &model);
     if (status == COROT_OK) hash_mesh(mesh, digest);
     if (status == COROT_OK && json_object_set_new(p->mesh_at, text, json_string(digest)))
       status = no_memory();
     corot_model_destroy(model);
-    corot_refinement_destroy(refinement);
     corot_mesh_destroy(mesh);
   }
   free(text);

@@ -6,35 +6,39 @@
 
 /* Two levels, and a map from the finest to `level`. */
 typedef struct view {
-  corot_mesh *coarse, *mesh; /* of `level`, and the finest */
+  corot_mesh *mesh, *part; /* the finest, and that of `level` as L sees it */
   corot_refinement *refinement;
   coarsening c;
-  double (*u)[4], (*mean)[4];
-  double *w; /* [c.nnode][3] */
+  double (*u)[4], (*w)[3]; /* of the finest, and of the part */
 } view;
+
+typedef corot_status make_coarsening(const corot_mesh *fine, const corot_refinement *r, int level,
+                                     coarsening *c, corot_mesh **mesh);
+
+static make_coarsening *maker(corot_coupling coupling) {
+  return coupling == COROT_COUPLING_MEAN ? corot_coarsening_by_means : corot_coarsening_by_values;
+}
 
 static view make_view(int level, corot_coupling coupling) {
   view v = {0};
   corot_mesh *box = crooked_box(2, 1, 1);
-  assert_ok(corot_mesh_refine(box, level, COROT_DIAGONAL_CONSISTENT, &v.coarse, NULL));
   assert_ok(corot_mesh_refine(box, 2, COROT_DIAGONAL_CONSISTENT, &v.mesh, &v.refinement));
   corot_mesh_destroy(box);
-  if (coupling == COROT_COUPLING_MEAN)
-    assert_ok(corot_coarsening_by_means(v.refinement, level, (const int(*)[4])v.coarse->tet, &v.c));
-  else
-    corot_coarsening_by_values(v.coarse->nnode, &v.c);
+  assert_ok(maker(coupling)(v.mesh, v.refinement, level, &v.c, &v.part));
+  assert_int_equal(v.c.nnode, v.part->nnode);
   v.u = calloc(v.mesh->nnode, sizeof *v.u);
-  v.mean = calloc(v.c.nface + 1, sizeof *v.mean);
-  v.w = calloc(3 * v.c.nnode, sizeof *v.w);
+  v.w = calloc(v.c.nnode, sizeof *v.w);
   return v;
 }
+
+static void coarsen(const view *v) { corot_coarsen(&v->c, (const double(*)[4])v->u, v->w[0]); }
 
 static void drop_view(view *v) {
   corot_coarsening_clear(&v->c);
   corot_refinement_destroy(v->refinement);
-  corot_mesh_destroy(v->coarse);
+  corot_mesh_destroy(v->part);
   corot_mesh_destroy(v->mesh);
-  free(v->u), free(v->mean), free(v->w);
+  free(v->u), free(v->w);
 }
 
 static void fill_nodal(const view *v, uint64_t seed) {
@@ -62,18 +66,23 @@ static void means_are_those_of_the_descendants(void **state) {
   (void)state;
   for (int level = 0; level < 2; level++) {
     view v = make_view(level, COROT_COUPLING_MEAN);
-    int below = v.mesh->ntet / v.coarse->ntet;
+    int below = v.mesh->ntet / v.part->ntet;
     fill_nodal(&v, 3);
-    corot_coarsen(&v.c, (const double(*)[4])v.u, v.mean, v.w);
-    for (int e = 0; e < v.coarse->ntet; e++) {
+    coarsen(&v);
+    for (int e = 0; e < v.part->ntet; e++) {
       double found[9] = {0}, expected[9] = {0};
       const double *x[4], *w[4];
-      for (int k = 0; k < 4; k++)
-        x[k] = v.coarse->x[v.coarse->tet[e][k]], w[k] = &v.w[3 * (4 * e + k)];
-      add_gradient(x, w, found);
+      for (int k = 0; k < 4; k++) {
+        int n = v.part->tet[e][k];
+        x[k] = v.part->x[n], w[k] = v.w[n];
+      }
+      add_gradient(x, w, found); /* times a volume that is minus a 27th */
+      for (int k = 0; k < 9; k++) found[k] *= -v.c.volume;
       for (int d = below * e; d < below * (e + 1); d++) {
-        for (int k = 0; k < 4; k++)
-          x[k] = v.mesh->x[v.mesh->tet[d][k]], w[k] = v.u[v.mesh->tet[d][k]];
+        for (int k = 0; k < 4; k++) {
+          int n = v.mesh->tet[d][k];
+          x[k] = v.mesh->x[n], w[k] = v.u[n];
+        }
         add_gradient(x, w, expected);
       }
       assert_below(distance(found, expected), 1e-14); /* values and areas are of the order of one */
@@ -82,6 +91,7 @@ static void means_are_those_of_the_descendants(void **state) {
   }
 }
 
+/* An affine field has its own values at the part's nodes, whichever they are. */
 static void affine_fields_are_seen_as_they_are(void **state) {
   for (int level = 0; level < 2; level++) {
     view v = make_view(level, coupling_of(state));
@@ -89,13 +99,12 @@ static void affine_fields_are_seen_as_they_are(void **state) {
     double A[9];
     random_gradient(&seed, 1, A);
     for (int n = 0; n < v.mesh->nnode; n++) apply(A, v.mesh->x[n], v.u[n]);
-    corot_coarsen(&v.c, (const double(*)[4])v.u, v.mean, v.w);
-    for (int e = 0; e < v.coarse->ntet; e++)
-      for (int k = 0; k < 4; k++) {
-        int n = v.coarse->tet[e][k];
-        const double *w = &v.w[3 * (v.c.ntet ? 4 * e + k : n)];
-        for (int c = 0; c < 3; c++) assert_close(w[c], v.u[n][c], 0, 1e-13);
-      }
+    coarsen(&v);
+    for (int n = 0; n < v.part->nnode; n++) {
+      double expected[3];
+      apply(A, v.part->x[n], expected);
+      for (int c = 0; c < 3; c++) assert_close(v.w[n][c], expected[c], 0, 1e-14);
+    }
     drop_view(&v);
   }
 }
@@ -108,10 +117,10 @@ static void forces_are_transposed(void **state) {
     double *g = calloc(n, sizeof *g), (*f)[4] = calloc(v.mesh->nnode, sizeof *f), right = 0;
     fill_nodal(&v, 5);
     fill_noise(n, 17, 1, g);
-    corot_coarsen(&v.c, (const double(*)[4])v.u, v.mean, v.w);
-    corot_coarsen_transposed(&v.c, g, v.mean, f);
+    coarsen(&v);
+    corot_coarsen_transposed(&v.c, g, f);
     for (int k = 0; k < v.mesh->nnode; k++) right += inner(3, f[k], v.u[k]);
-    assert_close(inner(n, g, v.w), right, 1e-12, 0);
+    assert_close(inner(n, g, v.w[0]), right, 1e-12, 0);
     free(g), free(f);
     drop_view(&v);
   }
@@ -122,11 +131,11 @@ static void a_missing_middle_is_named(void **state) {
   view v = make_view(0, COROT_COUPLING_NODES);
   int *parent = v.refinement->parent[0], a = parent[0], b = parent[1];
   char words[64];
+  coarsening c;
+  corot_mesh *part;
   parent[1] = parent[0];
   snprintf(words, sizeof words, "level 1 has no node in the middle of nodes %d and %d", a, b);
-  coarsening c;
-  assert_fails(corot_coarsening_by_means(v.refinement, 0, (const int(*)[4])v.coarse->tet, &c),
-               COROT_EINVAL, words);
+  assert_fails(corot_coarsening_by_means(v.mesh, v.refinement, 0, &c, &part), COROT_EINVAL, words);
   drop_view(&v);
 }
 

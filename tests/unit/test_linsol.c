@@ -399,7 +399,7 @@ static void other_names_are_refused(void **state) {
       {{"klu", "colamd", "auto", "auto", 1, 0, NULL}, "no ordering 'colamd': auto, amd or metis"},
       {{"klu", "auto", "ldl", "auto", 1, 0, NULL}, "no factor 'ldl': auto, simplicial or supernodal"},
       {{"pcg", "auto", "auto", "ilu", 1, 0, NULL},
-       "no preconditioner 'ilu': auto, block-jacobi, incomplete-cholesky or hierarchical"},
+       "no preconditioner 'ilu': auto, block-jacobi, incomplete-cholesky, hierarchical or multigrid"},
       {{"pcg", "auto", "auto", "auto", 0, 0, NULL}, "tolerance = 0 is not positive"},
       {{"auto", "auto", "auto", "auto", NAN, 0, NULL}, "is not positive"},
   };

@@ -1,10 +1,10 @@
-/* Conjugate gradients on a refined mesh: the matrices of its levels, and the preconditioner of the
-   hierarchical basis. */
+/* Conjugate gradients on a refined mesh: the matrices of its levels, and the preconditioners made
+   of them. */
 #include <corot/hierarchy.h>
 
 #include "alloc.h"
 #include "solid.h"
-#include "solve/linsol_hierarchical.h"
+#include "solve/linsol_multilevel.h"
 #include "solve/pencil.h"
 #include "solver.h"
 
@@ -156,41 +156,58 @@ static void coarse_matrices_are_as_sparse_as_their_meshes(void **state) {
   corot_galerkin_clear(&g), drop_family(&f);
 }
 
-/* --- the preconditioner --- */
+/* --- the preconditioners --- */
 
-static void it_is_symmetric_and_positive(void **state) {
+static const multilevel_ops *const preconditioners[] = {&corot_hierarchical_basis,
+                                                        &corot_multigrid};
+enum { NPRECONDITIONER = 2 };
+
+static void *factored(const family *f, const multilevel_ops *ops) {
+  void *made;
+  assert_ptr_equal(corot_multilevel_find(ops->name), ops);
+  assert_ok(ops->create(f->pencil->csc, &f->A, f->r, &made));
+  assert_ok(ops->factor(made));
+  return made;
+}
+
+static void check_symmetry(const family *f, const multilevel_ops *ops) {
+  void *M = factored(f, ops);
+  int n = 3 * f->A.n;
+  double *x = calloc(4 * n, sizeof *x), *y = x + n, *Mx = y + n, *My = Mx + n;
+  uint64_t seed = 3;
+  for (int k = 0; k < 10; k++) {
+    for (int i = 0; i < f->b.n; i++) x[f->A.slot[i]] = noise(&seed), y[f->A.slot[i]] = noise(&seed);
+    assert_ok(ops->apply(M, x, Mx));
+    assert_ok(ops->apply(M, y, My));
+    double scale = sqrt(inner(n, x, Mx) * inner(n, y, My));
+    assert_true(inner(n, x, Mx) > 0 && inner(n, y, My) > 0);
+    assert_close(inner(n, x, My), inner(n, y, Mx), 0, 1e-13 * scale);
+    assert_ok(ops->apply(M, x, x)); /* in place */
+    assert_memory_equal(x, Mx, n * sizeof *x);
+  }
+  double left = inner(n, Mx, Mx);
+  for (int i = 0; i < f->b.n; i++) left -= pow(Mx[f->A.slot[i]], 2);
+  assert_close(left, 0, 0, 1e-13 * inner(n, Mx, Mx)); /* held components stay zero */
+  free(x), ops->destroy(M);
+}
+
+static void they_are_symmetric_and_positive(void **state) {
   (void)state;
   for (int nsupport = 0; nsupport <= NSUPPORT; nsupport++) {
     family f = make_family(2, nsupport);
-    hierarchical h;
-    assert_ok(corot_hierarchical_create(f.pencil->csc, &f.A, f.r, &h));
-    assert_ok(corot_hierarchical_factor(&h));
-    int n = 3 * f.A.n;
-    double *x = calloc(4 * n, sizeof *x), *y = x + n, *Mx = y + n, *My = Mx + n;
-    uint64_t seed = 3;
-    for (int k = 0; k < 10; k++) {
-      for (int i = 0; i < f.b.n; i++) x[f.A.slot[i]] = noise(&seed), y[f.A.slot[i]] = noise(&seed);
-      assert_ok(corot_hierarchical_apply(&h, x, Mx));
-      assert_ok(corot_hierarchical_apply(&h, y, My));
-      double scale = sqrt(inner(n, x, Mx) * inner(n, y, My));
-      assert_true(inner(n, x, Mx) > 0 && inner(n, y, My) > 0);
-      assert_close(inner(n, x, My), inner(n, y, Mx), 0, 1e-13 * scale);
-      assert_ok(corot_hierarchical_apply(&h, x, x)); /* in place */
-      assert_memory_equal(x, Mx, n * sizeof *x);
-    }
-    for (int i = 0; i < n; i++) /* held components stay zero */
-      if (f.A.value[9 * (i / 3) + 4 * (i % 3)] == 1) assert_true(Mx[i] == 0);
-    free(x), corot_hierarchical_clear(&h), drop_family(&f);
+    for (int k = 0; k < NPRECONDITIONER; k++) check_symmetry(&f, preconditioners[k]);
+    drop_family(&f);
   }
 }
 
 /* M = T'^-1 D T^-1, by the public transformations; where nothing is held, they are ours. */
-static void it_is_the_inverse_of_what_it_says(void **state) {
+static void the_basis_is_inverted_as_its_definition_says(void **state) {
   (void)state;
   family f = make_family(2, 0);
-  hierarchical h;
-  assert_ok(corot_hierarchical_create(f.pencil->csc, &f.A, f.r, &h));
-  assert_ok(corot_hierarchical_factor(&h));
+  galerkin g;
+  assert_ok(corot_galerkin_create(f.pencil->csc, &f.A, f.r, &g));
+  corot_galerkin_load(&g);
+  void *M = factored(&f, &corot_hierarchical_basis);
   int nnode = f.A.n, n0 = f.r->nnode[0];
   double(*x)[3] = malloc(3 * nnode * sizeof *x), (*y)[3] = x + nnode, (*r)[3] = y + nnode;
   uint64_t seed = 4;
@@ -202,14 +219,13 @@ static void it_is_the_inverse_of_what_it_says(void **state) {
     while (i >= f.r->nnode[l]) l++;
     int first = l ? 3 * i : 0, last = l ? 3 * i + 3 : 3 * n0;
     for (int c = 0; c < 3; c++)
-      for (int j = first; j < last; j++)
-        r[i][c] += entry(&h.levels.level[l], 3 * i + c, j) * y[0][j];
+      for (int j = first; j < last; j++) r[i][c] += entry(&g.level[l], 3 * i + c, j) * y[0][j];
   }
   corot_hierarchy_solve_transposed(f.r, r);
-  assert_ok(corot_hierarchical_apply(&h, r[0], y[0]));
+  assert_ok(corot_hierarchical_basis.apply(M, r[0], y[0]));
   for (int i = 0; i < 3 * nnode; i++) /* the condition number of T and D is some 1e3 */
     assert_close(y[0][i], x[0][i], 0, 1e-12);
-  free(x), corot_hierarchical_clear(&h), drop_family(&f);
+  free(x), corot_hierarchical_basis.destroy(M), corot_galerkin_clear(&g), drop_family(&f);
 }
 
 /* --- as part of a solver --- */
@@ -235,28 +251,65 @@ static long compare_with_klu(const family *f, const corot_linear_def *def, const
   return counts.niteration;
 }
 
+static void compare_both_with_klu(const family *f, const double abc[3]) {
+  for (int k = 0; k < NPRECONDITIONER; k++) {
+    corot_linear_def def = pcg_on(f, preconditioners[k]->name);
+    compare_with_klu(f, &def, abc);
+  }
+}
+
 static const double dynamic_step[] = {1, 1e-2, 1e-4}, stiffness[] = {0, 0, 1};
 
-static void it_solves_like_klu(void **state) {
+static void they_solve_like_klu(void **state) {
   (void)state;
   for (int nlevel = 1; nlevel <= 2; nlevel++)
     for (int nsupport = 0; nsupport <= NSUPPORT; nsupport++) {
       family f = make_family(nlevel, nsupport);
-      corot_linear_def def = pcg_on(&f, "hierarchical");
-      compare_with_klu(&f, &def, dynamic_step);
-      if (nsupport > 0) compare_with_klu(&f, &def, stiffness);
+      compare_both_with_klu(&f, dynamic_step);
+      if (nsupport > 0) compare_both_with_klu(&f, stiffness);
       drop_family(&f);
     }
 }
 
-static void without_levels_it_is_exact(void **state) {
+static void without_levels_they_are_exact(void **state) {
   (void)state;
   for (int nsupport = 0; nsupport <= 1; nsupport++) {
     family f = make_family(0, nsupport);
-    corot_linear_def def = pcg_on(&f, "hierarchical");
-    assert_int_equal(compare_with_klu(&f, &def, dynamic_step), 1);
+    for (int k = 0; k < NPRECONDITIONER; k++) {
+      corot_linear_def def = pcg_on(&f, preconditioners[k]->name);
+      assert_int_equal(compare_with_klu(&f, &def, dynamic_step), 1);
+    }
     drop_family(&f);
   }
+}
+
+static long iterations_of(const family *f, const char *preconditioner) {
+  corot_linear_def def = pcg_on(f, preconditioner);
+  corot_pencil *p = pencil_of(&f->b, &def);
+  double *x = malloc(f->b.n * sizeof *x);
+  for (int i = 0; i < f->b.n; i++) x[i] = 1 + i % 3;
+  corot_pencil_combine(p, 0, 0, 1);
+  assert_ok(corot_pencil_factor(p));
+  assert_ok(corot_pencil_solve(p, x, x));
+  long iterations = corot_pencil_statistics(p).niteration;
+  free(x), corot_pencil_destroy(p);
+  return iterations;
+}
+
+/* From level to level the condition number of the stiffness grows four times, after incomplete
+   Cholesky as well; after a V-cycle it tends to a constant. Iterations grow by its root. */
+static void iterations_of_v_cycles_hardly_grow_from_level_to_level(void **state) {
+  (void)state;
+  long cycle[2], cholesky[2];
+  for (int k = 0; k < 2; k++) {
+    family f = make_family(k + 2, 1);
+    cycle[k] = iterations_of(&f, "multigrid");
+    cholesky[k] = iterations_of(&f, "incomplete-cholesky");
+    drop_family(&f);
+  }
+  assert_below(cycle[1], 1.4 * cycle[0]);
+  assert_above(cholesky[1], 1.8 * cholesky[0]);
+  assert_below(4 * cycle[1], cholesky[1]);
 }
 
 /* Averages couple nodes two tets apart, and a consistent mass all neighbours. */
@@ -265,14 +318,12 @@ static void wider_patterns_are_no_obstacle(void **state) {
   corot_model_def model = corot_model_defaults();
   model.dilatation = COROT_DILATATION_NODAL;
   family f = make_family_with(1, 2, model);
-  corot_linear_def def = pcg_on(&f, "hierarchical");
-  compare_with_klu(&f, &def, stiffness);
+  compare_both_with_klu(&f, stiffness);
   drop_family(&f);
   model = corot_model_defaults();
   model.mass = COROT_MASS_CONSISTENT;
   f = make_family_with(1, 2, model);
-  def = pcg_on(&f, "hierarchical");
-  compare_with_klu(&f, &def, dynamic_step);
+  compare_both_with_klu(&f, dynamic_step);
   drop_family(&f);
 }
 
@@ -290,8 +341,7 @@ static void hierarchical_models_are_solved_as_well(void **state) {
   model.hierarchy = &hierarchy;
   model.nmaterial = 1, model.material = &soft, model.nfix = 1, model.fix = &fix;
   family f = {.coarse = coarse, .r = r, .b = make_body(mesh, model)};
-  corot_linear_def def = pcg_on(&f, "hierarchical");
-  compare_with_klu(&f, &def, stiffness);
+  compare_both_with_klu(&f, stiffness);
   drop_body(&f.b);
   corot_refinement_destroy(r);
   corot_mesh_destroy(coarse);
@@ -311,33 +361,37 @@ static void a_wholly_held_level_0_is_left_out(void **state) {
   corot_model_def model = corot_model_defaults();
   model.nmaterial = 1, model.material = &soft, model.nfix = 1, model.fix = &fix;
   f.b = make_body(mesh, model);
-  corot_linear_def def = pcg_on(&f, "hierarchical");
-  compare_with_klu(&f, &def, stiffness);
+  compare_both_with_klu(&f, stiffness);
   drop_body(&f.b);
   corot_refinement_destroy(f.r);
   corot_mesh_destroy(f.coarse);
 }
 
 /* K - w^2 M, w above the lowest frequencies of level 0, then above all. */
-static void an_indefinite_matrix_is_found_out(void **state) {
-  (void)state;
-  family f = make_family(2, 1);
-  corot_linear_def def = pcg_on(&f, "hierarchical");
+static void check_indefinite(const family *f, const char *preconditioner) {
+  corot_linear_def def = pcg_on(f, preconditioner);
   def.role = COROT_ROLE_STATIC;
-  corot_pencil *p = pencil_of(&f.b, &def);
+  corot_pencil *p = pencil_of(&f->b, &def);
   corot_pencil_combine(p, -200, 0, 1);
   assert_fails(corot_pencil_factor(p), COROT_RETRY, "pcg, level 0: ");
   assert_non_null(strstr(corot_error(), "the matrix is not positive definite"));
   corot_pencil_combine(p, -1e9, 0, 1);
   assert_fails(corot_pencil_factor(p), COROT_RETRY, "pcg: the matrix is not positive definite");
   assert_int_equal(corot_pencil_statistics(p).nindefinite, 2);
-  double *x = calloc(f.b.n, sizeof *x);
+  double *x = calloc(f->b.n, sizeof *x);
   x[0] = 1;
   assert_fails(corot_pencil_solve(p, x, x), COROT_EINVAL, "there is no factor");
   corot_pencil_combine(p, 1, 1e-2, 1e-4);
   assert_ok(corot_pencil_factor(p));
   assert_ok(corot_pencil_solve(p, x, x));
-  free(x), corot_pencil_destroy(p), drop_family(&f);
+  free(x), corot_pencil_destroy(p);
+}
+
+static void an_indefinite_matrix_is_found_out(void **state) {
+  (void)state;
+  family f = make_family(2, 1);
+  for (int k = 0; k < NPRECONDITIONER; k++) check_indefinite(&f, preconditioners[k]->name);
+  drop_family(&f);
 }
 
 static void what_does_not_fit_is_refused(void **state) {
@@ -362,24 +416,29 @@ static void what_does_not_fit_is_refused(void **state) {
   corot_pencil_destroy(p), drop_family(&f), drop_family(&g);
 }
 
+typedef struct making {
+  const family *f;
+  const char *preconditioner;
+} making;
+
 static corot_status make_solver(void *context) {
-  const family *f = context;
-  corot_linear_def def = pcg_on(f, "hierarchical");
+  const making *m = context;
+  corot_linear_def def = pcg_on(m->f, m->preconditioner);
   linsol s;
-  corot_status status = corot_linsol_create(f->b.model, &def, &s);
+  corot_status status = corot_linsol_create(m->f->b.model, &def, &s);
   corot_linsol_clear(&s);
   return status;
 }
 
-static void memory_is_of_creation_only(void **state) {
-  (void)state;
-  family f = make_family(2, NSUPPORT);
-  assert_true(assert_survives_failed_allocations(make_solver, &f) > 40);
-  corot_linear_def def = pcg_on(&f, "hierarchical");
-  corot_pencil *p = pencil_of(&f.b, &def);
-  double *x = calloc(f.b.n, sizeof *x);
-  corot_refinement_destroy(f.r); /* has been read */
-  f.r = NULL;
+/* The refinement may go as soon as the solver is there. */
+static void check_memory(family *f, const char *preconditioner) {
+  making m = {f, preconditioner};
+  corot_linear_def def = pcg_on(f, preconditioner);
+  assert_true(assert_survives_failed_allocations(make_solver, &m) > 40);
+  corot_pencil *p = pencil_of(&f->b, &def);
+  double *x = calloc(f->b.n, sizeof *x);
+  corot_refinement_destroy(f->r);
+  f->r = NULL;
   alloc_fail_at(0);
   for (int k = 0; k < 3; k++) {
     x[k] = 1;
@@ -388,17 +447,27 @@ static void memory_is_of_creation_only(void **state) {
     assert_ok(corot_pencil_solve(p, x, x));
   }
   assert_int_equal(alloc_count(), 0);
-  free(x), corot_pencil_destroy(p), drop_family(&f);
+  free(x), corot_pencil_destroy(p);
+}
+
+static void memory_is_of_creation_only(void **state) {
+  (void)state;
+  for (int k = 0; k < NPRECONDITIONER; k++) {
+    family f = make_family(2, NSUPPORT);
+    check_memory(&f, preconditioners[k]->name);
+    drop_family(&f);
+  }
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(levels_have_the_matrices_of_their_interpolants),
       cmocka_unit_test(coarse_matrices_are_as_sparse_as_their_meshes),
-      cmocka_unit_test(it_is_symmetric_and_positive),
-      cmocka_unit_test(it_is_the_inverse_of_what_it_says),
-      cmocka_unit_test(it_solves_like_klu),
-      cmocka_unit_test(without_levels_it_is_exact),
+      cmocka_unit_test(they_are_symmetric_and_positive),
+      cmocka_unit_test(the_basis_is_inverted_as_its_definition_says),
+      cmocka_unit_test(they_solve_like_klu),
+      cmocka_unit_test(without_levels_they_are_exact),
+      cmocka_unit_test(iterations_of_v_cycles_hardly_grow_from_level_to_level),
       cmocka_unit_test(wider_patterns_are_no_obstacle),
       cmocka_unit_test(hierarchical_models_are_solved_as_well),
       cmocka_unit_test(a_wholly_held_level_0_is_left_out),

@@ -123,7 +123,7 @@ static void a_refinement_is_handed_to_whom_it_concerns(void **state) {
     int nlevel; /* 0: none */
   } r[] = {
       {REFINED("2") "linear_solver: {name: pcg, preconditioner: hierarchical}\n", 2},
-      {REFINED("1") "linear_solver: {preconditioner: hierarchical}\nhierarchy: {}\n", 1},
+      {REFINED("1") "linear_solver: {preconditioner: multigrid}\nhierarchy: {}\n", 1},
       {REFINED("1") "linear_solver: pcg\n", 0},
       {REFINED("1") "hierarchy: {}\n", 0},
   };
@@ -142,6 +142,8 @@ static void a_refinement_is_handed_to_whom_it_concerns(void **state) {
   }
   refuse(REFINED("0") "linear_solver: {name: pcg, preconditioner: hierarchical}\n",
          "4:44: linear_solver.preconditioner: hierarchical needs mesh.refine");
+  refuse(MINIMAL "linear_solver: {preconditioner: multigrid}\n",
+         "4:33: linear_solver.preconditioner: multigrid needs mesh.refine");
 }
 
 static void memory_is_counted(void **state) {

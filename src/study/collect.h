@@ -1,0 +1,39 @@
+/* What the runs of a study say together: table.json, table.csv and index.sqlite in its folder.
+
+   table.json
+     title, cost, measure   as in the study file; corot: the version that made the runs
+     columns     names of the cells' coordinates
+     series      names, in alphabetical order
+     cells       by series, each from coarse to fine:
+       id, series, settings {column: value}, tolerance, tolerance_key
+       status      done | failed | missing;  reason: of a failure
+       cost        cpu, cpu_min, cpu_max, wall, wall_min, wall_max [s]: median and extremes of
+                   `repeats` timed repetitions, or of the one run if that is 0;
+                   steps, rhs, factorisations, solves
+       error       by name, as in errors.h: the largest over time, and NAME_end at the end
+       digits      mescd
+       below_floor the study's measure is not rated, as it is below ten times the floor
+       unrated     all errors of which that is true
+       drift       energy, momentum
+       reference   number in the list of references
+       note        why there are no errors, though the run is done
+     references  {runs: [two ids], methods, rtol, settings, status, reason, agree, parts_at [s],
+                  floor: error of the one against the other, digits, note}
+     fits        {series, tolerance_key, exponent, constant, residual, points, verdict} of the
+                 study's measure, over the points that are rated
+     rankings    {error, best: [{series, id, cost, tolerance}]}: for each power of ten the
+                 cheapest cell of each series that is at least so good, the cheapest series first
+
+   What is not known is null. */
+#ifndef COROT_STUDY_COLLECT_H
+#define COROT_STUDY_COLLECT_H
+
+#include "manifest.h"
+
+/* The caller's to json_decref. */
+corot_status collect_table(const manifest *m, const char *dir, json_t **table);
+
+/* Collects, and writes all three files. */
+corot_status collect_study(const manifest *m, const char *dir);
+
+#endif

@@ -1,0 +1,104 @@
+/* Trajectories from the folders of runs, and the model they belong to. */
+#include <app/hash.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "collect_parts.h"
+
+static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
+
+/* All that a yardstick depends on: the scenario without what only the solution depends on. */
+static char *yardstick_key(const json_t *result) {
+  static const char *const solution[] = {"title",   "integrator", "linear_solver", "frames", "time",
+                                         "statics", "start",      "compare",       "output"};
+  json_t *solid = json_copy(json_object_get(result, "scenario"));
+  for (size_t i = 0; i < sizeof solution / sizeof *solution; i++)
+    json_object_del(solid, solution[i]);
+  const json_t *hash = json_object_get(json_object_get(result, "hashes"), "mesh");
+  json_t *both = json_pack("{s:o, s:O}", "solid", solid, "mesh", hash);
+  char *text = json_dumps(both, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+  json_decref(both);
+  return text;
+}
+
+static corot_status check_mesh(const yardstick *y, const json_t *result) {
+  char digest[HASH_SIZE];
+  hash_mesh(y->mesh, digest);
+  const char *was = json_string_value(json_object_get(json_object_get(result, "hashes"), "mesh"));
+  if (was && strcmp(digest, was) == 0) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "the mesh has changed since the run");
+}
+
+/* The scenario as the run recorded it; its files are found from the base. */
+static corot_status read_scenario(const manifest *m, const json_t *result, scenario **out) {
+  char *text = json_dumps(json_object_get(result, "scenario"), JSON_REAL_PRECISION(17));
+  if (!text) return corot_fail(COROT_EFORMAT, "its result has no scenario");
+  corot_status status = scenario_read_text(m->base, text, strlen(text), 0, NULL, out);
+  free(text);
+  return status;
+}
+
+static void drop_yardstick(measuring *g) {
+  yardstick_destroy(g->yardstick);
+  scenario_destroy(g->scenario);
+  free(g->key);
+  g->yardstick = NULL;
+  g->scenario = NULL;
+  g->key = NULL;
+}
+
+/* Finds the yardstick of a run, which often is that of the run before. */
+static corot_status hold_yardstick(measuring *g, const json_t *result) {
+  char *key = yardstick_key(result);
+  if (!key) return no_memory();
+  if (g->key && strcmp(g->key, key) == 0) {
+    free(key);
+    return COROT_OK;
+  }
+  drop_yardstick(g);
+  g->key = key;
+  corot_status status = read_scenario(g->m, result, &g->scenario);
+  if (status == COROT_OK) status = yardstick_create(g->scenario, &g->yardstick);
+  if (status == COROT_OK) status = check_mesh(g->yardstick, result);
+  if (status != COROT_OK) drop_yardstick(g);
+  return status;
+}
+
+static corot_status read_states(const char *dir, const study_run *run, trajectory *out) {
+  char *path = store_path(dir, run, "");
+  if (!path) return COROT_ENOMEM;
+  corot_status status = states_read(path, out);
+  free(path);
+  return status;
+}
+
+static corot_status hold_reference(measuring *g, int reference) {
+  if (g->reference == reference) return COROT_OK;
+  states_free(&g->kept);
+  g->reference = -1;
+  COROT_TRY(read_states(g->dir, &g->m->run[g->m->reference[reference].run[0]], &g->kept));
+  g->reference = reference;
+  return COROT_OK;
+}
+
+corot_status measure_run(measuring *g, const study_run *run, const json_t *result, int reference,
+                         errors *e, drift *d) {
+  trajectory t = {0};
+  COROT_TRY(hold_yardstick(g, result));
+  char *path = store_path(g->dir, run, "");
+  if (!path) return COROT_ENOMEM;
+  corot_status status = drift_measure(g->yardstick, g->scenario, path, d);
+  free(path);
+  COROT_TRY(status);
+  if (reference < 0) return COROT_OK;
+  COROT_TRY(hold_reference(g, reference));
+  COROT_TRY(read_states(g->dir, run, &t));
+  status = errors_measure(g->yardstick, &t, &g->kept, e);
+  states_free(&t);
+  return status;
+}
+
+void measuring_free(measuring *g) {
+  drop_yardstick(g);
+  states_free(&g->kept);
+}

@@ -1,0 +1,89 @@
+/* Inside of collecting a study. */
+#ifndef COROT_STUDY_COLLECT_PARTS_H
+#define COROT_STUDY_COLLECT_PARTS_H
+
+#include "collect.h"
+#include "errors.h"
+#include "store.h"
+
+typedef struct costs {
+  double cpu, cpu_min, cpu_max, wall, wall_min, wall_max; /* [s] */
+  double steps, rhs, factorisations, solves;
+  int repeats;
+} costs;
+
+/* One line of the table. */
+typedef struct table_row {
+  const study_cell *cell;
+  const study_run *run;
+  run_state state;
+  char *reason; /* of a failure */
+  char *note;   /* why there are no errors; NULL: none */
+  costs cost;
+  bool measured;
+  errors error;
+  drift drift;
+  json_t *error_json, *unrated; /* of what is measured, by name */
+} table_row;
+
+typedef struct table_reference {
+  const study_reference *reference;
+  run_state state; /* of both runs */
+  char *reason;    /* of a failure */
+  char *note;      /* why there is no floor */
+  bool known;      /* the floor is */
+  errors floor;
+  json_t *floor_json;
+} table_reference;
+
+/* Errors by name: an object. */
+json_t *errors_json(const yardstick *y, const errors *e);
+
+/* The names of those that are not rated: a list. */
+json_t *errors_unrated(const yardstick *y, const errors *e, const errors *floor);
+
+/* How large the cost of that name is. */
+double cost_named(const costs *c, const char *name);
+bool is_cost(const char *name);
+
+/* Reads costs from the result and the timings of a run. */
+corot_status costs_read(const char *dir, const study_run *run, const json_t *result, costs *out);
+
+json_t *costs_json(const costs *c);
+
+/* The measure of that name; -1: there is none. */
+int measure_named(const char *name);
+
+/* An error is rated if it is ten times what is known of the reference. */
+bool is_rated(const error_pair *error, const error_pair *floor, bool end);
+
+/* Fits and rankings of rows [n], as lists. NULL: no memory. */
+typedef struct table_rows {
+  int n;
+  const table_row *row;
+  const table_reference *reference;
+  int measure;
+  const char *cost;
+} table_rows;
+
+json_t *collect_fits(const table_rows *t);
+json_t *collect_rankings(const table_rows *t);
+
+/* What trajectories are measured with: the last of each is kept for the next. */
+typedef struct measuring {
+  const manifest *m;
+  const char *dir;
+  yardstick *yardstick;
+  scenario *scenario; /* the yardstick's */
+  char *key;          /* what the yardstick depends on */
+  int reference;      /* whose trajectory is kept; -1: none's */
+  trajectory kept;
+} measuring;
+
+/* The errors of a run that is done against another. COROT_EINVAL, COROT_EFORMAT, COROT_EIO: there
+   are none, and the message says why. */
+corot_status measure_run(measuring *g, const study_run *run, const json_t *result, int reference,
+                         errors *e, drift *d);
+void measuring_free(measuring *g);
+
+#endif

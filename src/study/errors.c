@@ -1,0 +1,222 @@
+#include "errors.h"
+
+#include <corot/ode.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const error_words[ERROR_PROBES] = {"displacement", "velocity", "energy", "mixed"};
+
+/* --- The yardstick --- */
+
+static corot_status find_probes(yardstick *y, const scenario *s) {
+  y->nprobe = s->nprobe;
+  y->probe_def = s->probe;
+  y->probe = calloc((size_t)s->nprobe + 1, sizeof *y->probe);
+  if (!y->probe) return corot_fail(COROT_ENOMEM, "out of memory");
+  for (int i = 0; i < s->nprobe; i++) {
+    const probe_def *p = &s->probe[i];
+    y->probe[i] = p->node >= 0 ? p->node : corot_mesh_nearest(y->mesh, p->point);
+    if (y->probe[i] >= y->mesh->nnode)
+      return corot_fail(COROT_EINVAL, "probe %s: there is no node %d", p->name, y->probe[i]);
+  }
+  return COROT_OK;
+}
+
+static corot_status build(yardstick *y, const scenario *s) {
+  COROT_TRY(scenario_build(s, &y->mesh, NULL, &y->model));
+  COROT_TRY(corot_state_create(y->model, &y->state));
+  COROT_TRY(find_probes(y, s));
+  size_t n = (size_t)corot_model_ndof(y->model), nblock = (size_t)corot_model_nblock(y->model);
+  y->work = calloc(3 * n + 1, sizeof *y->work);
+  y->stiffness = calloc(nblock + 1, sizeof *y->stiffness);
+  if (!y->work || !y->stiffness) return corot_fail(COROT_ENOMEM, "out of memory");
+  return corot_jacobian(y->model, y->state, 0, y->work, y->work + n, COROT_TANGENT_HELD,
+                        y->stiffness, NULL);
+}
+
+corot_status yardstick_create(const scenario *s, yardstick **out) {
+  yardstick *y = calloc(1, sizeof *y);
+  if (!y) return corot_fail(COROT_ENOMEM, "out of memory");
+  corot_status status = build(y, s);
+  if (status == COROT_OK)
+    *out = y;
+  else
+    yardstick_destroy(y);
+  return status;
+}
+
+void yardstick_destroy(yardstick *y) {
+  if (!y) return;
+  corot_state_destroy(y->state);
+  corot_model_destroy(y->model);
+  corot_mesh_destroy(y->mesh);
+  free(y->stiffness);
+  free(y->probe);
+  free(y->work);
+  free(y);
+}
+
+/* --- Norms --- */
+
+static double dot(int n, const double *x, const double *y) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += x[i] * y[i];
+  return sum;
+}
+
+static double mass_norm(yardstick *y, const double *x) {
+  int n = corot_model_ndof(y->model);
+  double *Mx = y->work + 2 * n;
+  corot_mass_multiply(y->model, x, Mx);
+  return sqrt(dot(n, x, Mx));
+}
+
+static double energy_norm(yardstick *y, const double *x) {
+  int n = corot_model_ndof(y->model);
+  double *Kx = y->work + 2 * n;
+  corot_block_multiply(y->model, (const double(*)[9])y->stiffness, x, Kx);
+  return sqrt(fmax(0, dot(n, x, Kx) / 2));
+}
+
+/* --- Two solutions side by side --- */
+
+typedef struct pairing {
+  yardstick *y;
+  const trajectory *run, *reference;
+  int *at;         /* [n] where each degree of freedom stands in the reference */
+  double scale[3]; /* of displacement, velocity, energy: the reference's largest */
+  errors *e;
+} pairing;
+
+static corot_status match_places(pairing *p) {
+  const trajectory *run = p->run, *r = p->reference;
+  int n = corot_model_ndof(p->y->model);
+  if (run->n != n)
+    return corot_fail(COROT_EINVAL, "states of %d degrees of freedom, of a model of %d", run->n, n);
+  p->at = malloc(((size_t)n + 1) * sizeof *p->at);
+  if (!p->at) return corot_fail(COROT_ENOMEM, "out of memory");
+  for (int i = 0, k = 0; i < n; i++) {
+    while (k < r->n && r->place[k] < run->place[i]) k++;
+    if (k == r->n || r->place[k] != run->place[i])
+      return corot_fail(COROT_EINVAL, "the reference has no free component %d of node %d",
+                        run->place[i] % 3, run->place[i] / 3);
+    p->at[i] = k;
+  }
+  return COROT_OK;
+}
+
+static bool same_time(double s, double t, double end) { return fabs(s - t) <= 1e-9 * end; }
+
+static corot_status check_ends(const pairing *p) {
+  if (p->run->count == 0 || p->reference->count == 0)
+    return corot_fail(COROT_EINVAL, "no states were written");
+  double end = states_t(p->run, p->run->count - 1);
+  double other = states_t(p->reference, p->reference->count - 1);
+  if (same_time(end, other, fmax(end, other))) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "ends at t = %g s, its reference at %g s", end, other);
+}
+
+/* The reference's x (of all its degrees of freedom) at those of the model, less y if that is given:
+   to out [n]. */
+static void take(const pairing *p, const double *x, const double *y, double *out) {
+  for (int i = 0; i < p->run->n; i++) out[i] = x[p->at[i]] - (y ? y[i] : 0);
+}
+
+static void find_scales(pairing *p) {
+  double *x = p->y->work;
+  for (int k = 0; k < p->reference->count; k++) {
+    take(p, states_u(p->reference, k), NULL, x);
+    p->scale[0] = fmax(p->scale[0], mass_norm(p->y, x));
+    p->scale[2] = fmax(p->scale[2], energy_norm(p->y, x));
+    take(p, states_v(p->reference, k), NULL, x);
+    p->scale[1] = fmax(p->scale[1], mass_norm(p->y, x));
+  }
+}
+
+/* Where the reference does not move at all there is no scale, and an error is infinite. */
+static double relative(double error, double scale) {
+  return scale > 0 ? error / scale : error > 0 ? INFINITY : 0;
+}
+
+static void enter(pairing *p, int measure, double value) {
+  error_pair *pair = &p->e->of[measure];
+  pair->max = fmax(pair->max, value);
+  pair->end = value; /* of the last time entered */
+}
+
+/* difference [n] of reference - run, of size `scale` each component at least */
+static double mixed_error(const pairing *p, const double *difference, const double *reference,
+                          double scale) {
+  double worst = 0;
+  for (int i = 0; i < p->run->n; i++)
+    worst = fmax(worst, fabs(difference[i]) / (scale + fabs(reference[p->at[i]])));
+  return worst;
+}
+
+static void enter_probes(pairing *p, const double *du) {
+  const int(*dof)[3] = corot_model_dof(p->y->model);
+  for (int k = 0; k < p->y->nprobe; k++) {
+    double square = 0;
+    for (int c = 0; c < 3; c++) {
+      int i = dof[p->y->probe[k]][c];
+      if (i >= 0) square += du[i] * du[i];
+    }
+    enter(p, ERROR_PROBES + k, sqrt(square));
+  }
+}
+
+static void compare(pairing *p, int at, int at_reference) {
+  int n = p->run->n;
+  double *du = p->y->work, *dv = du + n;
+  const double *u = states_u(p->reference, at_reference), *v = states_v(p->reference, at_reference);
+  double length = 0.01 * corot_model_length(p->y->model);
+  double speed = length * corot_model_frequency(p->y->model);
+
+  take(p, u, states_u(p->run, at), du);
+  take(p, v, states_v(p->run, at), dv);
+  enter(p, ERROR_DISPLACEMENT, relative(mass_norm(p->y, du), p->scale[0]));
+  enter(p, ERROR_VELOCITY, relative(mass_norm(p->y, dv), p->scale[1]));
+  enter(p, ERROR_ENERGY, relative(energy_norm(p->y, du), p->scale[2]));
+  enter(p, ERROR_MIXED, fmax(mixed_error(p, du, u, length), mixed_error(p, dv, v, speed)));
+  enter_probes(p, du);
+  if (p->e->of[ERROR_DISPLACEMENT].max > 1e-3 && isnan(p->e->parting))
+    p->e->parting = states_t(p->run, at);
+}
+
+static corot_status measure(pairing *p) {
+  COROT_TRY(check_ends(p));
+  COROT_TRY(match_places(p));
+  find_scales(p);
+  double end = states_t(p->run, p->run->count - 1);
+  for (int i = 0, k = 0; i < p->run->count && k < p->reference->count;) {
+    double s = states_t(p->run, i), t = states_t(p->reference, k);
+    if (same_time(s, t, end))
+      compare(p, i++, k++);
+    else if (s < t)
+      i++;
+    else
+      k++;
+  }
+  return COROT_OK;
+}
+
+corot_status errors_measure(yardstick *y, const trajectory *run, const trajectory *reference,
+                            errors *out) {
+  errors e = {.n = ERROR_PROBES + y->nprobe, .parting = NAN};
+  e.of = calloc((size_t)e.n, sizeof *e.of);
+  if (!e.of) return corot_fail(COROT_ENOMEM, "out of memory");
+  pairing p = {.y = y, .run = run, .reference = reference, .e = &e};
+  corot_status status = measure(&p);
+  free(p.at);
+  if (status == COROT_OK)
+    *out = e;
+  else
+    errors_free(&e);
+  return status;
+}
+
+void errors_free(errors *e) {
+  free(e->of);
+  *e = (errors){0};
+}
