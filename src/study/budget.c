@@ -20,7 +20,7 @@ enum {
   LABEL_SIZE = 64,
 };
 
-typedef struct budget {
+typedef struct budgeting {
   const scenario *scenario;
   budget_plan plan;
   int nrun;
@@ -34,21 +34,21 @@ typedef struct budget {
   double cpu[NRUN_MAX];        /* [s]; NaN: failed */
   const char *status[NRUN_MAX];
   yardstick *yardstick;
-} budget;
+} budgeting;
 
 static int chain_run(int part) { return 1 + part; }
-static int alone_run(const budget *b, int part) { return 1 + b->plan.npart + part; }
-static int check_run(const budget *b) { return 1 + 2 * b->plan.npart; }
+static int alone_run(const budgeting *b, int part) { return 1 + b->plan.npart + part; }
+static int check_run(const budgeting *b) { return 1 + 2 * b->plan.npart; }
 
 /* --- The runs --- */
 
-static void name_run(budget *b, int run, const char *what, const char *how) {
+static void name_run(budgeting *b, int run, const char *what, const char *how) {
   snprintf(b->label[run], LABEL_SIZE, "%s%s", what, how);
   b->variant[run].label = b->label[run];
 }
 
 /* The check differs from the chain up to the part of time in the method alone. */
-static void plan_check(budget *b, int ntime) {
+static void plan_check(budgeting *b, int ntime) {
   int n = 0;
   for (; n < ntime; n++) b->check_set[n] = b->chain_set[n];
   for (int k = 0; k < b->plan.check.nset; k++) b->check_set[n++] = b->plan.check.set[k];
@@ -57,7 +57,7 @@ static void plan_check(budget *b, int ntime) {
   name_run(b, check_run(b), "time integration", ", by another method");
 }
 
-static void plan_runs(budget *b) {
+static void plan_runs(budgeting *b) {
   int n = 0, ntime = 0;
   b->nrun = check_run(b) + 1;
   name_run(b, 0, "as given", "");
@@ -73,7 +73,7 @@ static void plan_runs(budget *b) {
   plan_check(b, ntime);
 }
 
-static corot_status load_run(budget *b, const char *dir, int i) {
+static corot_status load_run(budgeting *b, const char *dir, int i) {
   const study_run *run = &b->manifest->run[b->run[i]];
   run_record record;
   COROT_TRY(store_look(dir, run, &record));
@@ -83,7 +83,7 @@ static corot_status load_run(budget *b, const char *dir, int i) {
   if (record.state == RUN_DONE) {
     json_t *cpu = json_object_get(json_object_get(record.result, "timings"), "cpu");
     b->cpu[i] = json_number_value(cpu);
-    char *folder = store_path(dir, run, NULL);
+    char *folder = store_path(dir, run, "");
     status = folder ? states_read(folder, &b->states[i]) : COROT_ENOMEM;
     free(folder);
   }
@@ -91,7 +91,7 @@ static corot_status load_run(budget *b, const char *dir, int i) {
   return status;
 }
 
-static corot_status carry_out(budget *b, int nset, const char *const *set,
+static corot_status carry_out(budgeting *b, int nset, const char *const *set,
                               const execute_options *options, int *signal_number) {
   const scenario *s = b->scenario;
   char title[256];
@@ -115,7 +115,7 @@ typedef struct distance {
   json_t *probes; /* the caller's to decref */
 } distance;
 
-static json_t *probe_distances(const budget *b, const errors *e) {
+static json_t *probe_distances(const budgeting *b, const errors *e) {
   json_t *all = json_object();
   for (int i = 0; i < b->scenario->nprobe; i++) {
     error_pair of = e->of[ERROR_PROBES + i];
@@ -126,7 +126,7 @@ static json_t *probe_distances(const budget *b, const errors *e) {
   return all;
 }
 
-static corot_status measure(const budget *b, int run, int reference, distance *out) {
+static corot_status measure(const budgeting *b, int run, int reference, distance *out) {
   *out = (distance){.displacement = {NAN, NAN}};
   if (b->states[run].count == 0 || b->states[reference].count == 0) return COROT_OK;
   errors e;
@@ -148,7 +148,7 @@ static json_t *settings_text(const budget_part *part) {
   return json_text_string(text);
 }
 
-static corot_status part_json(const budget *b, int i, json_t **out) {
+static corot_status part_json(const budgeting *b, int i, json_t **out) {
   const budget_part *part = &b->plan.part[i];
   distance chain, alone;
   COROT_TRY(measure(b, i == 0 ? 0 : chain_run(i - 1), chain_run(i), &chain));
@@ -187,7 +187,7 @@ static json_t *advice(const json_t *parts) {
                       json_string_value(json_object_get(largest, "advice")));
 }
 
-static json_t *runs_json(const budget *b) {
+static json_t *runs_json(const budgeting *b) {
   json_t *list = json_array();
   for (int i = 0; i < b->nrun; i++)
     json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:o}", "run", b->label[i], "id",
@@ -196,7 +196,7 @@ static json_t *runs_json(const budget *b) {
   return list;
 }
 
-static corot_status totals(const budget *b, json_t *parts, json_t **out) {
+static corot_status totals(const budgeting *b, json_t *parts, json_t **out) {
   distance total, check;
   int ntime = 0;
   double sum = 0;
@@ -219,7 +219,7 @@ static corot_status totals(const budget *b, json_t *parts, json_t **out) {
   return status;
 }
 
-static corot_status rate(budget *b, json_t **out) {
+static corot_status rate(budgeting *b, json_t **out) {
   COROT_TRY(yardstick_create(b->scenario, &b->yardstick));
   json_t *parts = json_array();
   corot_status status = COROT_OK;
@@ -234,7 +234,7 @@ static corot_status rate(budget *b, json_t **out) {
   return status;
 }
 
-static void release(budget *b) {
+static void release(budgeting *b) {
   for (int i = 0; i < b->nrun; i++) states_free(&b->states[i]);
   yardstick_destroy(b->yardstick);
   manifest_destroy(b->manifest);
@@ -243,7 +243,7 @@ static void release(budget *b) {
 
 corot_status budget_make(const scenario *s, int nset, const char *const *set,
                          const execute_options *options, json_t **out, int *signal_number) {
-  budget *b = calloc(1, sizeof *b);
+  budgeting *b = calloc(1, sizeof *b);
   if (!b) return corot_fail(COROT_ENOMEM, "out of memory");
   b->scenario = s;
   budget_plan_make(s, &b->plan);

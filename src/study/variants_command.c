@@ -86,7 +86,7 @@ int variants_command_run(const variants_command *c, int argc, char **argv) {
   long processors = sysconf(_SC_NPROCESSORS_ONLN);
   variants_arguments a = {.options = {.shard = 1, .nshard = 1, .progress = true}};
   a.options.njob = processors < 1 ? 1 : processors > POOL_MAX ? POOL_MAX : (int)processors;
-  a.set = calloc((size_t)argc, sizeof *a.set);
+  a.set = calloc((size_t)argc + 1, sizeof *a.set);
   if (!a.set) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
 
   struct option all[NOPTION] = {0};
@@ -99,6 +99,7 @@ int variants_command_run(const variants_command *c, int argc, char **argv) {
     code = take_option(c, answer, argv, all, &a);
   if (code < 0 && argc - optind != 1)
     code = usage_error(c->program, "expected one scenario, found %d", argc - optind);
+  if (code < 0 && c->ready) code = c->ready(c->context, &a);
   if (code < 0) code = go(c, argv[optind], &a);
   free(a.set);
   return code;
