@@ -163,7 +163,9 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
                   .nvariant = n,
                   .variant = v};
   manifest *m = NULL;
-  COROT_TRY(variants_execute(&all, &s->arguments->options, &m, run, &s->signal_number));
+  execute_options options = s->arguments->options;
+  options.expects_failures = true;
+  COROT_TRY(variants_execute(&all, &options, &m, run, &s->signal_number));
   corot_status status = COROT_OK;
   if (s->signal_number) status = corot_fail(COROT_EINTEGRATE, "interrupted");
   for (int i = 0; i < n && status == COROT_OK; i++) status = judge(s, &m->run[run[i]], &trial[i]);
