@@ -23,6 +23,7 @@ static const char help[] =
     "  mesh info FILE       size, shape and groups of a mesh\n"
     "  mesh refine FILE     cut every tet into eight\n"
     "  plot DIR             draw the work-precision diagram of a study\n"
+    "  report DIR           show a run or a study as one HTML page\n"
     "\n"
     "  corot COMMAND --help, corot --version\n"
     "\n"
@@ -46,9 +47,11 @@ static void hold_standard_streams(void) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},     {"static", command_static},   {"check", command_check},
-      {"study", command_study}, {"plot", command_plot},       {"schema", command_schema},
-      {"mesh", command_mesh},   {"--version", print_version}, {0},
+      {"run", command_run},         {"static", command_static},
+      {"check", command_check},     {"study", command_study},
+      {"plot", command_plot},       {"report", command_report},
+      {"schema", command_schema},   {"mesh", command_mesh},
+      {"--version", print_version}, {0},
   };
   hold_standard_streams();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */

@@ -11,17 +11,17 @@
 static const char help[] =
     "usage: corot plot DIR [--cost COST] [--error NAME] [-o FILE.svg]\n"
     "\n"
-    "Draws the work-precision diagram of a study from DIR/table.json: error against cost, a line "
-    "for\n"
-    "each series, and the floor below which the references say nothing. Beside the SVG stand a CSV "
-    "of\n"
-    "all its cells, and scripts for gnuplot (.gp) and matplotlib (.py) that draw the same from "
-    "it.\n"
-    "The files' names go to stdout; cells that have no point, and why, to stderr.\n"
+    "Draws the work-precision diagram of a study from DIR/table.json: error against cost, a line\n"
+    "for each series, and the floor below which the references say nothing. Beside the SVG stand\n"
+    "a CSV of all its cells, and scripts for gnuplot (.gp) and matplotlib (.py) that draw the "
+    "same\n"
+    "from it. The files' names go to stdout; cells that have no point, and why, to stderr.\n"
     "\n"
-    "      --cost COST      cpu, rhs, factorisations or steps; default: cpu\n"
-    "      --error NAME     one of the study's measures of error; default: its first\n"
+    "      --cost COST      cpu, wall, steps, rhs, factorisations or solves\n"
+    "      --error NAME     one of the table's measures of error, as velocity or displacement_end\n"
     "  -o, --output FILE    default: DIR/precision-COST-NAME.svg\n"
+    "\n"
+    "Without --cost and --error: those that the study compares by.\n"
     "\n"
     "example: corot plot out/integrators --cost rhs\n";
 
@@ -69,11 +69,11 @@ static char *base_of(const char *dir, const wish *w, const precision *p) {
   return base;
 }
 
-static void tell(const study_table *t) {
+static void tell(const study_table *t, int error) {
   static const char *const word[] = {"below the floor", "failed", "missing"};
   for (int i = 0; i < t->ncell; i++) {
     const study_cell *c = &t->cell[i];
-    if (study_cell_rated(c)) continue;
+    if (study_cell_rated(c, error)) continue;
     fprintf(stderr, "no point: %s, tolerance %g: %s%s%s\n", t->series[c->series], c->tolerance,
             word[c->status], *c->reason ? ": " : "", c->reason);
   }
@@ -83,8 +83,8 @@ static int plot(const char *dir, const wish *w, const study_table *t) {
   if (t->nerror == 0)
     return failure(corot_fail(COROT_EFORMAT, "%s/table.json: no cell has an error yet", dir));
   precision p = {.table = t};
-  int cost = w->cost ? choose("--cost", w->cost, STUDY_COSTS, study_cost_word) : STUDY_CPU;
-  int error = w->error ? choose("--error", w->error, t->nerror, t->error_name) : 0;
+  int cost = w->cost ? choose("--cost", w->cost, STUDY_COSTS, study_cost_word) : (int)t->cost;
+  int error = w->error ? choose("--error", w->error, t->nerror, t->error_name) : t->measure;
   if (cost < 0 || error < 0) return EXIT_USAGE;
   p.cost = (study_cost)cost;
   p.error = error;
@@ -92,7 +92,7 @@ static int plot(const char *dir, const wish *w, const study_table *t) {
   if (!base) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
   corot_status status = precision_write(&p, base);
   if (status == COROT_OK) {
-    tell(t);
+    tell(t, error);
     printf("%s.svg\n%s.csv\n%s.gp\n%s.py\n", base, base, base, base);
   }
   free(base);

@@ -3,8 +3,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Length in bytes of the character at `s`; 0 where there is none that XML could hold. */
-static int character(const unsigned char *s) {
+int markup_character(const char *text) {
+  const unsigned char *s = (const unsigned char *)text;
   if (s[0] < 0x80) return s[0] >= 0x20 && s[0] != 0x7f ? 1 : s[0] == '\t' || s[0] == '\n';
   int length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
   if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
@@ -23,7 +23,7 @@ static int character(const unsigned char *s) {
 static const char *put(FILE *out, const char *s) {
   static const char special[] = "&<>\"'";
   static const char *const entity[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
-  int length = character((const unsigned char *)s);
+  int length = markup_character(s);
   const char *found = strchr(special, *s);
   if (!length)
     fputc('?', out);
@@ -37,7 +37,7 @@ static const char *put(FILE *out, const char *s) {
 int markup_length(const char *text) {
   int n = 0;
   for (const char *s = text ? text : ""; *s; n++) {
-    int length = character((const unsigned char *)s);
+    int length = markup_character(s);
     s += length ? length : 1;
   }
   return n;

@@ -36,45 +36,32 @@ static corot_status collect(const precision *p, points *all) {
     points_free(all);
     return corot_fail(COROT_ENOMEM, "out of memory");
   }
-  bool bars = p->cost == STUDY_CPU;
   for (int i = 0, k = 0; i < t->ncell; i++) {
     const study_cell *c = &t->cell[i];
     chart_series *s = &all->series[c->series];
     if (!s->name)
-      *s = (chart_series){
-          t->series[c->series],       0, all->x + k, all->y + k, bars ? all->low + k : NULL,
-          bars ? all->high + k : NULL};
-    if (!study_cell_rated(c)) continue;
+      *s = (chart_series){t->series[c->series], 0, all->x + k, all->y + k, all->low + k,
+                          all->high + k};
+    if (!study_cell_rated(c, p->error)) continue;
     all->x[k] = c->cost[p->cost];
     all->y[k] = c->error[p->error];
-    all->low[k] = c->cpu_min, all->high[k] = c->cpu_max;
+    all->low[k] = c->low[p->cost], all->high[k] = c->high[p->cost];
     s->npoint++;
     k++;
   }
   return COROT_OK;
 }
 
-/* What has no point: "2 failed, 1 missing"; "" where nothing is left out. */
-static void count_left_out(const study_table *t, size_t size, char *note) {
-  static const char *const word[] = {"below the floor", "failed", "missing"};
-  int count[3] = {0};
-  for (int i = 0; i < t->ncell; i++)
-    if (!study_cell_rated(&t->cell[i])) count[t->cell[i].status]++;
-  size_t at = 0;
-  note[0] = '\0';
-  for (int k = 0; k < 3; k++)
-    if (count[k] && at < size)
-      at += (size_t)snprintf(note + at, size - at, "%s%d %s",
-                             at ? ", " : "without a point: ", count[k], word[k]);
+static corot_status write_svg(const void *what, FILE *out) {
+  chart_write(what, out);
+  return COROT_OK;
 }
-
-static void write_svg(const void *what, FILE *out) { chart_write(what, out); }
 
 static corot_status draw(const precision *p, const points *all, const char *path) {
   const study_table *t = p->table;
   char note[128], label[160];
-  count_left_out(t, sizeof note, note);
-  snprintf(label, sizeof label, "error: %s", t->error_name[p->error]);
+  study_left_out(t, p->error, sizeof note, note);
+  study_error_label(t->error_name[p->error], sizeof label, label);
   chart c = {
       .title = *t->title ? t->title : "Work and precision",
       .note = *note ? note : NULL,
@@ -103,11 +90,11 @@ static void csv_number(double x, FILE *out) {
   if (isfinite(x)) fprintf(out, "%.17g", x);
 }
 
-static void write_csv(const void *what, FILE *out) {
+static corot_status write_csv(const void *what, FILE *out) {
   static const char *const status[] = {"rated", "failed", "missing"};
   const precision *p = what;
   const study_table *t = p->table;
-  fprintf(out, "number,series,tolerance,%s,error,status,cpu_min,cpu_max,floor,id,reason\n",
+  fprintf(out, "number,series,tolerance,%s,error,status,low,high,floor,id,reason\n",
           study_cost_word[p->cost]);
   for (int i = 0; i < t->ncell; i++) {
     const study_cell *c = &t->cell[i];
@@ -115,14 +102,15 @@ static void write_csv(const void *what, FILE *out) {
     fprintf(out, "%d,", c->series);
     csv_text(t->series[c->series], out);
     for (int k = 0; k < 3; k++) fputc(',', out), csv_number(value[k], out);
-    bool below = c->status == STUDY_DONE && c->below_floor;
+    bool below = c->status == STUDY_DONE && c->unrated[p->error];
     fprintf(out, ",%s,", below ? "below-floor" : status[c->status]);
-    csv_number(c->cpu_min, out), fputc(',', out);
-    csv_number(c->cpu_max, out), fputc(',', out);
+    csv_number(c->low[p->cost], out), fputc(',', out);
+    csv_number(c->high[p->cost], out), fputc(',', out);
     csv_number(t->floor[p->error], out), fputc(',', out);
     csv_text(c->id, out), fputc(',', out);
     csv_text(c->reason, out), fputc('\n', out);
   }
+  return COROT_OK;
 }
 
 /* BASE with a suffix; the caller's to free. */

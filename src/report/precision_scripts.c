@@ -21,10 +21,11 @@ static void python_text(const char *text, FILE *out) {
   fputc('"', out);
 }
 
-void precision_gnuplot(const void *what, FILE *out) {
+corot_status precision_gnuplot(const void *what, FILE *out) {
   const precision_script *s = what;
   const study_table *t = s->diagram->table;
   int error = s->diagram->error;
+  char label[160];
   fputs(
       "# Draws the diagram with gnuplot, in the folder of this file:\n"
       "#   gnuplot -e \"output='figure.svg'\" FILE\n"
@@ -47,8 +48,9 @@ void precision_gnuplot(const void *what, FILE *out) {
   gnuplot_text(t->title, out);
   fputs("\nset xlabel ", out);
   gnuplot_text(study_cost_label[s->diagram->cost], out);
-  fputs("\nset ylabel 'error: '.", out);
-  gnuplot_text(t->error_name[error], out);
+  study_error_label(t->error_name[error], sizeof label, label);
+  fputs("\nset ylabel ", out);
+  gnuplot_text(label, out);
   fputs("\nrated(series, x) = $1 == series && strcol(6) eq 'rated' ? x : NaN\n", out);
   if (isfinite(t->floor[error]))
     fprintf(out, "floor = %.17g\n", STUDY_FLOOR_FACTOR * t->floor[error]);
@@ -61,11 +63,13 @@ void precision_gnuplot(const void *what, FILE *out) {
   if (isfinite(t->floor[error]))
     fprintf(out, "%s  floor with lines lt 0 lw 2 title 'floor'", t->nseries ? ", \\\n" : "");
   fputc('\n', out);
+  return COROT_OK;
 }
 
-void precision_matplotlib(const void *what, FILE *out) {
+corot_status precision_matplotlib(const void *what, FILE *out) {
   const precision_script *s = what;
   const study_table *t = s->diagram->table;
+  char label[160];
   double floor = STUDY_FLOOR_FACTOR * t->floor[s->diagram->error];
   fputs(
       "\"\"\"Draws the diagram with matplotlib: python3 FILE [FIGURE.pdf]\"\"\"\n"
@@ -98,10 +102,12 @@ void precision_matplotlib(const void *what, FILE *out) {
   python_text(t->title, out);
   fputs(")\naxes.set_xlabel(", out);
   python_text(study_cost_label[s->diagram->cost], out);
-  fputs(")\naxes.set_ylabel(\"error: \" + ", out);
-  python_text(t->error_name[s->diagram->error], out);
+  study_error_label(t->error_name[s->diagram->error], sizeof label, label);
+  fputs(")\naxes.set_ylabel(", out);
+  python_text(label, out);
   fputs(
       ")\naxes.grid(True, which=\"both\", alpha=0.3)\naxes.legend(fontsize=\"small\")\n"
       "figure.savefig(sys.argv[1] if len(sys.argv) > 1 else here / (name + \"-matplotlib.pdf\"))\n",
       out);
+  return COROT_OK;
 }

@@ -11,8 +11,8 @@ typedef struct precision_script {
   const char *name; /* of CSV and script, without folder and suffix */
 } precision_script;
 
-/* Each takes a precision_script. Errors are left in the stream. */
-void precision_gnuplot(const void *script, FILE *out);
-void precision_matplotlib(const void *script, FILE *out);
+/* Each is a save_writer and takes a precision_script. */
+corot_status precision_gnuplot(const void *script, FILE *out);
+corot_status precision_matplotlib(const void *script, FILE *out);
 
 #endif

@@ -9,11 +9,11 @@ corot_status save_text(const char *path, save_writer *write, const void *what) {
   size_t size = 0;
   FILE *out = open_memstream(&text, &size);
   if (!out) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
-  write(what, out);
+  corot_status status = write(what, out);
   int failed = ferror(out);
   failed |= fclose(out);
-  corot_status status = failed ? corot_fail(COROT_ENOMEM, "%s: out of memory", path)
-                               : file_replace_durably(path, text, size);
+  if (status == COROT_OK && failed) status = corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  if (status == COROT_OK) status = file_replace_durably(path, text, size);
   free(text);
   return status;
 }

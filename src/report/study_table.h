@@ -10,10 +10,12 @@
 #define STUDY_FLOOR_FACTOR 10.0
 
 typedef enum study_cost {
-  STUDY_CPU, /* [s] */
+  STUDY_CPU,  /* [s] */
+  STUDY_WALL, /* [s] */
+  STUDY_STEPS,
   STUDY_RHS,
   STUDY_FACTORISATIONS,
-  STUDY_STEPS,
+  STUDY_SOLVES,
   STUDY_COSTS
 } study_cost;
 
@@ -22,14 +24,16 @@ extern const char *const study_cost_word[STUDY_COSTS], *const study_cost_label[S
 
 typedef enum study_status { STUDY_DONE, STUDY_FAILED, STUDY_MISSING } study_status;
 
+/* NAN stands for what is not known. */
 typedef struct study_cell {
   const char *id, *reason; /* of a failure; "" else */
+  const char *key;         /* what its tolerance is, "integrator.rtol"; "" else */
   int series;
   study_status status;
   double tolerance;
-  double cost[STUDY_COSTS], cpu_min, cpu_max; /* NAN: not known */
-  const double *error;                        /* [nerror] NAN: not known */
-  bool below_floor;                           /* too near the reference's own error to be rated */
+  double cost[STUDY_COSTS], low[STUDY_COSTS], high[STUDY_COSTS]; /* median and extremes */
+  const double *error;                                           /* [nerror] */
+  const bool *unrated; /* [nerror] too near the reference's own error */
 } study_cell;
 
 typedef struct study_table {
@@ -40,6 +44,9 @@ typedef struct study_table {
   double *floor;                     /* [nerror] the highest of any reference; NAN: none */
   study_cell *cell;                  /* [ncell] by series, in it by falling tolerance */
   double *errors;                    /* what the cells' `error` point into */
+  bool *unrated;
+  study_cost cost; /* by which the study compares, and the index of its measure of error */
+  int measure;
 } study_table;
 
 /* Reads DIR/table.json. COROT_EIO: there is none; COROT_EFORMAT: it is not what a study writes. */
@@ -47,7 +54,13 @@ corot_status study_table_read(const char *dir, study_table *table);
 
 void study_table_free(study_table *table);
 
-/* Whether the cell has a point in a diagram. */
-bool study_cell_rated(const study_cell *cell);
+/* Whether the cell has a point in a diagram of that error. */
+bool study_cell_rated(const study_cell *cell, int error);
+
+/* What an error's name stands for, with its unit. */
+void study_error_label(const char *name, size_t size, char *label);
+
+/* "without a point: 2 failed, 1 missing" of the cells that have none; "" where all have. */
+void study_left_out(const study_table *table, int error, size_t size, char *note);
 
 #endif

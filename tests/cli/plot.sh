@@ -16,9 +16,9 @@ for k, series in enumerate(["cvode", "bdf, order 2", "tr <&> 'x' \"y\""]):
             "cost": {"cpu": 0.01 * 2**i, "cpu_min": 0.009 * 2**i, "cpu_max": 0.012 * 2**i,
                      "steps": 10 * 3**i, "rhs": 20 * 3**i, "factorisations": i},
             "error": {"displacement": (k + 1) * 10.0**-i, "velocity": (k + 2) * 10.0**-i},
-            "below_floor": i == 6})
+            "unrated": ["displacement", "velocity"] if i == 6 else []})
 cells[0].update(status="failed", reason="cvode gave up", cost={}, error={})
-table = {"title": "Title <&> 'x'", "cells": cells,
+table = {"title": "Title <&> 'x'", "cost": "cpu", "measure": "displacement", "cells": cells,
          "references": [{"floor": {"displacement": 1e-7, "velocity": 2e-7}}]}
 json.dump(table, open("study/table.json", "w"))
 PY
