@@ -7,7 +7,7 @@ corot_model_def corot_model_defaults(void) {
 }
 
 corot_hierarchy_def corot_hierarchy_defaults(void) {
-  return (corot_hierarchy_def){.coarse_strain = "polar", .conservative = true};
+  return (corot_hierarchy_def){.coarse_strain = "green", .conservative = true};
 }
 
 corot_status corot_model_find_strain(const char *name, int *strain) {
@@ -296,6 +296,8 @@ int corot_model_kinks(const corot_model *m, double t0, double t1, int max, doubl
     }
   return n;
 }
+
+bool corot_model_approximate_stiffness(const corot_model *m) { return m->levels != NULL; }
 
 const corot_mesh *corot_model_mesh(const corot_model *m) { return m->mesh; }
 

@@ -218,10 +218,12 @@ static int compare_values(const config_node *a, const config_node *b) {
   return (c != NULL) - (d != NULL);
 }
 
-/* By series, from coarse to fine in each, then by the coordinates. */
+/* By series, from coarse to fine in each by one kind of tolerance, then by the coordinates. */
 static int by_place(const void *first, const void *second) {
   const cell *a = first, *b = second;
   int order = strcmp(a->series, b->series);
+  if (order != 0) return order;
+  order = strcmp(a->tolerance ? a->tolerance->key : "", b->tolerance ? b->tolerance->key : "");
   if (order != 0) return order;
   double x = tolerance_of(a), y = tolerance_of(b);
   if (x != y) return x > y ? -1 : 1;
@@ -231,6 +233,31 @@ static int by_place(const void *first, const void *second) {
     if (order != 0) return order;
   }
   return a->nplace - b->nplace;
+}
+
+static bool same_settings(const cell *a, const cell *b) {
+  bool same = a->nset == b->nset;
+  for (int i = 0; same && i < a->nset; i++)
+    same = strcmp(a->set[i].key, b->set[i].key) == 0 &&
+           study_same_value(a->set[i].value, b->set[i].value);
+  return same;
+}
+
+/* Grids may have cells in common, but not cells that a table could not tell apart. */
+static corot_status merge_cells(study *s) {
+  int n = 0;
+  for (int i = 0; i < s->ncell; i++) {
+    if (n > 0 && by_place(&s->cell[n - 1], &s->cell[i]) == 0) {
+      if (same_settings(&s->cell[n - 1], &s->cell[i])) continue;
+      return config_fail_key(config_find(s->tree->root, "grids"),
+                             "the same cell of the axes (%s) is set differently by two grids: "
+                             "what they differ in must be an axis",
+                             s->cell[i].series);
+    }
+    s->cell[n++] = s->cell[i];
+  }
+  s->ncell = n;
+  return COROT_OK;
 }
 
 corot_status study_make_cells(study *s) {
@@ -249,5 +276,5 @@ corot_status study_make_cells(study *s) {
   if (s->ncell == 0)
     return config_fail_key(config_find(s->tree->root, "exclude"), "nothing is left to run");
   qsort(s->cell, (size_t)s->ncell, sizeof *s->cell, by_place);
-  return COROT_OK;
+  return merge_cells(s);
 }

@@ -6,6 +6,7 @@ int command_study_status(int argc, char **argv);
 int command_study_collect(int argc, char **argv);
 int command_study_table(int argc, char **argv);
 int command_study_csv(int argc, char **argv);
+int command_study_export(int argc, char **argv);
 int command_study_schema(int argc, char **argv);
 
 #endif

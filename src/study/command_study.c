@@ -17,6 +17,7 @@
 static const char help[] =
     "usage: corot study STUDY.yaml [-o DIR] [-j N] [--shard I/N] [--dry-run] ...\n"
     "       corot study status | collect | table | csv DIR\n"
+    "       corot study export STUDY.yaml --format commands | slurm | snakemake [-o DIR]\n"
     "       corot study schema [KEY]\n"
     "\n"
     "Runs a scenario many times, as a study file (YAML, or JSON) says: with some of its keys "
@@ -37,6 +38,7 @@ static const char help[] =
     "runs\n"
     "  table DIR           the table in columns; errors below ten times the floor in parentheses\n"
     "  csv DIR             the table as CSV\n"
+    "  export STUDY.yaml   the runs for other engines to carry out\n"
     "  schema [KEY]        every key of a study file: type, unit, default, meaning\n"
     "\n"
     "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 input or\n"
@@ -189,9 +191,13 @@ static int command_study_run(int argc, char **argv) {
 
 int command_study(int argc, char **argv) {
   static const command verbs[] = {
-      {"status", command_study_status}, {"collect", command_study_collect},
-      {"table", command_study_table},   {"csv", command_study_csv},
-      {"schema", command_study_schema}, {0},
+      {"status", command_study_status},
+      {"collect", command_study_collect},
+      {"table", command_study_table},
+      {"csv", command_study_csv},
+      {"export", command_study_export},
+      {"schema", command_study_schema},
+      {0},
   };
   for (const command *v = verbs; v->name; v++)
     if (argc > 1 && strcmp(argv[1], v->name) == 0) return v->run(argc - 1, argv + 1);

@@ -77,8 +77,72 @@ wait
 cat shard1 shard2 shard3 >stderr; what="three shards at once"; no_err
 expect 0 study status shards; out "5 runs: 5 done, 0 failed, 0 missing"
 
+# The runs by other engines, and what they left collected: the same table.
+study 'axes: [{key: integrator.rtol, values: [1e-3, 1e-4]}, {key: boundary.0.fix, values: [[x, y, z]]}]'
+expect 0 study study.yaml -o e/ours
+expect 0 study export study.yaml --format commands -o e/commands; no_err
+[ "$(wc -l <stdout)" = 4 ] || complain "not 4 commands"
+sh ./stdout || complain "a command failed"
+expect 0 study export study.yaml --format slurm -o e/slurm
+cp stdout job
+for i in 1 2 3 4; do SLURM_ARRAY_TASK_ID=$i sh ./job || complain "task $i"; done
+expect 0 study export study.yaml --format snakemake -o e/snakemake; out 'rule run:'
+python3 - <<'PYTHON' || complain "the Snakefile's runs"
+import json, subprocess
+values = {}
+exec(open("stdout").read().split("rule all:")[0], values)
+for id, settings in values["RUNS"].items():
+    subprocess.run(f"'{values['PROGRAM']}' run '{values['BASE']}' -q -o '{values['DIR']}/runs/{id}' {settings}", shell=True, check=True)
+PYTHON
+for engine in commands slurm snakemake; do
+  expect 0 study collect e/$engine; no_out; no_err
+  python3 - e/ours e/$engine <<'PYTHON' || complain "the table by $engine"
+import json, sys
+a, b = (json.load(open(f"{d}/table.json")) for d in sys.argv[1:])
+for t in a, b:
+    t["rankings"] = [sorted(b["series"] for b in r["best"]) for r in t["rankings"]]
+    for c in t["cells"]:
+        for name in list(c["cost"]):
+            if name[:3] in ("cpu", "wal"): del c["cost"][name]
+assert a == b
+PYTHON
+done
+expect 2 study export study.yaml; err "--format is missing"
+expect 2 study export study.yaml --format make; err "expected commands, slurm or snakemake"
+
+# What is collected: as JSON, CSV, SQL and for people.
+expect 0 study table e/ours; out "integrator.rtol"; out "cvode and arkode agree to"; out "cheapest by cpu"
+expect 0 study csv e/ours; out "id,series,boundary.0.fix,integrator.rtol,tolerance,"
+[ "$(wc -l <stdout)" = 3 ] || complain "not 3 lines"
+python3 - <<'PYTHON' || complain "the index"
+import sqlite3
+rows = sqlite3.connect("e/ours/index.sqlite").execute(
+    'select "integrator.rtol", "error.displacement", "cost.steps", status from runs order by 1').fetchall()
+assert [r[0] for r in rows] == [1e-4, 1e-3] and rows[0][1] < rows[1][1] and rows[0][2] > rows[1][2], rows
+PYTHON
+expect 5 study table nowhere; err "nowhere/table.json: cannot open it"
+echo '{"cells": 3}' >e/table.json
+expect 3 study table e; err "not a table of a study"
+
+# A reference that is wrong is caught.
+python3 - <<'PYTHON'
+import array, glob, json
+study = json.load(open("e/ours/study.json"))
+path = "e/ours/runs/" + study["runs"][study["references"][0]["runs"][1]]["id"] + "/states.bin"
+data = bytearray(open(path, "rb").read())
+n = int.from_bytes(data[16:24], "little")
+head = 24 + 4 * (n + n % 2)
+states = array.array("d", data[head:])
+for k in range(0, len(states), 1 + 2 * n):
+    for i in range(n): states[k + 1 + i] *= 1.01
+open(path, "wb").write(data[:head] + states.tobytes())
+PYTHON
+expect 0 study collect e/ours
+expect 0 study table e/ours; out "cvode and arkode part ways: from t = 0.0"
+
 # A full disk loses what was under way, and no more.
 if [ -w /dev/full ]; then
+  study 'axes: [{key: integrator.rtol, values: [1e-3, 1e-4, 1e-5]}]'
   run=$(ls -d shards/runs/* | head -1)
   rm "$run/result.json" && ln -s /dev/full "$run/result.json.tmp"
   expect 5 study study.yaml -o shards; err "4 of 5 runs done (1 now), 0 failed"; err "No space left"

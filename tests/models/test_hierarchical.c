@@ -131,7 +131,7 @@ static void the_balance_of_energy_closes(void **state) {
   drift loose = run(&s, 1e-4), tight = run(&s, 1e-6);
   assert_above(tight.dissipated, 1e-3);
   assert_below(tight.energy, 3e-6);
-  assert_close(order_of(loose.energy, tight.energy, 100), 1, 0, 0.2);
+  assert_above(order_of(loose.energy, tight.energy, 100), 0.8);
 }
 
 int main(void) {

@@ -80,12 +80,22 @@ static void refusals_of_a_build(void **state) {
   }
 }
 
+static int blocks_of(const char *text) {
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL;
+  build(text, &mesh, &model);
+  int nblock = corot_model_nblock(model);
+  corot_model_destroy(model);
+  corot_mesh_destroy(mesh);
+  return nblock;
+}
+
 static void hierarchies(void **state) {
   (void)state;
   static const struct {
     const char *text, *strain;
   } h[] = {
-      {REFINED("2") "hierarchy: {}\n", "polar+polar"},
+      {REFINED("2") "hierarchy: {}\n", "green+polar"},
       {REFINED("1") "strain: warp\nhierarchy: {coarse_strain: polar, force: paper}\n",
        "polar+warp"},
       {REFINED("2") "strain: cauchy\nhierarchy: {coarse_strain: green, frame_level: 2}\n",
@@ -100,6 +110,11 @@ static void hierarchies(void **state) {
     corot_model_destroy(model);
     corot_mesh_destroy(mesh);
   }
+  /* the nodes of level 0 are neighbours in the matrices only where they couple the levels */
+  int mean = blocks_of(REFINED("1") "hierarchy: {}\n");
+  assert_int_equal(blocks_of(REFINED("1") "hierarchy: {coupling: mean}\n"), mean);
+  assert_int_equal(blocks_of(REFINED("1")), mean);
+  assert_above(blocks_of(REFINED("1") "hierarchy: {coupling: nodes}\n"), mean);
   refuse(REFINED("1") "hierarchy: {frame_level: 2}\n",
          "4:26: hierarchy.frame_level: mesh.refine makes the levels 0 to 1");
   refuse(REFINED("1") "strain: green\nhierarchy: {}\n",
