@@ -41,6 +41,16 @@ static const char help[] =
     "  export STUDY.yaml   the runs for other engines to carry out\n"
     "  schema [KEY]        every key of a study file: type, unit, default, meaning\n"
     "\n"
+    "A study file:\n"
+    "\n"
+    "  study: Which integrator, and how tight?\n"
+    "  base: bar.yaml\n"
+    "  set: {time.end: 5}\n"
+    "  axes:\n"
+    "    - {key: integrator.method, values: [cvode, ida]}\n"
+    "    - {key: integrator.rtol, log: {from: 1e-2, to: 1e-6, per_decade: 1}}\n"
+    "  repeat: 3\n"
+    "\n"
     "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 input or\n"
     "output, 130 and 143 interrupted.\n"
     "\n"
@@ -148,8 +158,9 @@ static int execute_here(const manifest *m, const execute_options *o) {
   status = execute_study(m, o, &totals, &signal_number);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
-    status = collect_study(m, o->dir);
+    status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
     if (status != COROT_OK) code = failure(status);
+    if (status == COROT_OK && !o->quiet) fprintf(stderr, "corot study table %s\n", o->dir);
   }
   store_leave(lock);
   return code;

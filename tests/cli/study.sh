@@ -137,7 +137,7 @@ for k in range(0, len(states), 1 + 2 * n):
     for i in range(n): states[k + 1 + i] *= 1.01
 open(path, "wb").write(data[:head] + states.tobytes())
 PYTHON
-expect 0 study collect e/ours
+expect 0 study collect e/ours; err "reference 0: cvode and arkode part ways"; err "2 of 2 cells are not rated"
 expect 0 study table e/ours; out "cvode and arkode part ways: from t = 0.0"
 
 # A full disk loses what was under way, and no more.
