@@ -89,29 +89,46 @@ typedef struct corot_motion {
   double from, to;  /* [s] from < to; to may be INFINITY */
 } corot_motion;
 
+/* How level 0 of a hierarchical model follows the motion u of the finest level. MEAN: each of its
+   tets c by the mean of the gradient F over it,
+
+     E(u) = E_fine(u; R) + sum_c V_c [psi_coarse(Fm_c) - psi_model(Fm_c; R_c)],
+     Fm_c = 1/V_c sum_i V_i F_i over the descendants i of c,
+
+   which the means of u over the faces of c decide. NODES: by its own nodes,
+
+     E(u) = E_fine(u; R) + E_coarse(u_0) - E_linear(u_0),
+
+   u_0 their displacement, E_linear of level 0 under the model's measure. */
+typedef enum corot_coupling { COROT_COUPLING_MEAN, COROT_COUPLING_NODES } corot_coupling;
+
 /* A strain measure of its own for level 0 of a refined mesh: nonlinear where the mesh is coarse,
    and on the finest level the model's, linear in frames that a coarser tet hands down to all its
    descendants (Hauth & Strasser 2004, their hierarchical simulation; the paper leaves the combined
-   system open). It is that of the energy
-
-     E(u) = E_coarse(u_0) + E_fine(u; R) - E_linear(u_0),
-
-   u_0 the displacement of the nodes of level 0; E_coarse of level 0 under the coarse measure;
-   E_fine of the finest level under the model's measure in the frames R, which are those of the tets
-   of the frame level; E_linear of level 0 under the model's measure, with frames of its own. The
-   viscous forces are put together from the same three.
+   system open). It is that of one of the energies above: psi_coarse of the coarse measure, E_fine
+   and psi_model of the model's, R the frames of the tets of the frame level, with MEAN of their mean
+   gradients. The viscous forces are put together from the same three terms.
 
    Where the whole body moves as level 0 does (the differences of corot/hierarchy.h are zero), the
    fine and the linear term cancel and E is that of the coarse mesh. With the same measure on both,
    and frame level = nlevel, E is that of the plain model on the refined mesh. With nlevel = 0 the
    model is the plain one of the coarse measure.
 
-   With polar on both, what is left is linear detail about the frames of coarse tets. With green on
-   level 0, mind the strains there: E_coarse - E_linear is of third order in them and can be
-   negative, and it depends on the nodes of level 0 alone, which E_fine holds the more weakly the
-   finer the mesh is. Measured in simple shear, the energy is convex about the state up to a shear
-   strain of 0.1 with one level and of 0.02 with two; not far beyond, these nodes leave their
-   surroundings, and tets invert. */
+   With MEAN and frames of level 0, E = sum_c V_c psi_coarse(Fm_c) + E_detail, where E_detail is
+   quadratic in the detail F_i - Fm_c and not negative: such a body is as stable as one of the coarse
+   measure alone. With NODES, E_coarse - E_linear is of third order in the strain, of either sign,
+   and acts on the nodes of level 0 alone, which E_fine holds the more weakly the finer the mesh is.
+   Measured with green and polar, on a bar of 18 tets held at both ends in simple shear: with MEAN
+   the energy is convex about the state up to a shear strain of 1.5, the largest tried, with one
+   level and with two and for every frame level, like plain green; with NODES to 0.2 with one level
+   and 0.06 with two, and not far beyond, the nodes of level 0 leave their surroundings, and tets
+   invert. Pressed together, either gives up at the latest where green does; polar on level 0 does
+   not.
+
+   With MEAN the matrices are those of E_fine with the frames held, on the plain model's pattern: K
+   lacks what the coarse measure adds, a part of the size of its strains, as well as the turning of
+   the frames. Implicit time steps hardly notice; equilibria are found by more iterations, and only
+   for moderate strains. */
 typedef struct corot_hierarchy_def {
   const corot_refinement *refinement; /* how the model's mesh was made, by corot_mesh_refine; the
                                          descendants of a tet of level 0 have one material */
@@ -123,9 +140,10 @@ typedef struct corot_hierarchy_def {
      cheaper, and off by the product of strain and difference, in a torque on each frame's tet.
      Without meaning where frames are held. Needs polar (or cauchy, whose frames do not turn). */
   bool conservative;
+  corot_coupling coupling;
 } corot_hierarchy_def;
 
-/* Coarse strain polar, frame level 0, conservative; no refinement. */
+/* As in the paper: coarse strain green, frame level 0; conservative, coupling MEAN; no refinement. */
 corot_hierarchy_def corot_hierarchy_defaults(void);
 
 /* What a model is made of; everything in it is copied. */

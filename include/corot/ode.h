@@ -102,11 +102,16 @@ typedef enum corot_tangent {
 /* Elastic stiffness K = -dr/du at v = 0 and damping D = -dr/dv, both symmetric, as 3x3 blocks
    [corot_model_nblock()][9] on the model's pattern (below). Either may be NULL.
    What K leaves out, so as to stay symmetric: the change of the viscous force with u, and the
-   variation of a warp frame; the turning of a pressure. With a hierarchy `tangent` is for level 0,
-   and the frames handed down are held: their variation would couple all nodes below a tet of the
-   frame level. corot_jvp has them. */
+   variation of a warp frame; the turning of a pressure. With a hierarchy the frames handed down are
+   held: their variation would couple all nodes below a tet of the frame level. Coupled by nodes,
+   `tangent` is for level 0, which couples its nodes; by means, which couple all nodes on the faces of
+   a tet, level 0 is left out. corot_jvp has them. */
 corot_status corot_jacobian(const corot_model *model, corot_state *state, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
+
+/* Whether K leaves out so much that it does not tell whether an equilibrium is stable: that of a
+   hierarchy does. */
+bool corot_model_approximate_stiffness(const corot_model *model);
 
 /* The derivative of r in the direction (du, dv): jv = dr/du du + dr/dv dv [N], nothing left out.
    With COROT_TANGENT_HELD the frames are constant, with EXACT and with CLAMPED, which is for
@@ -188,7 +193,7 @@ corot_status corot_internal_force(const corot_model *model, corot_state *state, 
 
 /* Number of stored 3x3 blocks: the diagonal and the lower triangle over pairs of nodes that share
    a tet or, with COROT_DILATATION_NODAL, an average: those two tets apart; with
-   a hierarchy, also of level 0 if the measures differ. Blocks of held nodes are stored but mean
+   a hierarchy coupled by nodes, also of level 0 if the measures differ. Blocks of held nodes are stored but mean
    nothing. */
 int corot_model_nblock(const corot_model *model);
 

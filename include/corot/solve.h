@@ -30,12 +30,17 @@ typedef struct corot_linear_def {
   const char *solver;         /* "auto", "klu", "cholmod" (if built in), "pcg" */
   const char *ordering;       /* of klu and cholmod: "auto", "amd", "metis" (if built in) */
   const char *factor;         /* of cholmod: "auto", "simplicial", "supernodal" */
-  const char *preconditioner; /* of pcg: "auto", "block-jacobi", "incomplete-cholesky" */
+  const char *preconditioner; /* of pcg: "auto", "block-jacobi", "incomplete-cholesky"; on a refined
+                                 mesh also "hierarchical", its hierarchical basis, or "multigrid",
+                                 V-cycles through its levels, both with a factor of level 0. "auto"
+                                 takes neither */
   double tolerance; /* of pcg: residual relative to the right-hand side, > 0 */
   corot_role role;
+  const corot_refinement *refinement; /* of the model's mesh, for these two; only read while the
+                                         solver is being created. Else NULL will do */
 } corot_linear_def;
 
-/* All "auto", 1e-10, dynamic. */
+/* All "auto", 1e-10, dynamic, no refinement. */
 corot_linear_def corot_linear_defaults(void);
 
 /* K, D, S and a factor of S: one for each run. */

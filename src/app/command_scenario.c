@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "warnings.h"
 
 static const struct option options[] = {
     {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
@@ -43,6 +44,7 @@ static int read_and_go(scenario_action *go, const char *path, int noverride, cha
   int code = EXIT_SYSTEM;
   if (o->dir) {
     heed_signals();
+    if (!o->quiet) warnings_print(s, "warning: ", stderr);
     code = go(s, o);
   } else {
     fputs("out of memory\n", stderr);

@@ -6,6 +6,7 @@
 
 #include "config.h"
 #include "json_text.h"
+#include "warnings.h"
 
 /* --- Finding --- */
 
@@ -47,8 +48,9 @@ static corot_status choose(const scenario *s, facts *f, corot_state *state) {
   double *zero = calloc(n + 1, sizeof *zero);
   if (!zero) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
   corot_integrator *integrator = NULL;
-  corot_status status =
-      corot_integrator_create(&s->integrator, f->model, state, 0, zero, zero, &integrator);
+  corot_integrator_def def = s->integrator;
+  def.linear.refinement = f->refinement;
+  corot_status status = corot_integrator_create(&def, f->model, state, 0, zero, zero, &integrator);
   if (status == COROT_OK) f->chosen = corot_integrator_chosen(integrator);
   corot_integrator_destroy(integrator);
   free(zero);
@@ -57,7 +59,7 @@ static corot_status choose(const scenario *s, facts *f, corot_state *state) {
 
 corot_status facts_find(const scenario *s, facts *f) {
   corot_state *state = NULL;
-  COROT_TRY(scenario_build(s, &f->mesh, &f->model));
+  COROT_TRY(scenario_build(s, &f->mesh, &f->refinement, &f->model));
   f->quality = corot_mesh_measure(f->mesh);
   f->mass = total_mass(s, f);
   COROT_TRY(corot_state_create(f->model, &state));
@@ -70,6 +72,7 @@ corot_status facts_find(const scenario *s, facts *f) {
 
 void facts_free(facts *f) {
   corot_model_destroy(f->model);
+  corot_refinement_destroy(f->refinement);
   corot_mesh_destroy(f->mesh);
 }
 
@@ -135,17 +138,10 @@ static void print_frames(const scenario *s, FILE *out) {
   fputc('\n', out);
 }
 
-/* Linear tets of one material lock where its lambda is many mu: ten are a nu of 0.45. */
 static void print_dilatation(const scenario *s, FILE *out) {
-  double most = 0;
-  for (int i = 0; i < s->nmaterial; i++)
-    most = fmax(most, s->material[i].lambda / s->material[i].mu);
   if (s->dilatation == COROT_DILATATION_NODAL)
     fprintf(out, "dilatation     averaged at the nodes, but for %g mu of lambda\n",
             s->dilatation_local);
-  else if (most > 10)
-    fprintf(out, "dilatation     each tet's own, which locks: nu = %.4g; see dilatation: nodal\n",
-            0.5 * most / (most + 1));
 }
 
 static void print_model(const scenario *s, const facts *f, FILE *out) {
@@ -207,6 +203,7 @@ void facts_print(const scenario *s, const facts *f, FILE *out) {
   print_mesh(s, f, out);
   print_model(s, f, out);
   print_run(s, f, out);
+  warnings_print(s, "warning        ", out);
 }
 
 /* --- JSON --- */
@@ -270,5 +267,6 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
-  return json_text_with(j, "probes", probes_json(s, f->mesh));
+  j = json_text_with(j, "probes", probes_json(s, f->mesh));
+  return json_text_with(j, "warnings", warnings_list(s));
 }

@@ -6,6 +6,7 @@
 
 typedef struct facts {
   corot_mesh *mesh;
+  corot_refinement *refinement; /* or NULL */
   corot_model *model;
   corot_mesh_quality quality;
   corot_integrator_choice chosen;

@@ -8,6 +8,7 @@
 #include "folder.h"
 #include "json_text.h"
 #include "result_statics.h"
+#include "warnings.h"
 
 #if defined(__clang__)
 #define COMPILER "clang " __clang_version__
@@ -161,12 +162,12 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
                          json_t **out) {
   const hashes *h = &run->hashes;
   json_t *result = json_pack(
-      "{s:o, s:s, s:o, s:i, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o,"
+      "{s:o, s:s, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o,"
       " s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "exit_code",
-      run->exit_code, "t_reached", real(run->t_reached), "t_end", real(s->t_end), "strain",
-      corot_model_strain(run->model), "mesh", mesh_part(s, run->model), "frames",
-      run->statics ? json_null() : frames_part(s, run), "integrator",
+      run->exit_code, "t_reached", real(run->t_reached), "t_end", real(s->t_end), "warnings",
+      warnings_list(s), "strain", corot_model_strain(run->model), "mesh", mesh_part(s, run->model),
+      "frames", run->statics ? json_null() : frames_part(s, run), "integrator",
       run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",

@@ -18,6 +18,7 @@ typedef struct run {
   const scenario *scenario;
   const run_options *options;
   corot_mesh *mesh;
+  corot_refinement *refinement; /* or NULL */
   corot_model *model;
   corot_state *state;
   corot_integrator *integrator;
@@ -42,17 +43,18 @@ static corot_status start_integrator(run *r) {
   if (!r->u || !r->v) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
 
   COROT_TRY(corot_state_create(r->model, &r->state));
-  if (s->start_at_equilibrium) COROT_TRY(static_start(s, r->model, r->u));
+  if (s->start_at_equilibrium) COROT_TRY(static_start(s, r->refinement, r->model, r->u));
   corot_state_enter(r->state, 0);
   COROT_TRY(schedule_create(r->model, s->t_end, s->output_step, &r->schedule));
-  COROT_TRY(
-      corot_integrator_create(&s->integrator, r->model, r->state, 0, r->u, r->v, &r->integrator));
+  corot_integrator_def def = s->integrator;
+  def.linear.refinement = r->refinement;
+  COROT_TRY(corot_integrator_create(&def, r->model, r->state, 0, r->u, r->v, &r->integrator));
   return corot_frame_clock_create(&s->frames, r->model, r->state, r->integrator, 0, r->u, r->v,
                                   &r->clock);
 }
 
 static corot_status prepare(run *r) {
-  COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->model));
+  COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->refinement, &r->model));
   COROT_TRY(start_integrator(r));
   r->setup_s = wall_clock() - r->wall_at_start;
   return COROT_OK;
@@ -65,6 +67,7 @@ static void release(run *r) {
   schedule_destroy(r->schedule);
   corot_state_destroy(r->state);
   corot_model_destroy(r->model);
+  corot_refinement_destroy(r->refinement);
   corot_mesh_destroy(r->mesh);
   free(r->u);
   free(r->v);

@@ -24,6 +24,8 @@ static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root;
   config_node *box = config_find(root, "mesh.box");
   s->refine = (int)number_at(root, "mesh.refine");
+  s->diagonal = text_is(root, "mesh.diagonal", "shortest") ? COROT_DIAGONAL_SHORTEST
+                                                           : COROT_DIAGONAL_CONSISTENT;
   if (!box) {
     config_node *file = config_find(root, "mesh.file");
     if (!*file->text) return config_fail(file, "the name is empty");
@@ -208,8 +210,14 @@ typedef struct overrides {
 } overrides;
 
 static corot_status apply_overrides(config *tree, const overrides *o) {
-  for (int i = 0; i < o->ntext; i++) COROT_TRY(config_override(tree, o->text[i]));
-  for (int i = 0; i < o->nset; i++) COROT_TRY(config_set(tree, o->set[i].key, o->set[i].value));
+  for (int i = 0; i < o->ntext; i++) {
+    COROT_TRY(schema_expand(&scenario_schema, tree));
+    COROT_TRY(config_override(tree, o->text[i]));
+  }
+  for (int i = 0; i < o->nset; i++) {
+    COROT_TRY(schema_expand(&scenario_schema, tree));
+    COROT_TRY(config_set(tree, o->set[i].key, o->set[i].value));
+  }
   return COROT_OK;
 }
 

@@ -34,6 +34,7 @@ typedef struct scenario {
   const char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
   corot_box box;
   int refine; /* times */
+  corot_diagonal diagonal;
   int ngroup;
   const group_def *group;
 
@@ -44,6 +45,7 @@ typedef struct scenario {
   const char *coarse_strain; /* of the unrefined mesh; NULL: no hierarchy */
   int frame_level;
   bool conservative;
+  corot_coupling coupling;
 
   corot_viscosity viscosity;
   corot_mass mass;
@@ -104,8 +106,10 @@ extern const char *const scenario_load_words[];
 /* Takes NULL. */
 void scenario_destroy(scenario *s);
 
-/* The mesh with its groups, and the model; both the caller's to destroy. COROT_EFORMAT: a message
-   as above; a mesh that cannot be read is one, too. */
-corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_model **model);
+/* The mesh with its groups, its refinement if the linear solver is to know it, else NULL, and the
+   model; all the caller's to destroy. Who has no use for the refinement passes NULL. COROT_EFORMAT:
+   a message as above; a mesh that cannot be read is one, too. */
+corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_refinement **refinement,
+                            corot_model **model);
 
 #endif

@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "config.h"
 #include "refine.h"
-#include "scenario.h"
+#include "scenario_parts.h"
 #include "suggest.h"
 
 static config_node *place(const scenario *s, const char *path) {
@@ -46,14 +45,14 @@ static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *me
 
 static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
   if (s->refine == 0 && !s->coarse_strain) return COROT_OK;
-  corot_status status =
-      refine_mesh(s->refine, COROT_DIAGONAL_CONSISTENT, mesh, s->coarse_strain ? refinement : NULL);
+  bool needed = s->coarse_strain || scenario_solves_by_levels(s);
+  corot_status status = refine_mesh(s->refine, s->diagonal, mesh, needed ? refinement : NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
 }
 
 /* Numbers of nodes are those of the unrefined mesh, and the refined one inherits their groups.
- *refinement is set for a hierarchy, even on failure. */
+ *refinement is set where it is needed, even on failure. */
 static corot_status build_mesh(const scenario *s, corot_mesh **out, corot_refinement **refinement) {
   corot_mesh *mesh = NULL;
   COROT_TRY(load_mesh(s, &mesh));
@@ -201,7 +200,11 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   COROT_TRY(check_section(s, "loads", mesh));
   COROT_TRY(check_probes(s, mesh));
   corot_model_def def = corot_model_defaults();
-  corot_hierarchy_def hierarchy = {refinement, s->coarse_strain, s->frame_level, s->conservative};
+  corot_hierarchy_def hierarchy = {.refinement = refinement,
+                                   .coarse_strain = s->coarse_strain,
+                                   .frame_level = s->frame_level,
+                                   .conservative = s->conservative,
+                                   .coupling = s->coupling};
   def.mesh = mesh;
   def.hierarchy = s->coarse_strain ? &hierarchy : NULL;
   def.strain = s->strain;
@@ -219,21 +222,27 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   def.dilatation_local = s->dilatation_local;
   corot_status status = corot_model_create(&def, model);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
-  /* names and coefficients are checked above: what is left is a mass that the supports do not allow,
-     and which tet has which material */
+  /* names and coefficients are checked above: what is left is a mass that the supports do not
+     allow, and which tet has which material */
   bool mass = s->mass == COROT_MASS_CONSISTENT && s->nmotion > 0;
   return config_fail_key(place(s, mass ? "mass" : "material"), "%s", corot_error());
 }
 
-corot_status scenario_build(const scenario *s, corot_mesh **out, corot_model **model) {
+corot_status scenario_build(const scenario *s, corot_mesh **out, corot_refinement **refinement,
+                            corot_model **model) {
   corot_mesh *mesh = NULL;
-  corot_refinement *refinement = NULL;
-  corot_status status = build_mesh(s, &mesh, &refinement);
-  if (status == COROT_OK) status = build_model(s, mesh, refinement, model);
-  corot_refinement_destroy(refinement);
-  if (status == COROT_OK)
-    *out = mesh;
-  else
+  corot_refinement *r = NULL;
+  corot_status status = build_mesh(s, &mesh, &r);
+  if (status == COROT_OK) status = build_model(s, mesh, r, model);
+  if (status != COROT_OK || !refinement || !scenario_solves_by_levels(s)) {
+    corot_refinement_destroy(r);
+    r = NULL;
+  }
+  if (status != COROT_OK) {
     corot_mesh_destroy(mesh);
-  return status;
+    return status;
+  }
+  *out = mesh;
+  if (refinement) *refinement = r;
+  return COROT_OK;
 }

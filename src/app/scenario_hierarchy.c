@@ -28,6 +28,7 @@ corot_status scenario_read_hierarchy(scenario *s) {
   s->coarse_strain = text_at(node, "coarse_strain");
   s->frame_level = (int)number_at(node, "frame_level");
   s->conservative = text_is(node, "force", "conservative");
+  s->coupling = text_is(node, "coupling", "mean") ? COROT_COUPLING_MEAN : COROT_COUPLING_NODES;
   if (s->frame_level > s->refine)
     return config_fail(config_find(node, "frame_level"), "mesh.refine makes the levels 0 to %d",
                        s->refine);

@@ -95,6 +95,11 @@ static corot_status read_stages(config_node *node, corot_integrator_def *def) {
   return COROT_OK;
 }
 
+bool scenario_solves_by_levels(const scenario *s) {
+  const char *preconditioner = s->integrator.linear.preconditioner;
+  return strcmp(preconditioner, "hierarchical") == 0 || strcmp(preconditioner, "multigrid") == 0;
+}
+
 static void read_linear_solver(config_node *node, corot_linear_def *def) {
   def->solver = text_at(node, "name");
   def->ordering = text_at(node, "ordering");
@@ -145,6 +150,9 @@ static corot_status read_integrator(scenario *s) {
   COROT_TRY(read_stages(node, &def));
   COROT_TRY(read_constant_step(node, &def));
   s->integrator = def;
+  if (s->refine == 0 && scenario_solves_by_levels(s))
+    return config_fail(config_find(root, "linear_solver.preconditioner"), "%s needs mesh.refine",
+                       def.linear.preconditioner);
   return COROT_OK;
 }
 

@@ -15,6 +15,9 @@ corot_status scenario_read_conditions(scenario *s);
 /* mass, dilatation, viscosity, frames, integrator and linear_solver */
 corot_status scenario_read_method(scenario *s);
 
+/* Whether the linear solver may have to know the levels of mesh.refine. */
+bool scenario_solves_by_levels(const scenario *s);
+
 /* hierarchy, after viscosity */
 corot_status scenario_read_hierarchy(scenario *s);
 

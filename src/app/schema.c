@@ -29,6 +29,7 @@ static const schema_key keys[] = {
   {"mesh.box.origin",         VECTOR,          OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, "the corner with the smallest coordinates"},
   {"mesh.box.split",          CHOICE,          OPTIONAL, ANY,          "",        "kuhn", "kuhn", "how a cell is cut into tets"},
   {"mesh.refine",             INTEGER,         OPTIONAL, NOT_NEGATIVE, "",      "0", 0, "times that each tet is cut into eight; nodes keep their numbers, the middles of edges follow"},
+  {"mesh.diagonal",           CHOICE,          OPTIONAL, ANY,          "",        "consistent", "consistent|shortest", "which diagonal of the octahedron inside a tet is an edge of the eight: consistent makes at most three shapes of a tet, shortest better ones on the average"},
 
   {"groups",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "sets of nodes, in addition to the mesh's own groups; plane and box choose among those of the refined mesh"},
   {"groups.NAME.plane",       MAP,             ONE_OF,   ANY,          "",        0, 0, "the nodes on a plane across an axis"},
@@ -54,7 +55,8 @@ static const schema_key keys[] = {
   {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "lumped", "lumped|consistent", "lumped: row sums at the nodes; consistent: the shape functions' own, without moving supports"},
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
   {"hierarchy",               MAP,             OPTIONAL, ANY,          "",        0, 0, "with mesh.refine: a measure of its own for the unrefined mesh; strain is that of the refined one, in frames handed down"},
-  {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh; green and hybrid for small strains only: with two refinements, of 2 %"},
+  {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "green", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh"},
+  {"hierarchy.coupling",      CHOICE,          OPTIONAL, ANY,          "",        "mean", "mean|nodes", "how the unrefined mesh follows the refined one: by the mean gradient over each of its tets, or by its own nodes, where green and hybrid are for small strains only: with two refinements, of 6 %"},
   {"hierarchy.frame_level",   INTEGER,         OPTIONAL, NOT_NEGATIVE, "",        "0", 0, "the level whose frames are handed down to finer ones, 0 (the unrefined mesh) to mesh.refine"},
   {"hierarchy.force",         CHOICE,          OPTIONAL, ANY,          "",        "conservative", "conservative|paper", "conservative: the gradient of the energy; paper: without the part by which the frames follow, which keeps momentum only"},
   {"dilatation",              SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "local", 0, "what lambda acts on; the name alone will do"},
@@ -123,7 +125,7 @@ static const schema_key keys[] = {
   {"linear_solver.name",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod|pcg", "klu: sparse LU; cholmod: sparse Cholesky; pcg: conjugate gradients; auto: by size"},
   {"linear_solver.ordering",  CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|amd|metis", "klu, cholmod: of the mesh's nodes, against fill"},
   {"linear_solver.factor",    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|simplicial|supernodal", "cholmod: entry by entry, or in dense blocks"},
-  {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky", "pcg: what it is preconditioned with"},
+  {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky|hierarchical|multigrid", "pcg: what it is preconditioned with; with mesh.refine also by its levels, the unrefined one factored: their hierarchical basis, or V-cycles"},
   {"linear_solver.tolerance", NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-10", 0, "pcg: residual to reach, relative to the right-hand side"},
 
   {"start",                   CHOICE,          OPTIONAL, ANY,          "",        "rest", "rest|equilibrium", "where a run begins: undeformed, or in equilibrium under the loads of t = 0; at rest in both"},

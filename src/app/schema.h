@@ -79,6 +79,10 @@ void schema_inside(const schema_key *key, size_t size, char *path);
    fills in defaults. */
 corot_status schema_apply(const schema *table, config *tree);
 
+/* Writes single values that stand for a map (SCHEMA_SHORT) as one, so that its other keys can be
+   set. */
+corot_status schema_expand(const schema *table, config *tree);
+
 /* A checked scenario as JSON, its keys in the order of the table. NULL: no memory. */
 json_t *schema_resolve(const config *tree);
 

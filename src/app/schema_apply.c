@@ -271,10 +271,26 @@ static corot_status apply_maps(const application *a, config_node *node, const ch
 }
 
 /* A single value becomes a map of its own with that value under the first key. */
+static corot_status expand_short(const application *a, config_node *node, const char *path) {
+  if (node->kind != CONFIG_SCALAR) return COROT_OK;
+  return wrap(a, node, CONFIG_MAP, last_segment(schema_child(a->table, path, NULL)->path));
+}
+
 static corot_status apply_short(const application *a, config_node *node, const char *path) {
-  if (node->kind == CONFIG_SCALAR)
-    COROT_TRY(wrap(a, node, CONFIG_MAP, last_segment(schema_child(a->table, path, NULL)->path)));
+  COROT_TRY(expand_short(a, node, path));
   return apply_map(a, node, path);
+}
+
+corot_status schema_expand(const schema *table, config *tree) {
+  application a = {.table = table, .tree = tree};
+  const schema_key *key = NULL;
+  while ((key = schema_child(table, "", key))) {
+    config_node *node = key->type == SCHEMA_SHORT ? config_find(tree->root, key->path) : NULL;
+    char inside[PATH];
+    schema_inside(key, sizeof inside, inside);
+    if (node && !config_is_null(node)) COROT_TRY(expand_short(&a, node, inside));
+  }
+  return COROT_OK;
 }
 
 static corot_status apply_value(const application *a, config_node *node, const schema_key *key) {

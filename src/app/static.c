@@ -14,6 +14,7 @@ typedef struct equilibrium_run {
   const scenario *scenario;
   const run_options *options;
   corot_mesh *mesh;
+  corot_refinement *refinement; /* or NULL */
   corot_model *model;
   corot_state *state; /* for outputs */
   corot_statics *statics;
@@ -53,7 +54,8 @@ static corot_status prepare(equilibrium_run *r) {
   const scenario *s = r->scenario;
   corot_statics_def def = s->statics;
   def.stop = is_stopped;
-  COROT_TRY(scenario_build(s, &r->mesh, &r->model));
+  COROT_TRY(scenario_build(s, &r->mesh, &r->refinement, &r->model));
+  def.linear.refinement = r->refinement;
   COROT_TRY(allocate(r));
   corot_status status = corot_statics_create(&def, r->model, s->t_end, NULL, &r->statics);
   if (status) return corot_fail(status, "%s: %s", s->path, corot_error());
@@ -67,6 +69,7 @@ static void release(equilibrium_run *r) {
   corot_statics_destroy(r->statics);
   corot_state_destroy(r->state);
   corot_model_destroy(r->model);
+  corot_refinement_destroy(r->refinement);
   corot_mesh_destroy(r->mesh);
   json_decref(r->steps);
   free(r->u);
@@ -245,10 +248,12 @@ int static_scenario(const scenario *s, const run_options *options) {
   return run_in_c_locale(search, s, options);
 }
 
-corot_status static_start(const scenario *s, const corot_model *model, double *u) {
+corot_status static_start(const scenario *s, const corot_refinement *refinement,
+                          const corot_model *model, double *u) {
   corot_statics *statics = NULL;
   corot_statics_def def = s->statics;
   def.stop = is_stopped;
+  def.linear.refinement = refinement;
   corot_status status = corot_statics_create(&def, model, 0, NULL, &statics);
   if (status == COROT_OK) status = corot_statics_solve(statics);
   if (status == COROT_OK)

@@ -12,7 +12,9 @@
 int static_scenario(const scenario *s, const run_options *options);
 
 /* u [n] = the equilibrium under the loads as they are at t = 0, where a run begins if the scenario
-   says `start: equilibrium`. COROT_EINTEGRATE, COROT_ESINGULAR: there is none. */
-corot_status static_start(const scenario *s, const corot_model *model, double *u);
+   says `start: equilibrium`. Mesh, refinement and model are
+   those of scenario_build. COROT_EINTEGRATE, COROT_ESINGULAR: there is none. */
+corot_status static_start(const scenario *s, const corot_refinement *refinement,
+                          const corot_model *model, double *u);
 
 #endif

@@ -55,16 +55,19 @@ int corot_kernel_tangent(const corot_model *m, corot_state *state, corot_tangent
 /* Once the element matrices are: adds to K what the averages of the dilatation add. */
 void corot_kernel_dilatation_tangent(const corot_model *m, corot_state *state, double (*K)[9]);
 
-/* Of a hierarchical model, whose frames are in state->R: the force as corot_kernel_force, and
-   state->moment = V vee(R'F sigma) of the elastic stress. */
+/* Of a hierarchical model whose framer has its frames in now_R: the force as corot_kernel_force,
+   and the framer's moment += V vee(R'F sigma) of the elastic stress. */
 int corot_kernel_handed_force(const corot_model *m, corot_state *state, bool damped, int chunk);
 
-/* The changes of both for state->du, state->dv and state->dR; and the moment. */
+/* The changes of both for state->du, state->dv and the framer's dR; and the moment. */
 int corot_kernel_handed_derivative(const corot_model *m, corot_state *state, bool damped,
                                    int chunk);
 
-/* Of the part whose polar frames, state->now_R, have been handed down: state->force = -(the force
-   by which they turn), from the moments of the descendants summed in state->moment. */
+/* state->R = the framer's frames over each tet. */
+void corot_kernel_hand_down(const corot_model *m, corot_state *state);
+
+/* Of the framer, whose polar frames have been handed down: state->force = -(the force by which they
+   turn), from the moments. */
 int corot_kernel_turning_force(const corot_model *m, corot_state *state, bool unused, int chunk);
 
 /* Its change for state->du, state->dR and state->dmoment. */

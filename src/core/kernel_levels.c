@@ -1,6 +1,28 @@
 /* Loops of a hierarchical model: the finest tets in frames from above, where the stress is
    P = R sigma(sym(R'F) - I) for every measure, and what the turning of these frames adds. */
 #include "core/kernel.h"
+#include "core/levels.h"
+
+/* Of matrices of the framer's tets, that over block b. */
+COROT_INLINE mat3 above_block(const levels *l, const mat3 *of_framer, int b) {
+  if (!l->above) return of_framer[b];
+  const mat3 *A = &of_framer[l->above[b] / W];
+  int lane = l->above[b] % W;
+  mat3 B;
+  EACH_IJ B.m[i][j] = vd_all(A->m[i][j][lane]);
+  return B;
+}
+
+/* Adds a vector of each tet of block b to that of the framer's tet over it. */
+COROT_INLINE void add_up(const levels *l, vec3 a, int b, vec3 *of_framer) {
+  if (!l->above) {
+    of_framer[b] = a;
+    return;
+  }
+  double(*sum)[W] = (double(*)[W])of_framer[l->above[b] / W].v;
+  for (int c = 0; c < 3; c++)
+    for (int k = 0; k < W; k++) sum[c][l->above[b] % W] += a.v[c][k];
+}
 
 /* lambda tr(e) I + 2 mu e */
 COROT_INLINE mat3 linear_stress(vd lambda, vd mu, mat3 e) {
@@ -26,16 +48,19 @@ COROT_INLINE vi inverted_in(const corot_model *m, mat3 F) {
 
 COROT_INLINE int handed_force_loop(const corot_model *m, corot_state *state, bool damped,
                                    int chunk) {
+  const levels *l = m->levels;
+  corot_state *framer = state->levels->framer;
   for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
     const tet_block *block = &m->tets.block[b];
     coefficients k = coefficients_of(m, block);
-    mat3 F = deformation(block, (const double(*)[4])state->u), R = state->R[b];
+    mat3 F = deformation(block, (const double(*)[4])state->u);
+    mat3 R = above_block(l, framer->now_R, b);
     vi inverted = inverted_in(m, F);
     if (vi_any(inverted)) return first_inverted(m, b, inverted);
 
     mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
     mat3 sigma = linear_stress(k.lambda, k.mu, e);
-    state->moment[b] = mat3_vee(mat3_mul(mat3_tmul(R, F), sigma));
+    add_up(l, mat3_vee(mat3_mul(mat3_tmul(R, F), sigma)), b, framer->moment);
     if (damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
       mat3 rate = mat3_sym_tmul(R, V);
@@ -51,14 +76,22 @@ COROT_CLONES int corot_kernel_handed_force(const corot_model *m, corot_state *st
   return handed_force_loop(m, state, damped, chunk);
 }
 
+void corot_kernel_hand_down(const corot_model *m, corot_state *state) {
+  for (int b = 0; b < m->tets.nblock; b++)
+    state->R[b] = above_block(m->levels, state->levels->framer->now_R, b);
+}
+
 /* dR is zero where the frames do not follow. */
 COROT_INLINE int handed_derivative_loop(const corot_model *m, corot_state *state, bool damped,
                                         int chunk) {
+  const levels *l = m->levels;
+  corot_state *framer = state->levels->framer;
   for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
     const tet_block *block = &m->tets.block[b];
     coefficients k = coefficients_of(m, block);
-    mat3 F = deformation(block, (const double(*)[4])state->u), R = state->R[b];
-    mat3 dF = gradient(block, (const double(*)[4])state->du), dR = state->dR[b];
+    mat3 F = deformation(block, (const double(*)[4])state->u);
+    mat3 R = above_block(l, framer->now_R, b), dR = above_block(l, framer->dR, b);
+    mat3 dF = gradient(block, (const double(*)[4])state->du);
     vi inverted = inverted_in(m, F);
     if (vi_any(inverted)) return first_inverted(m, b, inverted);
 
@@ -66,8 +99,9 @@ COROT_INLINE int handed_derivative_loop(const corot_model *m, corot_state *state
     mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
     mat3 sigma = linear_stress(k.lambda, k.mu, e), dsigma = linear_stress(k.lambda, k.mu, de);
     mat3 A = mat3_tmul(R, F), dA = mat3_add(mat3_tmul(dR, F), mat3_tmul(R, dF));
-    state->moment[b] = mat3_vee(mat3_mul(A, sigma));
-    state->dmoment[b] = mat3_vee(mat3_add(mat3_mul(dA, sigma), mat3_mul(A, dsigma)));
+    vec3 dmoment = mat3_vee(mat3_add(mat3_mul(dA, sigma), mat3_mul(A, dsigma)));
+    add_up(l, mat3_vee(mat3_mul(A, sigma)), b, framer->moment);
+    add_up(l, dmoment, b, framer->dmoment);
     if (damped) {
       mat3 V = gradient(block, (const double(*)[4])state->v);
       mat3 dV = gradient(block, (const double(*)[4])state->dv);

@@ -38,64 +38,78 @@ corot_status corot_levels_check(const corot_hierarchy_def *def, const corot_mesh
   return check_middles(r, mesh);
 }
 
-/* The tets of a level: node k of tet e is node k of its child 8 e + k, and so on down. */
-static corot_status level_mesh(const corot_mesh *fine, const corot_refinement *r, int level,
-                               corot_mesh **mesh) {
-  int ntet = r->ntet[level];
-  int(*tet)[4] = malloc(ntet * sizeof *tet);
-  if (!tet) return corot_fail(COROT_ENOMEM, "no memory for the %d tets of level %d", ntet, level);
-  for (int e = 0; e < ntet; e++)
-    for (int k = 0; k < 4; k++) {
-      int child = e;
-      for (int l = level; l < r->nlevel; l++) child = 8 * child + k;
-      tet[e][k] = fine->tet[child][k];
-    }
-  corot_status status = corot_mesh_create(r->nnode[level], (const double(*)[3])fine->x, ntet,
-                                          (const int(*)[4])tet, mesh);
-  free(tet);
-  return status;
-}
-
 /* Of a part's tets the material is that of their first descendants. */
-static corot_status part_tets(const corot_model *m, const int *of_tet, int shift, corot_model *p) {
-  int ntet = p->mesh->ntet, *of = malloc(ntet * sizeof *of);
+static corot_status part_tets(const corot_model *m, const coarsening *c, const int *of_tet,
+                              corot_model *p) {
+  int ntet = p->mesh->ntet, below = m->mesh->ntet / ntet, *of = malloc(ntet * sizeof *of);
   if (!of) return corot_fail(COROT_ENOMEM, "no memory for %d tets", ntet);
-  for (int e = 0; e < ntet; e++) of[e] = of_tet[(size_t)e << shift];
-  corot_status status = corot_tets_create(p->mesh, m->nmaterial, of,
+  for (int e = 0; e < ntet; e++) of[e] = of_tet[(size_t)e * below];
+  corot_status status = corot_tets_create(p->mesh, m->nmaterial, of, 1,
                                           strain_measures[p->strain].frame == FRAME_WARP, &p->tets);
   free(of);
+  for (int b = 0; !status && b < p->tets.nblock; b++) p->tets.block[b].volume *= c->volume;
   return status;
 }
 
-static corot_status fill_part(const corot_model *m, const corot_refinement *r, int level,
+static corot_status fill_part(const corot_model *m, const corot_mesh *mesh, const coarsening *c,
                               const int *of_tet, corot_model *p) {
-  COROT_TRY(level_mesh(m->mesh, r, level, &p->mesh));
-  int nnode = p->mesh->nnode;
+  COROT_TRY(corot_mesh_copy(mesh, &p->mesh));
+  int nnode = mesh->nnode;
   p->damped = m->damped;
   p->nmaterial = m->nmaterial;
   p->material = malloc(m->nmaterial * sizeof *p->material);
   p->dof = malloc(nnode * sizeof *p->dof);
   if (!p->material || !p->dof)
-    return corot_fail(COROT_ENOMEM, "no memory for the %d nodes of level %d", nnode, level);
+    return corot_fail(COROT_ENOMEM, "no memory for the %d nodes of a level", nnode);
   memcpy(p->material, m->material, m->nmaterial * sizeof *p->material);
   for (int n = 0; n < nnode; n++)
-    for (int c = 0; c < 3; c++) p->dof[n][c] = p->ndof++;
-  COROT_TRY(part_tets(m, of_tet, 3 * (r->nlevel - level), p));
+    for (int i = 0; i < 3; i++) p->dof[n][i] = p->ndof++;
+  COROT_TRY(part_tets(m, c, of_tet, p));
   return corot_pattern_create(nnode, &p->tets, &p->dilatation, NULL, &p->pattern);
 }
 
-static corot_status make_part(const corot_model *m, const corot_refinement *r, int level,
+static corot_status make_part(const corot_model *m, const corot_mesh *mesh, const coarsening *c,
                               int strain, const int *of_tet, corot_model **part) {
   corot_model *p = calloc(1, sizeof *p);
-  if (!p) return corot_fail(COROT_ENOMEM, "no memory for level %d", level);
+  if (!p) return corot_fail(COROT_ENOMEM, "no memory for a part of a hierarchy");
   p->strain = strain;
-  corot_status status = fill_part(m, r, level, of_tet, p);
+  corot_status status = fill_part(m, mesh, c, of_tet, p);
   if (status) {
     corot_model_destroy(p);
     return status;
   }
   *part = p;
   return COROT_OK;
+}
+
+/* A level's mesh as its parts have it; on the finest level a tet's mean is its own gradient. */
+static corot_status make_coarsening(const corot_model *m, const corot_refinement *r, int level,
+                                    coarsening *c, corot_mesh **mesh) {
+  if (m->levels->coupling == COROT_COUPLING_MEAN && level < r->nlevel)
+    return corot_coarsening_by_means(m->mesh, r, level, c, mesh);
+  return corot_coarsening_by_values(m->mesh, r, level, c, mesh);
+}
+
+static corot_status make_coarse(const corot_refinement *r, int coarse, const int *of_tet,
+                                corot_model *m) {
+  levels *l = m->levels;
+  corot_mesh *mesh;
+  COROT_TRY(make_coarsening(m, r, 0, &l->to_coarse, &mesh));
+  corot_status status = make_part(m, mesh, &l->to_coarse, coarse, of_tet, &l->coarse);
+  if (!status) status = make_part(m, mesh, &l->to_coarse, m->strain, of_tet, &l->linear);
+  corot_mesh_destroy(mesh);
+  l->framer = l->linear;
+  return status;
+}
+
+static corot_status make_framer(const corot_refinement *r, const int *of_tet, corot_model *m) {
+  levels *l = m->levels;
+  corot_mesh *mesh;
+  l->framer = NULL;
+  COROT_TRY(make_coarsening(m, r, l->frame_level, &l->to_framer, &mesh));
+  corot_status status = make_part(m, mesh, &l->to_framer, m->strain, of_tet, &l->framer);
+  corot_mesh_destroy(mesh);
+  return status;
 }
 
 /* Whether all descendants of a tet of level 0 are made of the same. */
@@ -112,8 +126,10 @@ static corot_status check_materials(const corot_refinement *r, const int *of_tet
   return COROT_OK;
 }
 
-static corot_status check_strain(const corot_hierarchy_def *def, const corot_model *m) {
+static corot_status check_choices(const corot_hierarchy_def *def, const corot_model *m) {
   const strain_measure *s = &strain_measures[m->strain];
+  if (def->coupling != COROT_COUPLING_MEAN && def->coupling != COROT_COUPLING_NODES)
+    return corot_fail(COROT_EINVAL, "hierarchy: no coupling has the number %d", (int)def->coupling);
   if (s->pressure != BY_FRAME || s->shear != BY_FRAME)
     return corot_fail(COROT_EINVAL,
                       "hierarchy: strain %s is not linear in a given frame; cauchy, warp and polar "
@@ -134,21 +150,26 @@ static corot_status check_strain(const corot_hierarchy_def *def, const corot_mod
   return COROT_OK;
 }
 
-/* For each lane of the model's tets the framer's tet over it. */
+int corot_levels_together(const corot_hierarchy_def *def) {
+  return def ? 1 << 3 * (def->refinement->nlevel - def->frame_level) : 1;
+}
+
+/* The framer's tet over each block; a tet has at least 8 descendants. */
 static corot_status list_above(corot_model *m) {
+  _Static_assert(W == 8, "the descendants of a tet fill whole blocks");
   levels *l = m->levels;
   const tets *up = &l->framer->tets;
   int shift = 3 * (l->nlevel - l->frame_level), ntet = l->framer->mesh->ntet;
-  size_t nlane = (size_t)m->tets.nblock * W;
+  if (shift == 0) return COROT_OK;
   int *at = malloc(ntet * sizeof *at);
-  l->above = malloc(nlane * sizeof *l->above);
+  l->above = malloc(m->tets.nblock * sizeof *l->above);
   if (!at || !l->above) {
     free(at);
     return corot_fail(COROT_ENOMEM, "no memory for the frames of %d tets", m->mesh->ntet);
   }
   for (int b = 0; b < up->nblock; b++)
     for (int k = 0; k < up->block[b].ntet; k++) at[up->number[b * W + k]] = b * W + k;
-  for (size_t k = 0; k < nlane; k++) l->above[k] = at[m->tets.number[k] >> shift];
+  for (int b = 0; b < m->tets.nblock; b++) l->above[b] = at[m->tets.number[b * W] >> shift];
   free(at);
   return COROT_OK;
 }
@@ -158,24 +179,25 @@ corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_t
   const corot_refinement *r = def->refinement;
   int coarse;
   COROT_TRY(corot_model_find_strain(def->coarse_strain, &coarse));
-  COROT_TRY(check_strain(def, m));
+  COROT_TRY(check_choices(def, m));
   COROT_TRY(check_materials(r, of_tet));
   levels *l = m->levels = calloc(1, sizeof *l);
   if (!l) return corot_fail(COROT_ENOMEM, "no memory for the levels of a hierarchy");
   l->nlevel = r->nlevel;
   l->frame_level = def->frame_level;
+  l->coupling = def->coupling;
   l->same = coarse == m->strain;
   l->turning = def->conservative && strain_measures[m->strain].frame == FRAME_POLAR;
   snprintf(l->name, sizeof l->name, "%s+%s", strain_measures[coarse].name,
            strain_measures[m->strain].name);
-  COROT_TRY(make_part(m, r, 0, coarse, of_tet, &l->coarse));
-  COROT_TRY(make_part(m, r, 0, m->strain, of_tet, &l->linear));
-  l->framer = l->linear;
-  if (l->frame_level > 0) {
-    l->framer = NULL;
-    COROT_TRY(make_part(m, r, l->frame_level, m->strain, of_tet, &l->framer));
-  }
+  COROT_TRY(make_coarse(r, coarse, of_tet, m));
+  if (l->frame_level > 0) COROT_TRY(make_framer(r, of_tet, m));
   return list_above(m);
+}
+
+const pattern *corot_levels_pattern(const corot_model *m) {
+  const levels *l = m->levels;
+  return l->same || l->coupling == COROT_COUPLING_MEAN ? NULL : &l->coarse->pattern;
 }
 
 corot_status corot_levels_place(corot_model *m) {
@@ -194,6 +216,8 @@ void corot_levels_destroy(levels *l) {
   if (l->framer != l->linear) corot_model_destroy(l->framer);
   corot_model_destroy(l->linear);
   corot_model_destroy(l->coarse);
+  corot_coarsening_clear(&l->to_coarse);
+  corot_coarsening_clear(&l->to_framer);
   free(l->above);
   free(l->place);
   free(l);
@@ -203,6 +227,7 @@ size_t corot_levels_bytes(const corot_model *m) {
   const levels *l = m->levels;
   size_t bytes = sizeof *l + corot_model_bytes(l->coarse) + corot_model_bytes(l->linear);
   if (l->framer != l->linear) bytes += corot_model_bytes(l->framer);
+  bytes += corot_coarsening_bytes(&l->to_coarse) + corot_coarsening_bytes(&l->to_framer);
   if (l->place) bytes += l->coarse->pattern.nblock * sizeof *l->place;
-  return bytes + (size_t)m->tets.nblock * W * sizeof *l->above;
+  return bytes + (l->above ? m->tets.nblock * sizeof *l->above : 0);
 }

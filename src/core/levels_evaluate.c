@@ -2,12 +2,6 @@
 #include "core/kernel.h"
 #include "core/levels.h"
 
-/* The values at the first nodes. */
-static void restrict_field(const double (*from)[4], int nnode, double *to) {
-  for (int n = 0; n < nnode; n++)
-    for (int c = 0; c < 3; c++) to[3 * n + c] = from[n][c];
-}
-
 /* What a part's evaluation returned; its inverted tet is named by level, and remembered as its
    first descendant. */
 static corot_status part_status(const levels *l, corot_state *s, int level, const corot_state *part,
@@ -26,35 +20,25 @@ static corot_status frames_now(const corot_model *m, corot_state *s, mat3 *R) {
   return COROT_OK;
 }
 
-/* Matrices of the framer's tets to the lanes below them. */
-static void spread_down(const corot_model *m, const mat3 *from, mat3 *to) {
-  const int *above = m->levels->above;
-  for (int b = 0; b < m->tets.nblock; b++)
-    for (int l = 0; l < W; l++) {
-      int k = above[b * W + l];
-      EACH_IJ to[b].m[i][j][l] = from[k / W].m[i][j][k % W];
-    }
+void corot_levels_coarsen(const levels *l, const double (*field)[4], double *on_coarse,
+                          double *on_framer) {
+  corot_coarsen(&l->to_coarse, field, on_coarse);
+  if (on_framer != on_coarse) corot_coarsen(&l->to_framer, field, on_framer);
 }
 
-/* Vectors of the model's tets summed over those below each of the framer's. */
-static void sum_up(const corot_model *m, const vec3 *from, vec3 *to) {
-  const int *above = m->levels->above;
-  memset(to, 0, m->levels->framer->tets.nblock * sizeof *to);
-  for (int b = 0; b < m->tets.nblock; b++)
-    for (int l = 0; l < m->tets.block[b].ntet; l++) {
-      int k = above[b * W + l];
-      for (int c = 0; c < 3; c++) to[k / W].v[c][k % W] += from[b].v[c][l];
-    }
+/* The displacement as the parts see it, and the framer's frames of time t. */
+static corot_status find_frames(const corot_model *m, corot_state *s, double t) {
+  const levels *l = m->levels;
+  levels_state *ls = s->levels;
+  corot_levels_coarsen(l, (const double(*)[4])s->u, ls->on_coarse.u, ls->on_framer.u);
+  corot_state_displace(l->framer, ls->framer, t, ls->on_framer.u);
+  corot_status status = frames_now(l->framer, ls->framer, ls->framer->now_R);
+  return part_status(l, s, l->frame_level, ls->framer, status);
 }
 
 corot_status corot_levels_hand_down(const corot_model *m, corot_state *s, double t) {
-  const levels *l = m->levels;
-  levels_state *ls = s->levels;
-  restrict_field((const double(*)[4])s->u, ls->nnode, ls->u);
-  corot_state_displace(l->framer, ls->framer, t, ls->u);
-  corot_status status = frames_now(l->framer, ls->framer, ls->framer->now_R);
-  COROT_TRY(part_status(l, s, l->frame_level, ls->framer, status));
-  spread_down(m, ls->framer->now_R, s->R);
+  COROT_TRY(find_frames(m, s, t));
+  corot_kernel_hand_down(m, s);
   return COROT_OK;
 }
 
@@ -62,17 +46,24 @@ static void add_scaled(int n, double a, const double *x, double *y) {
   for (int i = 0; i < n; i++) y[i] += a * x[i];
 }
 
-/* ls->sum += the force that `kernel` finds by the moments of the model's tets. */
+/* The force that `kernel` finds by the moments of the model's tets. */
 static corot_status add_turning(const corot_model *m, corot_state *s, double t,
                                 force_kernel *kernel) {
   const corot_model *framer = m->levels->framer;
   levels_state *ls = s->levels;
   corot_state *fs = ls->framer;
-  corot_state_displace(framer, fs, t, ls->u);
+  corot_state_displace(framer, fs, t, ls->on_framer.u);
   memset(fs->r, 0, framer->ndof * sizeof *fs->r);
   COROT_TRY(corot_sum_forces(framer, fs, t, kernel, false));
-  add_scaled(framer->ndof, 1, fs->r, ls->sum);
+  add_scaled(framer->ndof, 1, fs->r, ls->on_framer.sum);
   return COROT_OK;
+}
+
+/* The kernels of the model's tets add to them. */
+static void clear_moments(const corot_model *m, levels_state *ls) {
+  size_t nblock = m->levels->framer->tets.nblock;
+  memset(ls->framer->moment, 0, nblock * sizeof *ls->framer->moment);
+  memset(ls->framer->dmoment, 0, nblock * sizeof *ls->framer->dmoment);
 }
 
 /* Frames that are held do not turn with u. */
@@ -80,44 +71,61 @@ static bool turning(const corot_model *m, const corot_state *s) {
   return m->levels->turning && s->levels->frames == COROT_FRAMES_EXACT;
 }
 
-/* ls->sum = coarse less linear force. */
+static void clear_sums(const levels *l, levels_state *ls) {
+  memset(ls->on_coarse.sum, 0, l->coarse->ndof * sizeof(double));
+  memset(ls->on_framer.sum, 0, l->framer->ndof * sizeof(double));
+}
+
+/* ls->nodal = the parts' force. */
+static void gather_parts(const corot_model *m, levels_state *ls) {
+  const levels *l = m->levels;
+  memset(ls->nodal, 0, m->mesh->nnode * sizeof *ls->nodal);
+  corot_coarsen_transposed(&l->to_coarse, ls->on_coarse.sum, ls->nodal);
+  if (l->framer != l->linear) corot_coarsen_transposed(&l->to_framer, ls->on_framer.sum, ls->nodal);
+}
+
+/* Coarse less linear force. */
 static corot_status coarse_force(const corot_model *m, corot_state *s, double t) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
+  const level_fields *f = &ls->on_coarse;
   int n = l->coarse->ndof;
-  memset(ls->sum, 0, 3 * ls->nnode * sizeof *ls->sum);
   if (l->same) return COROT_OK;
-  corot_status status = corot_residual(l->coarse, ls->coarse, t, ls->u, ls->v, ls->r);
+  corot_status status = corot_residual(l->coarse, ls->coarse, t, f->u, f->v, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->coarse, status));
-  add_scaled(n, 1, ls->r, ls->sum);
-  status = corot_residual(l->linear, ls->linear, t, ls->u, ls->v, ls->r);
+  add_scaled(n, 1, ls->r, f->sum);
+  status = corot_residual(l->linear, ls->linear, t, f->u, f->v, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->linear, status));
-  add_scaled(n, -1, ls->r, ls->sum);
+  add_scaled(n, -1, ls->r, f->sum);
   return COROT_OK;
 }
 
-/* ls->sum = force of the parts on their nodes; the model's own kernel has been through. */
+/* ls->nodal = the parts' force; the model's own kernel has been through. */
 static corot_status parts_force(const corot_model *m, corot_state *s, double t, bool damped) {
+  const levels *l = m->levels;
   levels_state *ls = s->levels;
-  if (damped) restrict_field((const double(*)[4])s->v, ls->nnode, ls->v);
+  const double(*v)[4] = (const double(*)[4])s->v;
+  if (damped) corot_levels_coarsen(l, v, ls->on_coarse.v, ls->on_framer.v);
+  clear_sums(l, ls);
   COROT_TRY(coarse_force(m, s, t));
-  if (!turning(m, s)) return COROT_OK;
-  sum_up(m, s->moment, ls->framer->moment);
-  return add_turning(m, s, t, corot_kernel_turning_force);
+  if (turning(m, s)) COROT_TRY(add_turning(m, s, t, corot_kernel_turning_force));
+  gather_parts(m, ls);
+  return COROT_OK;
 }
 
 /* s->r += the forces of the parts on free degrees of freedom. */
 static void add_parts(const corot_model *m, corot_state *s) {
-  const levels_state *ls = s->levels;
-  for (int n = 0; n < ls->nnode; n++)
+  const double(*f)[4] = (const double(*)[4])s->levels->nodal;
+  for (int n = 0; n < m->mesh->nnode; n++)
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
-      if (i >= 0) s->r[i] += ls->sum[3 * n + c];
+      if (i >= 0) s->r[i] += f[n][c];
     }
 }
 
 corot_status corot_levels_force(const corot_model *m, corot_state *s, double t, bool damped) {
-  COROT_TRY(corot_levels_hand_down(m, s, t));
+  COROT_TRY(find_frames(m, s, t));
+  clear_moments(m, s->levels);
   COROT_TRY(corot_sum_forces(m, s, t, corot_kernel_handed_force, damped));
   COROT_TRY(parts_force(m, s, t, damped));
   add_parts(m, s);
@@ -126,43 +134,46 @@ corot_status corot_levels_force(const corot_model *m, corot_state *s, double t, 
 
 corot_status corot_levels_nodal_force(const corot_model *m, corot_state *s, double t, bool damped,
                                       double (*f)[4]) {
-  const levels_state *ls = s->levels;
-  COROT_TRY(corot_levels_hand_down(m, s, t));
+  const double(*parts)[4] = (const double(*)[4])s->levels->nodal;
+  COROT_TRY(find_frames(m, s, t));
+  clear_moments(m, s->levels);
   COROT_TRY(corot_nodal_forces(m, s, corot_kernel_handed_force, damped, f));
   COROT_TRY(parts_force(m, s, t, damped));
-  for (int n = 0; n < ls->nnode; n++)
-    for (int c = 0; c < 3; c++) f[n][c] += ls->sum[3 * n + c];
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++) f[n][c] += parts[n][c];
   return COROT_OK;
 }
 
-/* ls->sum = change of coarse less linear force. */
+/* Change of coarse less linear force. */
 static corot_status coarse_derivative(const corot_model *m, corot_state *s, double t,
                                       corot_tangent tangent) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
+  const level_fields *f = &ls->on_coarse;
   int n = l->coarse->ndof;
-  memset(ls->sum, 0, 3 * ls->nnode * sizeof *ls->sum);
   if (l->same) return COROT_OK;
   corot_status status =
-      corot_jvp(l->coarse, ls->coarse, t, ls->u, ls->v, tangent, ls->du, ls->dv, ls->r);
+      corot_jvp(l->coarse, ls->coarse, t, f->u, f->v, tangent, f->du, f->dv, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->coarse, status));
-  add_scaled(n, 1, ls->r, ls->sum);
-  status = corot_jvp(l->linear, ls->linear, t, ls->u, ls->v, tangent, ls->du, ls->dv, ls->r);
+  add_scaled(n, 1, ls->r, f->sum);
+  status = corot_jvp(l->linear, ls->linear, t, f->u, f->v, tangent, f->du, f->dv, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->linear, status));
-  add_scaled(n, -1, ls->r, ls->sum);
+  add_scaled(n, -1, ls->r, f->sum);
   return COROT_OK;
 }
 
-/* ls->sum = change of the parts' force. */
+/* ls->nodal = change of the parts' force. */
 static corot_status parts_derivative(const corot_model *m, corot_state *s, double t,
                                      corot_tangent tangent) {
   levels_state *ls = s->levels;
+  clear_sums(m->levels, ls);
   COROT_TRY(coarse_derivative(m, s, t, tangent));
-  if (!turning(m, s) || tangent <= COROT_TANGENT_HELD) return COROT_OK;
-  sum_up(m, s->moment, ls->framer->moment);
-  sum_up(m, s->dmoment, ls->framer->dmoment);
-  corot_model_spread(m->levels->framer, ls->du, ls->framer->du[0], 4);
-  return add_turning(m, s, t, corot_kernel_turning_derivative);
+  if (turning(m, s) && tangent > COROT_TANGENT_HELD) {
+    corot_model_spread(m->levels->framer, ls->on_framer.du, ls->framer->du[0], 4);
+    COROT_TRY(add_turning(m, s, t, corot_kernel_turning_derivative));
+  }
+  gather_parts(m, ls);
+  return COROT_OK;
 }
 
 corot_status corot_levels_derivative(const corot_model *m, corot_state *s, double t,
@@ -170,16 +181,17 @@ corot_status corot_levels_derivative(const corot_model *m, corot_state *s, doubl
   const levels *l = m->levels;
   levels_state *ls = s->levels;
   corot_state *fs = ls->framer;
-  COROT_TRY(corot_levels_hand_down(m, s, t));
-  restrict_field((const double(*)[4])s->v, ls->nnode, ls->v);
-  restrict_field((const double(*)[4])s->du, ls->nnode, ls->du);
-  restrict_field((const double(*)[4])s->dv, ls->nnode, ls->dv);
+  const level_fields *c = &ls->on_coarse, *f = &ls->on_framer;
+  COROT_TRY(find_frames(m, s, t));
+  clear_moments(m, ls);
+  corot_levels_coarsen(l, (const double(*)[4])s->v, c->v, f->v);
+  corot_levels_coarsen(l, (const double(*)[4])s->du, c->du, f->du);
+  corot_levels_coarsen(l, (const double(*)[4])s->dv, c->dv, f->dv);
   if (tangent > COROT_TANGENT_HELD) {
-    corot_model_spread(l->framer, ls->du, fs->du[0], 4);
+    corot_model_spread(l->framer, f->du, fs->du[0], 4);
     corot_kernel_frames_change(l->framer, fs);
-    spread_down(m, fs->dR, s->dR);
   } else {
-    memset(s->dR, 0, m->tets.nblock * sizeof *s->dR);
+    memset(fs->dR, 0, l->framer->tets.nblock * sizeof *fs->dR);
   }
   bool damped = m->damped && !s->still;
   COROT_TRY(corot_sum_forces(m, s, t, corot_kernel_handed_derivative, damped));
@@ -196,13 +208,14 @@ corot_status corot_levels_add_matrices(const corot_model *m, corot_state *s, dou
                                        corot_tangent tangent, double (*K)[9], double (*D)[9]) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
-  if (l->same) return COROT_OK;
+  const level_fields *f = &ls->on_coarse;
+  if (!l->place) return COROT_OK;
   double(*part_K)[9] = K ? ls->K : NULL, (*part_D)[9] = D ? ls->D : NULL;
   for (int k = 0; k < 2; k++) {
     const corot_model *part = k == 0 ? l->coarse : l->linear;
     corot_state *state = k == 0 ? ls->coarse : ls->linear;
     double sign = k == 0 ? 1 : -1;
-    corot_status status = corot_jacobian(part, state, t, ls->u, ls->v,
+    corot_status status = corot_jacobian(part, state, t, f->u, f->v,
                                          k == 0 ? tangent : COROT_TANGENT_HELD, part_K, part_D);
     COROT_TRY(part_status(l, s, 0, state, status));
     if (K) add_blocks(l, sign, (const double(*)[9])part_K, K);
@@ -213,10 +226,10 @@ corot_status corot_levels_add_matrices(const corot_model *m, corot_state *s, dou
 
 /* Energy and viscous power of a part. */
 static corot_status part_energy(const corot_model *part, corot_state *state, double t,
-                                const levels_state *ls, bool damped, double *elastic,
+                                const level_fields *f, bool damped, double *elastic,
                                 double *power) {
-  corot_state_displace(part, state, t, ls->u);
-  if (damped) corot_model_velocity(part, NAN, t, ls->v, state->v[0], 4);
+  corot_state_displace(part, state, t, f->u);
+  if (damped) corot_model_velocity(part, NAN, t, f->v, state->v[0], 4);
   return corot_state_check(state, corot_kernel_energy(part, state, damped, elastic, power));
 }
 
@@ -226,12 +239,13 @@ corot_status corot_levels_energy(const corot_model *m, corot_state *s, double t,
   levels_state *ls = s->levels;
   double coarse[2] = {0}, linear[2] = {0}, fine[2];
   COROT_TRY(corot_levels_hand_down(m, s, t));
-  if (damped) restrict_field((const double(*)[4])s->v, ls->nnode, ls->v);
+  const level_fields *f = &ls->on_coarse;
+  if (damped) corot_levels_coarsen(l, (const double(*)[4])s->v, f->v, ls->on_framer.v);
   COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, damped, &fine[0], &fine[1])));
   if (!l->same) {
-    corot_status status = part_energy(l->coarse, ls->coarse, t, ls, damped, &coarse[0], &coarse[1]);
+    corot_status status = part_energy(l->coarse, ls->coarse, t, f, damped, &coarse[0], &coarse[1]);
     COROT_TRY(part_status(l, s, 0, ls->coarse, status));
-    status = part_energy(l->linear, ls->linear, t, ls, damped, &linear[0], &linear[1]);
+    status = part_energy(l->linear, ls->linear, t, f, damped, &linear[0], &linear[1]);
     COROT_TRY(part_status(l, s, 0, ls->linear, status));
   }
   *elastic = coarse[0] + (fine[0] - linear[0]);

@@ -4,15 +4,16 @@
 typedef struct part {
   const corot_model *model;
   corot_state *state;
+  const level_fields *fields;
 } part;
 
 /* The parts with frames of their own; the framer comes last. Returns how many there are. */
 static int list_parts(const corot_model *m, const corot_state *s, part parts[3]) {
   const levels *l = m->levels;
   const levels_state *ls = s->levels;
-  parts[0] = (part){l->coarse, ls->coarse};
-  parts[1] = (part){l->linear, ls->linear};
-  parts[2] = (part){l->framer, ls->framer};
+  parts[0] = (part){l->coarse, ls->coarse, &ls->on_coarse};
+  parts[1] = (part){l->linear, ls->linear, &ls->on_coarse};
+  parts[2] = (part){l->framer, ls->framer, &ls->on_framer};
   return l->framer == l->linear ? 2 : 3;
 }
 
@@ -37,9 +38,9 @@ corot_status corot_levels_frames_drift(const corot_model *m, corot_state *s, dou
   corot_frames_change change = {0};
   double before, after;
 
-  COROT_TRY(energy_with(m, s, t, COROT_FRAMES_EXACT, &after)); /* restricts the displacement */
+  COROT_TRY(energy_with(m, s, t, COROT_FRAMES_EXACT, &after)); /* coarsens the displacement */
   for (int k = 0; k < n; k++)
-    COROT_TRY(corot_frames_drift(parts[k].model, parts[k].state, t, s->levels->u, &change));
+    COROT_TRY(corot_frames_drift(parts[k].model, parts[k].state, t, parts[k].fields->u, &change));
   COROT_TRY(energy_with(m, s, t, old, &before));
   if (!drift) return COROT_OK;
   change.angle_tet <<= 3 * (l->nlevel - l->frame_level);
@@ -54,7 +55,7 @@ corot_status corot_levels_frames_update(const corot_model *m, corot_state *s, do
   int n = list_parts(m, s, parts);
   COROT_TRY(corot_levels_frames_drift(m, s, t, change)); /* nothing fails after this */
   for (int k = 0; k < n; k++)
-    COROT_TRY(corot_frames_update(parts[k].model, parts[k].state, t, s->levels->u, NULL));
+    COROT_TRY(corot_frames_update(parts[k].model, parts[k].state, t, parts[k].fields->u, NULL));
   return COROT_OK;
 }
 
@@ -63,12 +64,11 @@ corot_status corot_levels_frames_spin(const corot_model *m, corot_state *s, doub
   levels_state *ls = s->levels;
   part parts[3];
   int n = list_parts(m, s, parts);
-  for (int k = 0; k < ls->nnode; k++)
-    for (int c = 0; c < 3; c++) {
-      ls->u[3 * k + c] = s->u[k][c];
-      ls->v[3 * k + c] = s->v[k][c];
-    }
+  const level_fields *c = &ls->on_coarse, *f = &ls->on_framer;
+  corot_levels_coarsen(m->levels, (const double(*)[4])s->u, c->u, f->u);
+  corot_levels_coarsen(m->levels, (const double(*)[4])s->v, c->v, f->v);
   for (int k = 0; k < n; k++)
-    COROT_TRY(corot_frames_spin(parts[k].model, parts[k].state, t, ls->u, ls->v, spin_max));
+    COROT_TRY(corot_frames_spin(parts[k].model, parts[k].state, t, parts[k].fields->u,
+                                parts[k].fields->v, spin_max));
   return COROT_OK;
 }

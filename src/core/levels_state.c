@@ -3,6 +3,32 @@
 
 #include "core/levels.h"
 
+static corot_status allocate_fields(int n, level_fields *f) {
+  double *x = calloc(5 * (size_t)n, sizeof *x);
+  if (!x) return corot_fail(COROT_ENOMEM, "no memory for the %d nodes of a level", n / 3);
+  *f = (level_fields){x, x + n, x + 2 * n, x + 3 * n, x + 4 * n};
+  return COROT_OK;
+}
+
+/* Arrays and their bytes. */
+static corot_status allocate(const corot_model *m, levels_state *ls) {
+  const levels *l = m->levels;
+  size_t n = l->coarse->ndof, nf = l->framer == l->linear ? 0 : l->framer->ndof;
+  size_t nblock = l->place ? l->coarse->pattern.nblock : 0, nnode = m->mesh->nnode;
+  COROT_TRY(allocate_fields((int)n, &ls->on_coarse));
+  ls->on_framer = ls->on_coarse;
+  if (nf) COROT_TRY(allocate_fields((int)nf, &ls->on_framer));
+  ls->r = calloc(n, sizeof *ls->r);
+  ls->nodal = calloc(nnode, sizeof *ls->nodal);
+  if (nblock) ls->K = malloc(2 * nblock * sizeof *ls->K);
+  if (!ls->r || !ls->nodal || (nblock && !ls->K))
+    return corot_fail(COROT_ENOMEM, "no memory for the forces on %zu nodes", nnode);
+  if (nblock) ls->D = ls->K + nblock;
+  ls->bytes =
+      (6 * n + 5 * nf) * sizeof *ls->r + nnode * sizeof *ls->nodal + 2 * nblock * sizeof *ls->K;
+  return COROT_OK;
+}
+
 static corot_status fill(const corot_model *m, levels_state *ls) {
   const levels *l = m->levels;
   COROT_TRY(corot_state_create(l->coarse, &ls->coarse));
@@ -12,19 +38,7 @@ static corot_status fill(const corot_model *m, levels_state *ls) {
   else
     COROT_TRY(corot_state_create(l->framer, &ls->framer));
   COROT_TRY(corot_state_allow_turning(l->framer, ls->framer));
-
-  int n = l->framer->ndof, nblock = l->coarse->pattern.nblock;
-  ls->nnode = l->framer->mesh->nnode;
-  ls->u = calloc(6 * (size_t)n, sizeof *ls->u);
-  ls->K = malloc(2 * (size_t)nblock * sizeof *ls->K);
-  if (!ls->u || !ls->K)
-    return corot_fail(COROT_ENOMEM, "no memory for the %d nodes of level %d", ls->nnode,
-                      l->frame_level);
-  ls->v = ls->u + n, ls->du = ls->v + n, ls->dv = ls->du + n, ls->r = ls->dv + n;
-  ls->sum = ls->r + n;
-  ls->D = ls->K + nblock;
-  ls->bytes = 6 * (size_t)n * sizeof *ls->u + 2 * (size_t)nblock * sizeof *ls->K;
-  return COROT_OK;
+  return allocate(m, ls);
 }
 
 corot_status corot_levels_state_create(const corot_model *m, levels_state **state) {
@@ -41,10 +55,13 @@ corot_status corot_levels_state_create(const corot_model *m, levels_state **stat
 
 void corot_levels_state_destroy(levels_state *ls) {
   if (!ls) return;
+  if (ls->on_framer.u != ls->on_coarse.u) free(ls->on_framer.u);
   if (ls->framer != ls->linear) corot_state_destroy(ls->framer);
   corot_state_destroy(ls->linear);
   corot_state_destroy(ls->coarse);
-  free(ls->u);
+  free(ls->on_coarse.u);
+  free(ls->r);
+  free(ls->nodal);
   free(ls->K);
   free(ls);
 }

@@ -7,7 +7,7 @@ corot_model_def corot_model_defaults(void) {
 }
 
 corot_hierarchy_def corot_hierarchy_defaults(void) {
-  return (corot_hierarchy_def){.coarse_strain = "polar", .conservative = true};
+  return (corot_hierarchy_def){.coarse_strain = "green", .conservative = true};
 }
 
 corot_status corot_model_find_strain(const char *name, int *strain) {
@@ -228,7 +228,7 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   if (!of_tet) return corot_fail(COROT_ENOMEM, "no memory for %d tets", m->mesh->ntet);
   corot_status status = assign_materials(def, m, of_tet);
   if (!status)
-    status = corot_tets_create(m->mesh, m->nmaterial, of_tet,
+    status = corot_tets_create(m->mesh, m->nmaterial, of_tet, corot_levels_together(def->hierarchy),
                                strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
   if (!status && def->hierarchy && def->hierarchy->refinement->nlevel > 0)
     status = corot_levels_create(def->hierarchy, of_tet, m);
@@ -237,7 +237,7 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
 
   COROT_TRY(number_dofs(def, m));
   COROT_TRY(average_dilatation(def, m));
-  const pattern *coarse = m->levels && !m->levels->same ? &m->levels->coarse->pattern : NULL;
+  const pattern *coarse = m->levels ? corot_levels_pattern(m) : NULL;
   COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->dilatation, coarse, &m->pattern));
   if (coarse) COROT_TRY(corot_levels_place(m));
   COROT_TRY(corot_mass_create(def, m));
@@ -296,6 +296,8 @@ int corot_model_kinks(const corot_model *m, double t0, double t1, int max, doubl
     }
   return n;
 }
+
+bool corot_model_approximate_stiffness(const corot_model *m) { return m->levels != NULL; }
 
 const corot_mesh *corot_model_mesh(const corot_model *m) { return m->mesh; }
 

@@ -35,8 +35,7 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
   for (int b = 0; b < nblock; b++) s->R[b] = mat3_identity();
   if (!m->levels) return COROT_OK;
   s->frames = COROT_FRAMES_HELD;
-  COROT_TRY(corot_levels_state_create(m, &s->levels));
-  return corot_state_allow_turning(m, s);
+  return corot_levels_state_create(m, &s->levels);
 }
 
 corot_status corot_state_allow_turning(const corot_model *m, corot_state *s) {

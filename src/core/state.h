@@ -36,11 +36,11 @@ struct corot_state {
   vd (*force)[4][3]; /* [window][local node][component] element forces, see pattern.h */
   double *r;         /* [ndof] */
 
-  /* A hierarchical model's, and its parts'; else NULL. There R are the frames handed down. */
-  struct levels_state *levels; /* NULL in a part's own state; see levels.h */
-  mat3 *dR;                    /* [nblock] change of the frames */
-  vec3 *moment;                /* [nblock] what turns the frames [J] */
-  vec3 *dmoment;               /* [nblock] its change */
+  struct levels_state *levels; /* of a hierarchical model, whose R are the frames handed down; else
+                                  NULL; see levels.h */
+  mat3 *dR;                    /* [nblock] of a part that hands down its frames, their change; */
+  vec3 *moment;                /* [nblock] what turns them, from all descendants [J]; */
+  vec3 *dmoment;               /* [nblock] its change; else NULL */
 };
 
 /* Room for dR, moment and dmoment. */

@@ -59,8 +59,19 @@ mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number) {
   return gram_schmidt(D);
 }
 
+/* Of the nodes of all tets that stay together. */
+static void find_lowest(const corot_mesh *mesh, int together, int *lowest) {
+  for (int e = 0; e < mesh->ntet; e++) {
+    const int *n = mesh->tet[e];
+    int low01 = n[0] < n[1] ? n[0] : n[1], low23 = n[2] < n[3] ? n[2] : n[3];
+    int low = low01 < low23 ? low01 : low23, first = e - e % together;
+    if (e == first || low < lowest[first]) lowest[first] = low;
+  }
+  for (int e = 0; e < mesh->ntet; e++) lowest[e] = lowest[e - e % together];
+}
+
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
-                               int with_rest_basis, tets *out) {
+                               int together, int with_rest_basis, tets *out) {
   tets t = {0};
   if (mesh->ntet > INT_MAX / (4 * 3) - W * nmaterial) /* slots in the force buffer */
     return corot_fail(COROT_EINVAL, "%d tets exceed 32-bit counts", mesh->ntet);
@@ -69,11 +80,7 @@ corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int 
   int *by_node = malloc(ntet * sizeof *by_node), *order = malloc(ntet * sizeof *order);
   if (!lowest || !count || !by_node || !order) goto no_memory;
 
-  for (int e = 0; e < ntet; e++) {
-    const int *n = mesh->tet[e];
-    int low01 = n[0] < n[1] ? n[0] : n[1], low23 = n[2] < n[3] ? n[2] : n[3];
-    lowest[e] = low01 < low23 ? low01 : low23;
-  }
+  find_lowest(mesh, together, lowest);
   sort_tets(mesh, lowest, mesh->nnode, NULL, count, by_node);
   sort_tets(mesh, material, nmaterial, by_node, count, order);
 

@@ -26,9 +26,11 @@ typedef struct tets {
                        order, on request; else NULL */
 } tets;
 
-/* `material` [ntet] says what each tet is made of, 0 <= material < nmaterial. */
+/* `material` [ntet] says what each tet is made of, 0 <= material < nmaterial. From the mesh's first
+   tet on, each `together` of the same material follow one another: if that is a multiple of W, no
+   block has tets of two such groups. */
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
-                               int with_rest_basis, tets *out);
+                               int together, int with_rest_basis, tets *out);
 void corot_tets_clear(tets *t);
 
 /* The rest basis of one block. */

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <app/cli.h>
+#include <report/commands.h>
 #include <study/command_study.h>
 
 static const char help[] =
@@ -21,6 +22,8 @@ static const char help[] =
     "  mesh box             generate the mesh of a box\n"
     "  mesh info FILE       size, shape and groups of a mesh\n"
     "  mesh refine FILE     cut every tet into eight\n"
+    "  plot DIR             draw the work-precision diagram of a study\n"
+    "  report DIR           show a run or a study as one HTML page\n"
     "\n"
     "  corot COMMAND --help, corot --version\n"
     "\n"
@@ -46,6 +49,7 @@ int main(int argc, char **argv) {
   static const command table[] = {
       {"run", command_run},         {"static", command_static},
       {"check", command_check},     {"study", command_study},
+      {"plot", command_plot},       {"report", command_report},
       {"schema", command_schema},   {"mesh", command_mesh},
       {"--version", print_version}, {0},
   };

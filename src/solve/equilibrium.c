@@ -357,6 +357,10 @@ corot_status corot_equilibrium_search(equilibrium *e, double factor) {
 /* --- Stability --- */
 
 corot_status corot_equilibrium_judge(equilibrium *e, corot_stability *stability) {
+  if (corot_model_approximate_stiffness(e->model)) {
+    *stability = COROT_STABILITY_UNKNOWN;
+    return COROT_OK;
+  }
   corot_state_use(e->state, COROT_FRAMES_EXACT);
   corot_status status = factor(e, COROT_TANGENT_EXACT);
   corot_state_use(e->state, e->def->frames);

@@ -3,7 +3,14 @@
 #include <stdlib.h>
 
 corot_linear_def corot_linear_defaults(void) {
-  return (corot_linear_def){"auto", "auto", "auto", "auto", 1e-10, COROT_ROLE_DYNAMIC};
+  return (corot_linear_def){"auto", "auto", "auto", "auto", 1e-10, COROT_ROLE_DYNAMIC, NULL};
+}
+
+static corot_status check_refinement(const corot_model *model, const corot_refinement *r) {
+  int nnode = corot_model_mesh(model)->nnode;
+  if (!r || r->nnode[r->nlevel] == nnode) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "linear solver: the refinement is of %d nodes, the mesh has %d",
+                    r->nnode[r->nlevel], nnode);
 }
 
 static corot_status make(const corot_model *model, const linsol_plan *plan, linsol *s) {
@@ -22,6 +29,7 @@ static corot_status make(const corot_model *model, const linsol_plan *plan, lins
 corot_status corot_linsol_create(const corot_model *model, const corot_linear_def *def, linsol *s) {
   linsol_plan plan = {0};
   *s = (linsol){0};
+  COROT_TRY(check_refinement(model, def->refinement));
   corot_status status = corot_csc_create(model, COROT_LOWER, &s->csc);
   if (!status) status = corot_linsol_choose(def, s->csc, &plan);
   if (!status) status = make(model, &plan, s);

@@ -46,6 +46,9 @@ struct linsol_plan {
  */
 corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
                                  linsol_plan *plan);
+
+/* The best direct solver of this build. */
+extern const char *const corot_linsol_direct;
 void corot_linsol_plan_clear(linsol_plan *plan);
 
 /* A solver with the matrix it is for. */

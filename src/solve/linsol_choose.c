@@ -6,6 +6,7 @@
 
 #include "solve/linsol.h"
 #include "solve/linsol_graph.h"
+#include "solve/linsol_multilevel.h"
 
 #ifdef COROT_HAVE_CHOLMOD
 enum { HAVE_CHOLMOD = 1 };
@@ -21,13 +22,16 @@ enum { NORDERING = 1 };
 
 /* The names that a choice has beside auto, and how it is called. */
 typedef struct choice {
-  const char *what, *name[4]; /* up to a NULL */
+  const char *what, *name[5]; /* up to a NULL */
 } choice;
 
 static const choice solvers = {"linear solver", {"klu", "cholmod", "pcg"}};
 static const choice orderings = {"ordering", {"amd", "metis"}};
 static const choice factors = {"factor", {"simplicial", "supernodal"}};
-static const choice preconditioners = {"preconditioner", {"block-jacobi", "incomplete-cholesky"}};
+static const choice preconditioners = {
+    "preconditioner", {"block-jacobi", "incomplete-cholesky", "hierarchical", "multigrid"}};
+
+const char *const corot_linsol_direct = HAVE_CHOLMOD ? "cholmod" : "klu";
 
 /* *name becomes our own copy of it, or NULL for "auto". */
 static corot_status look_up(const choice *c, const char **name) {
@@ -68,6 +72,8 @@ static const struct full_name {
     {"cholmod supernodal, metis", "cholmod", "supernodal", NULL, "metis"},
     {"pcg, block-jacobi", "pcg", NULL, "block-jacobi", NULL},
     {"pcg, incomplete-cholesky", "pcg", NULL, "incomplete-cholesky", NULL},
+    {"pcg, hierarchical", "pcg", NULL, "hierarchical", NULL},
+    {"pcg, multigrid", "pcg", NULL, "multigrid", NULL},
 };
 
 static bool fits(const char *wanted, const char *chosen) {
@@ -91,6 +97,13 @@ static corot_status find(linsol_plan *plan) {
   return corot_fail(COROT_EINVAL,
                     "linear solver %s is not in this build (configure with COROT_CHOLMOD=ON)",
                     plan->def.solver);
+}
+
+static corot_status check_refinement(const corot_linear_def *d) {
+  bool needed = strcmp(d->solver, "pcg") == 0 && corot_multilevel_find(d->preconditioner);
+  if (!needed || d->refinement) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "preconditioner %s: the mesh has no refinement",
+                    d->preconditioner);
 }
 
 /* The given ordering, or the one of fewest operations. */
@@ -179,6 +192,7 @@ corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *l
   }
   corot_graph_clear(&g);
   if (!p.def.preconditioner) p.def.preconditioner = "incomplete-cholesky";
+  if (!status) status = check_refinement(&p.def);
   if (!status) status = find(&p);
   if (status) {
     corot_linsol_plan_clear(&p);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/simd.h"
+#include "solve/linsol_blocks.h"
 
 /* --- structure --- */
 
@@ -27,13 +27,10 @@ static void list_blocks(const corot_csc *csc, node_matrix *A) {
   A->colptr[A->n] = nbelow;
 }
 
-/* Unknowns fill the components of their node from the first. */
+/* The source of a diagonal entry is on the diagonal of a block, too: 0, 4 or 8 into it. */
 static void number_unknowns(const corot_csc *csc, node_matrix *A) {
-  for (int i = 0, node = 0, c = 0; i < csc->n; i++, c++) {
-    int own = A->slot[i];
-    if (own != node) node = own, c = 0;
-    A->slot[i] = 3 * own + c;
-  }
+  for (int i = 0; i < csc->n; i++)
+    A->slot[i] = 3 * A->slot[i] + csc->source[csc->diagonal[i]] % 9 / 4;
 }
 
 /* Where each entry of the lower triangle goes. */
@@ -144,6 +141,27 @@ static void scale_rows(node_matrix *A) {
   }
 }
 
+void corot_nodes_keep(node_matrix *A) {
+  for (int i = 0; i < 9 * A->n; i++) A->C[i] = A->Cinv[i] = i % 9 % 4 == 0;
+}
+
+bool corot_nodes_invert(const double block[9], double inverse[9]) {
+  double C[9], T[9];
+  if (!root(block, block, 0, C, T)) return false;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      inverse[3 * i + j] = T[i] * T[j] + T[3 + i] * T[3 + j] + T[6 + i] * T[6 + j];
+  return true;
+}
+
+corot_status corot_nodes_indefinite(const node_matrix *A, const corot_csc *csc, int node) {
+  int dof = 0;
+  while (A->slot[dof] / 3 < node) dof++;
+  return corot_fail(COROT_RETRY,
+                    "pcg: the matrix is not positive definite (degree of freedom %d of node %d)",
+                    dof, csc->node[dof]);
+}
+
 bool corot_nodes_jacobi(node_matrix *A, int *at) {
   double *L = A->value + 9 * (size_t)A->n;
   for (int j = 0; j < A->n; j++) {
@@ -180,35 +198,8 @@ bool corot_nodes_cholesky(node_matrix *A, double shift, int *at) {
 
 /* --- products and sweeps; vectors of nodes have a fourth component that is zero --- */
 
-COROT_INLINE void store(double *x, vd4 a) { memcpy(x, &a, sizeof a); }
-COROT_INLINE vd4 padded(const double *x) { return (vd4){x[0], x[1], x[2], 0}; }
-COROT_INLINE double sum(vd4 a) { return (a[0] + a[1]) + (a[2] + a[3]); }
-
-/* B x */
-COROT_INLINE vd4 times(const double *B, double x0, double x1, double x2) {
-  return vd4_load(B) * x0 + vd4_load(B + 3) * x1 + vd4_load(B + 6) * x2;
-}
-
-/* Sum of B' x over column j. */
-COROT_INLINE vd4 column_product(const node_matrix *A, int j, const double (*x)[4]) {
-  const double *B = A->value + 9 * ((size_t)A->n + A->colptr[j]);
-  vd4 s0 = {0}, s1 = {0}, s2 = {0};
-  for (int k = A->colptr[j]; k < A->colptr[j + 1]; k++, B += 9) {
-    vd4 xi = vd4_load(x[A->row[k]]);
-    s0 += vd4_load(B) * xi;
-    s1 += vd4_load(B + 3) * xi;
-    s2 += vd4_load(B + 6) * xi;
-  }
-  return (vd4){sum(s0), sum(s1), sum(s2), 0};
-}
-
-/* y += B s over column j. Fourth components become anything. */
-COROT_INLINE void add_column(const node_matrix *A, int j, vd4 s, double (*y)[4]) {
-  const double *B = A->value + 9 * ((size_t)A->n + A->colptr[j]);
-  for (int k = A->colptr[j]; k < A->colptr[j + 1]; k++, B += 9) {
-    double *yi = y[A->row[k]];
-    store(yi, vd4_load(yi) + times(B, s[0], s[1], s[2]));
-  }
+COROT_INLINE block_column column(const node_matrix *A, int j) {
+  return block_column_of(A->n, A->colptr, A->row, A->value, j);
 }
 
 COROT_INLINE void output(double *y, vd4 a) { y[0] = a[0], y[1] = a[1], y[2] = a[2]; }
@@ -218,13 +209,13 @@ void corot_nodes_multiply(node_matrix *A, const double *x, double *y) {
   double(*in)[4] = A->work, (*out)[4] = A->work + A->n;
   for (int i = 0; i < A->n; i++) {
     const double *xi = x + 3 * i;
-    store(in[i], padded(xi));
-    store(out[i], times(&A->value[9 * i], xi[0], xi[1], xi[2]));
+    vd4_store(in[i], vd4_padded(xi));
+    vd4_store(out[i], block_times(&A->value[9 * i], vd4_padded(xi)));
   }
   for (int j = 0; j < A->n; j++) {
-    vd4 above = column_product(A, j, (const double(*)[4])in);
+    vd4 above = column_product(column(A, j), (const double(*)[4])in);
     output(y + 3 * j, vd4_load(out[j]) + above);
-    add_column(A, j, padded(x + 3 * j), out);
+    add_column(column(A, j), vd4_padded(x + 3 * j), out);
   }
 }
 
@@ -234,25 +225,25 @@ COROT_CLONES
 void corot_nodes_sandwich(node_matrix *A, const double *x, double *y) {
   double(*t)[4] = A->work, (*w)[4] = A->work + A->n;
   for (int j = A->n - 1; j >= 0; j--) {
-    vd4 xj = padded(x + 3 * j), tj = xj - column_product(A, j, (const double(*)[4])t);
-    store(t[j], tj);
-    store(w[j], times(&A->value[9 * j], tj[0], tj[1], tj[2]) - 2 * tj + xj);
+    vd4 xj = vd4_padded(x + 3 * j), tj = xj - column_product(column(A, j), (const double(*)[4])t);
+    vd4_store(t[j], tj);
+    vd4_store(w[j], block_times(&A->value[9 * j], tj) - 2 * tj + xj);
   }
   for (int j = 0; j < A->n; j++) {
-    vd4 s = padded(w[j]);
+    vd4 s = vd4_padded(w[j]);
     output(y + 3 * j, vd4_load(t[j]) + s);
-    add_column(A, j, -s, w);
+    add_column(column(A, j), -s, w);
   }
 }
 
 COROT_CLONES
 void corot_nodes_forward(node_matrix *A, double *x) {
   double(*w)[4] = A->work;
-  for (int j = 0; j < A->n; j++) store(w[j], padded(x + 3 * j));
+  for (int j = 0; j < A->n; j++) vd4_store(w[j], vd4_padded(x + 3 * j));
   for (int j = 0; j < A->n; j++) {
-    vd4 s = padded(w[j]);
+    vd4 s = vd4_padded(w[j]);
     output(x + 3 * j, s);
-    add_column(A, j, -s, w);
+    add_column(column(A, j), -s, w);
   }
 }
 
@@ -260,8 +251,8 @@ COROT_CLONES
 void corot_nodes_backward(node_matrix *A, double *x) {
   double(*t)[4] = A->work;
   for (int j = A->n - 1; j >= 0; j--) {
-    vd4 tj = padded(x + 3 * j) - column_product(A, j, (const double(*)[4])t);
-    store(t[j], tj);
+    vd4 tj = vd4_padded(x + 3 * j) - column_product(column(A, j), (const double(*)[4])t);
+    vd4_store(t[j], tj);
     output(x + 3 * j, tj);
   }
 }

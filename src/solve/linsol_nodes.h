@@ -4,8 +4,8 @@
      A = C (D + L + L') C'
 
    with C block diagonal, so chosen that the preconditioner becomes M = C C' (block Jacobi: D = I)
-   or M = C (I + L)(I + L') C' (incomplete Cholesky of level 0). Vectors are [3 n]; a component
-   that is held has a one in the diagonal and zeros elsewhere. */
+   or M = C (I + L)(I + L') C' (incomplete Cholesky of level 0), or C = I. Vectors are [3 n]; a
+   component that is held has a one in the diagonal and zeros elsewhere. */
 #ifndef COROT_SOLVE_LINSOL_NODES_H
 #define COROT_SOLVE_LINSOL_NODES_H
 
@@ -14,7 +14,7 @@
 
 typedef struct node_matrix {
   int n;             /* nodes */
-  int *slot;         /* [unknowns] where a vector [3 n] has each of them */
+  int *slot;         /* [unknowns] where a vector [3 n] has each of them: 3 node + component */
   int *colptr, *row; /* [n + 1], [nbelow]: blocks of L by columns, rows ascending */
   int *place;        /* [csc->nnz] where in `value` each entry goes */
   double *value;     /* blocks of 9 by columns: D [n], then L [nbelow]; 3 more to read beyond */
@@ -22,12 +22,15 @@ typedef struct node_matrix {
   double (*work)[4]; /* [2 n] */
 } node_matrix;
 
-/* `csc`: a lower triangle. What is half made is released by clear. */
+/* `csc`: a lower triangle, with its `source`. What is half made is released by clear. */
 corot_status corot_nodes_create(const corot_csc *csc, node_matrix *A);
 void corot_nodes_clear(node_matrix *A);
 
 /* Takes the values of a csc, C = I. */
 void corot_nodes_load(node_matrix *A, const corot_csc *csc, const double *value);
+
+/* C = I for the values that are loaded from now on, unless they are scaled. */
+void corot_nodes_keep(node_matrix *A);
 
 /* Makes C and scales by it. False: a pivot was not positive, at node *at; load anew. */
 bool corot_nodes_jacobi(node_matrix *A, int *at);
@@ -52,5 +55,11 @@ void corot_nodes_unscale_transposed(const node_matrix *A, double *x);
 
 /* |C x| */
 double corot_nodes_unscaled_norm(const node_matrix *A, const double *x);
+
+/* Of a symmetric block. False: a pivot was not positive. */
+bool corot_nodes_invert(const double block[9], double inverse[9]);
+
+/* Fails with COROT_RETRY: such a pivot was met at a node. */
+corot_status corot_nodes_indefinite(const node_matrix *A, const corot_csc *csc, int node);
 
 #endif

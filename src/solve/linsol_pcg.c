@@ -3,7 +3,7 @@
 
    The preconditioner C C' or C (I + L)(I + L') C' is applied to the system from both sides, so
    that what SUNDIALS sees has none: with incomplete Cholesky an iteration then costs one product.
- */
+   Those of a refined mesh SUNDIALS applies, and C is I. */
 #include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -12,13 +12,16 @@
 #include <sunlinsol/sunlinsol_pcg.h>
 
 #include "solve/linsol.h"
-#include "solve/linsol_nodes.h"
+#include "solve/linsol_multilevel.h"
 #include "solve/sun_compat.h"
 
 typedef struct pcg {
   const corot_csc *csc;
   node_matrix A;
-  bool cholesky; /* or else Jacobi */
+  bool cholesky;             /* or else Jacobi, if `ops` is NULL */
+  const multilevel_ops *ops; /* of what works by levels */
+  void *levels;
+  corot_status status; /* of its last product */
   bool factored;
   double tolerance; /* of the residual, relative to the right-hand side */
   long iterations;
@@ -40,6 +43,14 @@ static int multiply(void *data, N_Vector x, N_Vector y) {
   return curvature > 0 ? 0 : 1;
 }
 
+/* z = M^-1 r */
+static int apply(void *data, N_Vector r, N_Vector z, sunrealtype tolerance, int side) {
+  pcg *p = data;
+  (void)tolerance, (void)side;
+  p->status = p->ops->apply(p->levels, N_VGetArrayPointer(r), N_VGetArrayPointer(z));
+  return p->status;
+}
+
 static void pcg_destroy(void *solver) {
   pcg *p = solver;
   if (!p) return;
@@ -47,24 +58,33 @@ static void pcg_destroy(void *solver) {
   if (p->from) N_VDestroy(p->from);
   if (p->to) N_VDestroy(p->to);
   if (p->ctx) SUNContext_Free(&p->ctx);
+  if (p->ops) p->ops->destroy(p->levels);
   corot_nodes_clear(&p->A);
   free(p->b);
   free(p);
 }
 
-static corot_status prepare(pcg *p) {
+static bool make_cg(pcg *p) {
+  /* in exact arithmetic as many iterations as unknowns suffice; rounding may ask for some more */
+  int most = 30 * p->A.n + 100;
+  p->cg = SUNLinSol_PCG(p->to, p->ops ? SUN_PREC_LEFT : SUN_PREC_NONE, most, p->ctx);
+  return p->cg && !SUNLinSolSetATimes(p->cg, p, multiply) &&
+         (!p->ops || !SUNLinSolSetPreconditioner(p->cg, p, NULL, apply)) &&
+         !SUNLinSolInitialize(p->cg);
+}
+
+static corot_status prepare(pcg *p, const corot_refinement *refinement) {
   COROT_TRY(corot_nodes_create(p->csc, &p->A));
+  corot_nodes_keep(&p->A);
+  if (p->ops) COROT_TRY(p->ops->create(p->csc, &p->A, refinement, &p->levels));
   int n = 3 * p->A.n;
   p->b = malloc(4 * (size_t)n * sizeof *p->b);
   p->r = p->b + n, p->x = p->r + n, p->z = p->x + n;
   if (sun_context_create(&p->ctx) == 0) {
     p->to = N_VNewEmpty_Serial(n, p->ctx);
     p->from = N_VNewEmpty_Serial(n, p->ctx);
-    /* in exact arithmetic n iterations suffice; rounding may ask for some more */
-    if (p->to) p->cg = SUNLinSol_PCG(p->to, SUN_PREC_NONE, 10 * n + 100, p->ctx);
   }
-  if (!p->b || !p->from || !p->cg || SUNLinSolSetATimes(p->cg, p, multiply) ||
-      SUNLinSolInitialize(p->cg))
+  if (!p->b || !p->from || !p->to || !make_cg(p))
     return corot_fail(COROT_ENOMEM, "no memory for pcg on %d unknowns", p->csc->n);
   return COROT_OK;
 }
@@ -75,7 +95,8 @@ static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan
   p->csc = pattern;
   p->tolerance = plan->def.tolerance;
   p->cholesky = strcmp(plan->def.preconditioner, "incomplete-cholesky") == 0;
-  corot_status status = prepare(p);
+  p->ops = corot_multilevel_find(plan->def.preconditioner);
+  corot_status status = prepare(p, plan->def.refinement);
   if (status) {
     pcg_destroy(p);
     return status;
@@ -86,9 +107,7 @@ static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan
 
 /* What is positive definite may have an incomplete factor that is not: then the diagonal is raised
    until it is (Manteuffel 1980). */
-static bool precondition(pcg *p, const double *value, int *at) {
-  corot_nodes_load(&p->A, p->csc, value);
-  if (!p->cholesky) return corot_nodes_jacobi(&p->A, at);
+static bool incomplete_cholesky(pcg *p, const double *value, int *at) {
   for (double shift = 0; !corot_nodes_cholesky(&p->A, shift, at);) {
     if (shift > 100) return false;
     shift = fmax(0.01, 2 * shift);
@@ -101,13 +120,14 @@ static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
   pcg *p = solver;
   int at = 0;
   *fresh = true;
-  p->factored = precondition(p, value, &at);
-  if (p->factored) return COROT_OK;
-  int dof = 0;
-  while (p->A.slot[dof] / 3 < at) dof++;
-  return corot_fail(COROT_RETRY,
-                    "pcg: the matrix is not positive definite (degree of freedom %d of node %d)",
-                    dof, p->csc->node[dof]);
+  p->factored = false;
+  corot_nodes_load(&p->A, p->csc, value);
+  if (p->ops)
+    COROT_TRY(p->ops->factor(p->levels));
+  else if (!(p->cholesky ? incomplete_cholesky(p, value, &at) : corot_nodes_jacobi(&p->A, &at)))
+    return corot_nodes_indefinite(&p->A, p->csc, at);
+  p->factored = true;
+  return COROT_OK;
 }
 
 /* x += the solution for the residual, as closely as brings |r| from `norm` to `target`. */
@@ -120,8 +140,10 @@ static corot_status improve(pcg *p, double norm, double target) {
   N_VSetArrayPointer(p->z, p->to);
   N_VSetArrayPointer(p->r, p->from);
   SUNLinSolSetZeroGuess(p->cg, 1);
+  p->status = COROT_OK;
   int status = SUNLinSolSolve(p->cg, NULL, p->to, p->from, target / norm * sqrt(square));
   p->iterations += SUNLinSolNumIters(p->cg);
+  if (p->status) return p->status;
   if (status && !(p->curvature > 0))
     return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (p'Sp = %.3g)",
                       p->curvature);

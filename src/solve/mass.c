@@ -94,21 +94,13 @@ static bool same_nodes(const part *a, const part *b) {
   return a->n == b->n && memcmp(a->node, b->node, a->n * sizeof *a->node) == 0;
 }
 
-/* Direct, so that M^-1 is right to rounding. */
-static const char direct[] =
-#ifdef COROT_HAVE_CHOLMOD
-    "cholmod";
-#else
-    "klu";
-#endif
-
 static corot_status factor(corot_mass_solver *s, const corot_model *model, int c,
                            const int *component, const int *rank) {
   part *p = &s->part[c];
   corot_linear_def how = corot_linear_defaults();
   linsol_plan plan = {0};
   bool fresh;
-  how.solver = direct;
+  how.solver = corot_linsol_direct; /* so that M^-1 is right to rounding */
   COROT_TRY(make_matrix(model, COROT_LOWER, c, component, rank, p));
   corot_status status = corot_linsol_choose(&how, &p->csc, &plan);
   if (!status) s->ops = plan.ops;

@@ -24,7 +24,7 @@ static corot_status find_probes(yardstick *y, const scenario *s) {
 }
 
 static corot_status build(yardstick *y, const scenario *s) {
-  COROT_TRY(scenario_build(s, &y->mesh, &y->model));
+  COROT_TRY(scenario_build(s, &y->mesh, NULL, &y->model));
   COROT_TRY(corot_state_create(y->model, &y->state));
   COROT_TRY(find_probes(y, s));
   size_t n = (size_t)corot_model_ndof(y->model), nblock = (size_t)corot_model_nblock(y->model);

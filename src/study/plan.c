@@ -46,7 +46,7 @@ static corot_status mesh_digest(planner *p, const scenario *s, char digest[HASH_
   } else {
     corot_mesh *mesh = NULL;
     corot_model *model = NULL; /* built once, for what may be wrong with it */
-    status = scenario_build(s, &mesh, &model);
+    status = scenario_build(s, &mesh, NULL, &model);
     if (status == COROT_OK) hash_mesh(mesh, digest);
     if (status == COROT_OK && json_object_set_new(p->mesh_at, text, json_string(digest)))
       status = no_memory();

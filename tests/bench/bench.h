@@ -15,6 +15,7 @@ int command_example(int argc, char **argv);
 int command_memory(int argc, char **argv);
 int command_frames(int argc, char **argv);
 int command_precision(int argc, char **argv);
+int command_hierarchy(int argc, char **argv);
 
 /* Where the bar of corot-bench run comes from. */
 typedef struct bar_source {

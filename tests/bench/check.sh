@@ -34,6 +34,10 @@ lines "d[0]['floor_m'] < 1e-6 and len(d) > 3 and all(r['error_m'] > 0 for r in d
 lines "len(d) == 5 and all(0 < r['bytes_per_tet'] for r in d)" memory --json --tets 6
 lines "{r['role'] for r in d[1:]} == {'dynamic', 'static'} and sum(r['auto'] for r in d[1:]) == 2
   and all(r['ratio'] >= 1 and r['cost_s'] > 0 for r in d[1:])" solvers --json --most 310
+lines "{r['solver'] for r in d if r.get('role') == 'static'} >= {'pcg, hierarchical', 'pcg, multigrid'}
+  and all(r['factor_s'] > 0 and r['solve_s'] > 0 for r in d if r['bench'] == 'hierarchy')
+  and all(r['bytes_per_s'] > 0 for r in d if r['bench'] == 'transformation')
+  and len(d) > 20" hierarchy --json --levels 1
 "$bench" --help | grep -q kernels || { echo "FAILED: corot-bench --help"; failed=1; }
 usage
 usage kernel
@@ -42,4 +46,5 @@ usage run --rtol -1
 usage memory extra
 usage solvers --most 0
 usage solvers --role other
+usage hierarchy --levels 0
 exit $failed

@@ -133,7 +133,7 @@ static bool is(const char *name, const struct candidate *c) {
 /* Nothing where it is not worth measuring, or not in this build. */
 static corot_status try_candidate(const solid *s, corot_role role, const struct candidate *c,
                                   const char *taken, result *r) {
-  corot_linear_def def = {c->solver, c->ordering, c->factor, c->preconditioner, 1e-10, role};
+  corot_linear_def def = {c->solver, c->ordering, c->factor, c->preconditioner, 1e-10, role, NULL};
   problem p = {0};
   if (s->n > c->most && !is(taken, c)) return COROT_OK;
   corot_status status = measure(s, &def, &p, r);

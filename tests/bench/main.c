@@ -11,6 +11,7 @@ static const char help[] =
     "       corot-bench frames [--json]\n"
     "       corot-bench precision [--json] [OPTIONS]\n"
     "       corot-bench memory [--json] [--tets N]\n"
+    "       corot-bench hierarchy [--json] [--levels N]\n"
     "\n"
     "kernels   forces, Jacobians and the rest, per tet, beside the floor set by memory and\n"
     "          arithmetic of this machine\n"
@@ -19,6 +20,7 @@ static const char help[] =
     "frames    what frames cost: polar over warp, update over force, Newton over linear\n"
     "precision error against CPU time, for every integrator\n"
     "memory    bytes per tet\n"
+    "hierarchy solvers that use the levels of a refined mesh, and the hierarchical basis\n"
     "\n"
     "'corot-bench COMMAND --help' says more.\n"
     "\n"
@@ -56,6 +58,7 @@ int main(int argc, char **argv) {
                                   {"frames", command_frames},
                                   {"memory", command_memory},
                                   {"precision", command_precision},
+                                  {"hierarchy", command_hierarchy},
                                   {0}};
   return dispatch("corot-bench", help, table, argc, argv);
 }

@@ -31,7 +31,7 @@ out "bdf2, steps of 0.01 s, one linear solve each, linear solver pcg"
 
 # Locking is named, and so is the remedy.
 expect 0 check model.yaml --set material.lambda=1e6
-out "dilatation     each tet's own, which locks: nu = 0.495; see dilatation: nodal"
+out "warning        material: nu = 0.495: "; out "dilatation: nodal is the remedy"
 expect 0 check model.yaml --set material.lambda=1e6 --set dilatation=nodal
 out "dilatation     averaged at the nodes, but for 1 mu of lambda"
 
@@ -40,7 +40,16 @@ expect 0 check model.yaml --set mesh.refine=1; no_err
 out "box, refine 1: 45 nodes, 96 tets, 0.002 m^3"; out "base: 9 nodes, 8 triangles"
 out "mass           2 kg"
 expect 0 check model.yaml --set mesh.refine=2 --json
-json 'd["mesh"]["refine"] == 2 and d["mesh"]["tets"] == 768'
+json 'd["mesh"]["refine"] == 2 and d["mesh"]["tets"] == 768 and d["warnings"] == []'
+
+# A slender tet, whose octahedron has a long diagonal: cut along the short one it comes out better.
+printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 0.5 3 0\n3 1 0 0\n4 0.5 3 1\n%s\n' \
+  '$EndNodes' >tet.msh
+printf '$Elements\n1\n1 4 2 1 1 1 3 2 4\n$EndElements\n' >>tet.msh
+sed -n 's/^mesh:.*/mesh: {file: tet.msh, refine: 1}/p; /^material:/p; /^time:/p' model.yaml >tet.yaml
+expect 0 check tet.yaml --json; json 'd["mesh"]["shape"]["min"] < 0.1'
+expect 0 check tet.yaml --json --set mesh.diagonal=shortest
+json 'd["mesh"]["shape"]["min"] > 0.4'
 
 # A mesh lies beside its scenario, wherever the tool is called from.
 mkdir sub

@@ -20,10 +20,18 @@ typedef struct solid {
   int n;
 } solid;
 
+/* A test that is run under each coupling, which is its state. */
+static const corot_coupling means = COROT_COUPLING_MEAN, nodes = COROT_COUPLING_NODES;
+#define coupled_unit_test(f) \
+  {#f ", mean", f, NULL, NULL, (void *)&means}, { #f ", nodes", f, NULL, NULL, (void *)&nodes }
+
+static inline corot_coupling coupling_of(void **state) { return *(const corot_coupling *)*state; }
+
 static const corot_material undamped = {.lambda = 3.0e4, .mu = 1.0e4, .density = 1000};
 
 /* Free, or held at one end. */
-static inline corot_model_def definition(const choice *c, const corot_material *material, bool held,
+static inline corot_model_def definition(const choice *c, corot_coupling coupling,
+                                         const corot_material *material, bool held,
                                          corot_hierarchy_def *hierarchy) {
   static const corot_fix fix = {"zmin", {true, true, true}};
   corot_model_def def = corot_model_defaults();
@@ -31,16 +39,18 @@ static inline corot_model_def definition(const choice *c, const corot_material *
   hierarchy->coarse_strain = c->coarse;
   hierarchy->frame_level = c->frame_level;
   hierarchy->conservative = c->conservative;
+  hierarchy->coupling = coupling;
   def.strain = c->fine, def.hierarchy = hierarchy;
   def.nmaterial = 1, def.material = material;
   def.nfix = held, def.fix = &fix;
   return def;
 }
 
-static inline solid make_solid(const choice *c, const corot_material *material, bool held) {
+static inline solid make_solid(const choice *c, corot_coupling coupling,
+                               const corot_material *material, bool held) {
   solid s = {.coarse = crooked_box(1, 1, 2)};
   corot_hierarchy_def hierarchy;
-  corot_model_def def = definition(c, material, held, &hierarchy);
+  corot_model_def def = definition(c, coupling, material, held, &hierarchy);
   assert_ok(
       corot_mesh_refine(s.coarse, c->nlevel, COROT_DIAGONAL_CONSISTENT, &s.mesh, &s.refinement));
   def.mesh = s.mesh, hierarchy.refinement = s.refinement;
@@ -55,7 +65,7 @@ static inline body plain_body(const solid *s, const char *strain, const corot_ma
                               bool held) {
   choice c = {.fine = strain};
   corot_hierarchy_def hierarchy;
-  corot_model_def def = definition(&c, material, held, &hierarchy);
+  corot_model_def def = definition(&c, means, material, held, &hierarchy);
   corot_mesh *copy;
   def.hierarchy = NULL;
   assert_ok(corot_mesh_copy(s->mesh, &copy));

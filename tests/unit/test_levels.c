@@ -6,8 +6,8 @@
 /* --- Force and energy ------------------------------------------------------------------------ */
 
 /* |dE/du du + f du| / |f du| by central differences, along a random direction. */
-static double gradient_error(const choice *c, corot_frames frames) {
-  solid s = make_solid(c, &undamped, true);
+static double gradient_error(const choice *c, corot_coupling coupling, corot_frames frames) {
+  solid s = make_solid(c, coupling, &undamped, true);
   double *u = vectors(5, s.n), *zero = u + s.n, *du = zero + s.n, *r = du + s.n, *x = r + s.n;
   bend(&s, 0.6, 0.01, u);
   if (frames != COROT_FRAMES_EXACT) {
@@ -29,7 +29,7 @@ static double gradient_error(const choice *c, corot_frames frames) {
 }
 
 static void test_force_is_the_gradient_of_the_energy(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   const choice choices[] = {
       {"green", "polar", 1, 0, true},  {"green", "polar", 2, 0, true},
       {"green", "polar", 2, 1, true},  {"green", "polar", 2, 2, true},
@@ -37,18 +37,18 @@ static void test_force_is_the_gradient_of_the_energy(void **state) {
       {"green", "cauchy", 1, 0, true}, {"cauchy", "polar", 1, 1, true},
   };
   for (size_t k = 0; k < sizeof choices / sizeof *choices; k++)
-    assert_below(gradient_error(&choices[k], COROT_FRAMES_EXACT), 1e-6);
+    assert_below(gradient_error(&choices[k], coupling, COROT_FRAMES_EXACT), 1e-6);
 }
 
 /* As in the paper: not a gradient, unless the frames are held. */
 static void test_force_without_the_turning_of_frames(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 2, 0, false}, warp = {"green", "warp", 2, 0, false};
-  assert_above(gradient_error(&c, COROT_FRAMES_EXACT), 1e-4);
-  assert_below(gradient_error(&c, COROT_FRAMES_HELD), 1e-6);
-  assert_below(gradient_error(&warp, COROT_FRAMES_HELD), 1e-6);
+  assert_above(gradient_error(&c, coupling, COROT_FRAMES_EXACT), 1e-4);
+  assert_below(gradient_error(&c, coupling, COROT_FRAMES_HELD), 1e-6);
+  assert_below(gradient_error(&warp, coupling, COROT_FRAMES_HELD), 1e-6);
   c.conservative = true;
-  assert_below(gradient_error(&c, COROT_FRAMES_HELD), 1e-6);
+  assert_below(gradient_error(&c, coupling, COROT_FRAMES_HELD), 1e-6);
 }
 
 /* Sum of the forces and of their moments about the origin, on the displaced body; relative. */
@@ -72,11 +72,11 @@ static void resultants(const solid *s, const double *u, const double *r, double 
 }
 
 static void test_forces_on_a_free_body_balance(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 2, 1, true};
   for (int k = 0; k < 2; k++) {
     c.conservative = k == 0;
-    solid s = make_solid(&c, &undamped, false);
+    solid s = make_solid(&c, coupling, &undamped, false);
     double *u = vectors(3, s.n), *zero = u + s.n, *r = zero + s.n, force, moment;
     bend(&s, 0.6, 0.01, u);
     assert_ok(corot_residual(s.model, s.state, 0, u, zero, r));
@@ -92,12 +92,12 @@ static void test_forces_on_a_free_body_balance(void **state) {
 }
 
 static void test_a_turned_body_feels_turned_forces(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   const choice choices[] = {{"green", "polar", 2, 0, true},
                             {"green", "warp", 1, 0, false},
                             {"hybrid", "polar", 2, 1, false}};
   for (int k = 0; k < 3; k++) {
-    solid s = make_solid(&choices[k], &undamped, false);
+    solid s = make_solid(&choices[k], coupling, &undamped, false);
     double *u = vectors(5, s.n), *zero = u + s.n, *r = zero + s.n, *Qu = r + s.n, *Qr = Qu + s.n;
     double axis[3] = {1, -2, 0.5}, Q[9];
     rotation(axis, 2.1, Q);
@@ -125,9 +125,9 @@ static void test_a_turned_body_feels_turned_forces(void **state) {
 /* --- What it reduces to ---------------------------------------------------------------------- */
 
 static void test_no_level_is_the_plain_model(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "warp", 0, 0, true};
-  solid s = make_solid(&c, &soft, true);
+  solid s = make_solid(&c, coupling, &soft, true);
   body b = plain_body(&s, "green", &soft, true);
   double *u = vectors(4, s.n), *v = u + s.n, *r = v + s.n, *plain = r + s.n;
   bend(&s, 0.6, 0.01, u);
@@ -144,14 +144,15 @@ static void test_no_level_is_the_plain_model(void **state) {
 /* Where all differences vanish, the forces on level 0 and the energies are those of the coarse
    mesh: to the rounding of fine and linear terms that cancel. */
 static void test_coarse_motion_feels_coarse_forces(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   const choice choices[] = {{"green", "polar", 2, 0, true},
                             {"polar", "polar", 1, 1, true},
                             {"hybrid", "warp", 2, 0, false},
                             {"green", "cauchy", 1, 0, true}};
   for (int k = 0; k < 4; k++) {
-    solid s = make_solid(&choices[k], &soft, false);
-    solid zero_level = make_solid(&(choice){choices[k].coarse, "polar", 0, 0, true}, &soft, false);
+    solid s = make_solid(&choices[k], coupling, &soft, false);
+    solid zero_level =
+        make_solid(&(choice){choices[k].coarse, "polar", 0, 0, true}, coupling, &soft, false);
     double *u = vectors(6, s.n), *v = u + s.n, *r = v + s.n;
     double *uc = r + s.n, *vc = uc + s.n, *rc = vc + s.n;
     bend(&zero_level, 0.6, 0.03, uc);
@@ -180,9 +181,9 @@ static void test_coarse_motion_feels_coarse_forces(void **state) {
 
 /* One strain everywhere: no force on a node inside, coarse or fine. */
 static void test_affine_motion_has_no_force_inside(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 2, 0, true};
-  solid s = make_solid(&c, &undamped, false);
+  solid s = make_solid(&c, coupling, &undamped, false);
   double *u = vectors(3, s.n), *zero = u + s.n, *r = zero + s.n, F[9];
   uint64_t seed = 9;
   random_gradient(&seed, 0.2, F);
@@ -205,11 +206,11 @@ static void test_affine_motion_has_no_force_inside(void **state) {
 }
 
 static void test_one_measure_in_its_own_frames_is_the_plain_model(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   const char *const strains[] = {"cauchy", "polar"};
   for (int k = 0; k < 2; k++) {
     choice c = {strains[k], strains[k], 1, 1, true};
-    solid s = make_solid(&c, &soft, true);
+    solid s = make_solid(&c, coupling, &soft, true);
     body b = plain_body(&s, strains[k], &soft, true);
     double *u = vectors(4, s.n), *v = u + s.n, *r = v + s.n, *plain = r + s.n;
     bend(&s, 0.6, 0.01, u);
@@ -227,9 +228,10 @@ static void test_one_measure_in_its_own_frames_is_the_plain_model(void **state) 
 /* --- Forces on supports, statics, inversion -------------------------------------------------- */
 
 static void test_force_on_all_nodes(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 2, 1, true};
-  solid held = make_solid(&c, &undamped, true), free_one = make_solid(&c, &undamped, false);
+  solid held = make_solid(&c, coupling, &undamped, true),
+        free_one = make_solid(&c, coupling, &undamped, false);
   int n = free_one.n, nnode = held.mesh->nnode;
   double *u = vectors(4, n), *all = u + n, *zero = all + n, *r = zero + n;
   double(*f)[3] = calloc(nnode, sizeof *f);
@@ -249,9 +251,9 @@ static void test_force_on_all_nodes(void **state) {
 }
 
 static void test_standing_still_has_no_viscous_force(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 1, 0, true};
-  solid s = make_solid(&c, &soft, true);
+  solid s = make_solid(&c, coupling, &soft, true);
   double *u = vectors(4, s.n), *v = u + s.n, *r = v + s.n, *still = r + s.n;
   bend(&s, 0.6, 0.01, u);
   assert_ok(corot_residual(s.model, s.state, 0, u, v, r));
@@ -264,14 +266,15 @@ static void test_standing_still_has_no_viscous_force(void **state) {
 }
 
 static void test_inverted_tets_are_named(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 2, 0, true};
-  solid s = make_solid(&c, &soft, false);
+  solid s = make_solid(&c, coupling, &soft, false);
   double *u = vectors(3, s.n), *zero = u + s.n, *r = zero + s.n;
-  u[0] = u[1] = u[2] = 3; /* a corner of the body beyond the opposite one */
+  u[0] = u[1] = u[2] = 3; /* a corner of the body, and its tets, beyond the opposite one */
+  corot_hierarchy_apply(s.refinement, (double(*)[3])u);
   assert_fails(corot_residual(s.model, s.state, 0, u, zero, r), COROT_RETRY, "of level 0");
   assert_int_equal(corot_state_inverted(s.state) % 64, 0);
-  u[0] = u[1] = u[2] = 0;
+  memset(u, 0, s.n * sizeof *u);
   int last = s.mesh->nnode - 1;
   u[3 * last] = 3;
   assert_fails(corot_residual(s.model, s.state, 0, u, zero, r), COROT_RETRY, "is inverted");
@@ -283,45 +286,46 @@ static void test_inverted_tets_are_named(void **state) {
 
 /* --- Refusals -------------------------------------------------------------------------------- */
 
-static void refuse(const choice *c, const corot_mesh *mesh, const corot_refinement *refinement,
-                   const char *words) {
+static void refuse(const choice *c, corot_coupling coupling, const corot_mesh *mesh,
+                   const corot_refinement *refinement, const char *words) {
   corot_hierarchy_def hierarchy;
-  corot_model_def def = definition(c, &soft, true, &hierarchy);
+  corot_model_def def = definition(c, coupling, &soft, true, &hierarchy);
   corot_model *model;
   def.mesh = mesh, hierarchy.refinement = refinement;
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL, words);
 }
 
 static void test_refusals(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice good = {"green", "polar", 1, 0, true}, bad = good;
-  solid s = make_solid(&good, &soft, true);
-  refuse(&good, s.mesh, NULL, "no refinement");
-  refuse(&good, s.coarse, s.refinement, "the mesh has");
+  solid s = make_solid(&good, coupling, &soft, true);
+  refuse(&good, coupling, s.mesh, NULL, "no refinement");
+  refuse(&good, coupling, s.coarse, s.refinement, "the mesh has");
   bad.frame_level = 2;
-  refuse(&bad, s.mesh, s.refinement, "frame level 2, where the levels are 0 to 1");
+  refuse(&bad, coupling, s.mesh, s.refinement, "frame level 2, where the levels are 0 to 1");
+  refuse(&good, (corot_coupling)7, s.mesh, s.refinement, "no coupling has the number 7");
   bad = good, bad.coarse = "blue";
-  refuse(&bad, s.mesh, s.refinement, "no strain measure 'blue'");
+  refuse(&bad, coupling, s.mesh, s.refinement, "no strain measure 'blue'");
   bad = good, bad.fine = "hybrid";
-  refuse(&bad, s.mesh, s.refinement, "strain hybrid is not linear");
+  refuse(&bad, coupling, s.mesh, s.refinement, "strain hybrid is not linear");
   bad = good, bad.fine = "warp";
-  refuse(&bad, s.mesh, s.refinement, "set conservative to false");
+  refuse(&bad, coupling, s.mesh, s.refinement, "set conservative to false");
   bad.conservative = false, bad.frame_level = 1;
-  refuse(&bad, s.mesh, s.refinement, "or frame level 0");
+  refuse(&bad, coupling, s.mesh, s.refinement, "or frame level 0");
 
   int moved = s.mesh->nnode - 1;
   s.mesh->x[moved][1] += 1e-4;
-  refuse(&good, s.mesh, s.refinement, "off the middle of its parents");
+  refuse(&good, coupling, s.mesh, s.refinement, "off the middle of its parents");
   drop_solid(&s);
 }
 
 static void test_materials_are_those_of_level_0(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 1, 0, true};
-  solid s = make_solid(&c, &soft, true);
+  solid s = make_solid(&c, coupling, &soft, true);
   corot_hierarchy_def hierarchy;
   corot_material two[2] = {soft, soft};
-  corot_model_def def = definition(&c, two, true, &hierarchy);
+  corot_model_def def = definition(&c, coupling, two, true, &hierarchy);
   corot_model *model;
   def.mesh = s.mesh, hierarchy.refinement = s.refinement;
   def.nmaterial = 2, two[1].group = "corner";
@@ -348,11 +352,11 @@ static corot_status make_and_drop(void *context) {
 }
 
 static void test_failed_allocations(void **state) {
-  (void)state;
+  corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 2, 1, true};
-  solid s = make_solid(&c, &soft, true);
+  solid s = make_solid(&c, coupling, &soft, true);
   corot_hierarchy_def hierarchy;
-  corot_model_def def = definition(&c, &soft, true, &hierarchy);
+  corot_model_def def = definition(&c, coupling, &soft, true, &hierarchy);
   def.mesh = s.mesh, hierarchy.refinement = s.refinement;
   assert_true(assert_survives_failed_allocations(make_and_drop, &def) > 60);
   drop_solid(&s);
@@ -360,20 +364,20 @@ static void test_failed_allocations(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_force_is_the_gradient_of_the_energy),
-      cmocka_unit_test(test_force_without_the_turning_of_frames),
-      cmocka_unit_test(test_forces_on_a_free_body_balance),
-      cmocka_unit_test(test_a_turned_body_feels_turned_forces),
-      cmocka_unit_test(test_no_level_is_the_plain_model),
-      cmocka_unit_test(test_coarse_motion_feels_coarse_forces),
-      cmocka_unit_test(test_affine_motion_has_no_force_inside),
-      cmocka_unit_test(test_one_measure_in_its_own_frames_is_the_plain_model),
-      cmocka_unit_test(test_force_on_all_nodes),
-      cmocka_unit_test(test_standing_still_has_no_viscous_force),
-      cmocka_unit_test(test_inverted_tets_are_named),
-      cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_materials_are_those_of_level_0),
-      cmocka_unit_test(test_failed_allocations),
+      coupled_unit_test(test_force_is_the_gradient_of_the_energy),
+      coupled_unit_test(test_force_without_the_turning_of_frames),
+      coupled_unit_test(test_forces_on_a_free_body_balance),
+      coupled_unit_test(test_a_turned_body_feels_turned_forces),
+      coupled_unit_test(test_no_level_is_the_plain_model),
+      coupled_unit_test(test_coarse_motion_feels_coarse_forces),
+      coupled_unit_test(test_affine_motion_has_no_force_inside),
+      coupled_unit_test(test_one_measure_in_its_own_frames_is_the_plain_model),
+      coupled_unit_test(test_force_on_all_nodes),
+      coupled_unit_test(test_standing_still_has_no_viscous_force),
+      coupled_unit_test(test_inverted_tets_are_named),
+      coupled_unit_test(test_refusals),
+      coupled_unit_test(test_materials_are_those_of_level_0),
+      coupled_unit_test(test_failed_allocations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,14 +7,14 @@
 
 /* Every solver with every choice it has. */
 static const corot_linear_def table[] = {
-    {"klu", "amd", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC},
-    {"klu", "metis", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC},
-    {"cholmod", "amd", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC},
-    {"cholmod", "metis", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC},
-    {"cholmod", "amd", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC},
-    {"cholmod", "metis", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC},
-    {"pcg", "auto", "auto", "block-jacobi", 1e-13, COROT_ROLE_DYNAMIC},
-    {"pcg", "auto", "auto", "incomplete-cholesky", 1e-13, COROT_ROLE_DYNAMIC},
+    {"klu", "amd", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"klu", "metis", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"cholmod", "amd", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"cholmod", "metis", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"cholmod", "amd", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"cholmod", "metis", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"pcg", "auto", "auto", "block-jacobi", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"pcg", "auto", "auto", "incomplete-cholesky", 1e-13, COROT_ROLE_DYNAMIC, NULL},
 };
 enum { NSOLVER = sizeof table / sizeof *table };
 
@@ -393,15 +393,15 @@ static void other_names_are_refused(void **state) {
     corot_linear_def def;
     const char *words;
   } cases[] = {
-      {{"umfpack", "auto", "auto", "auto", 1, 0},
+      {{"umfpack", "auto", "auto", "auto", 1, 0, NULL},
        "no linear solver 'umfpack': auto, klu, cholmod or pcg"},
-      {{NULL, "auto", "auto", "auto", 1, 0}, "no linear solver ''"},
-      {{"klu", "colamd", "auto", "auto", 1, 0}, "no ordering 'colamd': auto, amd or metis"},
-      {{"klu", "auto", "ldl", "auto", 1, 0}, "no factor 'ldl': auto, simplicial or supernodal"},
-      {{"pcg", "auto", "auto", "ilu", 1, 0},
-       "no preconditioner 'ilu': auto, block-jacobi or incomplete-cholesky"},
-      {{"pcg", "auto", "auto", "auto", 0, 0}, "tolerance = 0 is not positive"},
-      {{"auto", "auto", "auto", "auto", NAN, 0}, "is not positive"},
+      {{NULL, "auto", "auto", "auto", 1, 0, NULL}, "no linear solver ''"},
+      {{"klu", "colamd", "auto", "auto", 1, 0, NULL}, "no ordering 'colamd': auto, amd or metis"},
+      {{"klu", "auto", "ldl", "auto", 1, 0, NULL}, "no factor 'ldl': auto, simplicial or supernodal"},
+      {{"pcg", "auto", "auto", "ilu", 1, 0, NULL},
+       "no preconditioner 'ilu': auto, block-jacobi, incomplete-cholesky, hierarchical or multigrid"},
+      {{"pcg", "auto", "auto", "auto", 0, 0, NULL}, "tolerance = 0 is not positive"},
+      {{"auto", "auto", "auto", "auto", NAN, 0, NULL}, "is not positive"},
   };
   corot_csc *csc = box_matrix(1, 1, 1);
   linsol_plan plan = {0};

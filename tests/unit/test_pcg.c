@@ -270,7 +270,8 @@ static void a_factor_that_breaks_down_is_shifted(void **state) {
   int colptr[] = {0, 3, 5, 7, 8}, row[] = {0, 1, 3, 1, 2, 2, 3, 3};
   int diagonal[] = {0, 3, 5, 7}, node[] = {0, 1, 2, 3}, at;
   double value[] = {3, -2, 2, 3, -2, 3, -2, 3};
-  corot_csc csc = {4, 8, colptr, row, NULL, diagonal, node};
+  int source[8] = {0}; /* each node has its x component only */
+  corot_csc csc = {4, 8, colptr, row, source, diagonal, node};
   node_matrix A;
   assert_ok(corot_nodes_create(&csc, &A));
   corot_nodes_load(&A, &csc, value);

@@ -372,6 +372,24 @@ static void iterations_are_counted(void **state) {
   remove_folder(dir);
 }
 
+/* Both begin in an equilibrium, which the same solver finds, and go the same way to the tolerance
+   of the steps. */
+static void a_refined_body_is_solved_by_its_levels(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  const char *start = "start=equilibrium", *refined = "mesh.refine=1";
+  const char *load = "loads=[{group: top, traction: [200, 0, 0], amplitude: [[0, 1], [0.3, 2]]}]";
+  double by_default = last_deflection(dir, SET(start, refined, load));
+  double by_levels = last_deflection(
+      dir, SET(start, refined, load, "linear_solver={name: pcg, preconditioner: multigrid}"));
+  json_t *result = result_of(dir);
+  assert_string_equal(word(result, "integrator", "linear_solver"), "pcg, multigrid");
+  assert_true(number(result, "statistics", "nli") > number(result, "statistics", "nst"));
+  assert_close(by_levels, by_default, 1e-4, 0);
+  json_decref(result);
+  remove_folder(dir);
+}
+
 static void a_step_that_cannot_be_solved_ends_the_run(void **state) {
   (void)state;
   char *dir = temporary_folder();
@@ -464,6 +482,7 @@ int main(void) {
       cmocka_unit_test(a_step_that_divides_the_end_reaches_it),
       cmocka_unit_test(linear_steps_cost_what_the_paper_says),
       cmocka_unit_test(iterations_are_counted),
+      cmocka_unit_test(a_refined_body_is_solved_by_its_levels),
       cmocka_unit_test(a_step_that_cannot_be_solved_ends_the_run),
       cmocka_unit_test(forces_are_compared_with_those_of_green),
       cmocka_unit_test(a_comparison_disturbs_nothing),

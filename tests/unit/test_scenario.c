@@ -378,6 +378,25 @@ static void overrides_in_order(void **state) {
   scenario_destroy(s);
 }
 
+/* What was given by its name alone is a map when another of its keys is set. */
+static void overrides_of_short_forms(void **state) {
+  (void)state;
+  char *list[] = {(char[]){"linear_solver=pcg"}, (char[]){"linear_solver.tolerance=1e-6"},
+                  (char[]){"dilatation=nodal"}, (char[]){"dilatation.local=2"}};
+  scenario *s = NULL;
+  write_file(FILE_NAME, MINIMAL, strlen(MINIMAL));
+  assert_ok(scenario_read(FILE_NAME, 4, list, &s));
+  assert_string_equal(s->integrator.linear.solver, "pcg");
+  assert_close(s->integrator.linear.tolerance, 1e-6, 0, 0);
+  assert_true(s->dilatation == COROT_DILATATION_NODAL && s->dilatation_local == 2);
+  scenario_destroy(s);
+  list[1] = (char[]){"linear_solver=klu"}; /* the whole of it */
+  assert_ok(scenario_read(FILE_NAME, 4, list, &s));
+  assert_string_equal(s->integrator.linear.solver, "klu");
+  assert_close(s->integrator.linear.tolerance, 1e-10, 0, 0);
+  scenario_destroy(s);
+}
+
 static void bad_overrides(void **state) {
   (void)state;
   static const refusal r[] = {
@@ -440,7 +459,8 @@ static void resolved_values(void **state) {
   assert_string_equal(
       text,
       "{\"title\":\"\",\"mesh\":{\"box\":{\"size\":[1.0,1.0,2.0],\"cells\":[1,1,2],\"origin\":[0.0,"
-      "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0},\"groups\":{},\"material\":{\"lambda\":100000.0,"
+      "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0,\"diagonal\":\"consistent\"},\"groups\":{},"
+      "\"material\":{\"lambda\":100000.0,"
       "\"mu\":10000.0,\"density\":1000.0,\"damping\":{\"lambda\":0.0,\"mu\":0.0,\"mass\":0.0}},"
       "\"mass\":\"lumped\",\"strain\":\"polar\",\"dilatation\":{\"name\":\"local\",\"local\":1.0},"
       "\"viscosity\":\"corotated\",\"frames\":{\"policy\":"
@@ -459,7 +479,7 @@ static void resolved_values(void **state) {
       "\"start\":\"rest\",\"statics\":{\"frames\":\"exact\",\"tolerance\":1e-10,"
       "\"max_iterations\":20,\"first_step\":1.0,\"min_step\":0.0001,\"max_step\":1.0},"
       "\"probes\":{},\"output\":{\"fields\":"
-      "\"vtu\",\"every\":1}}");
+      "\"vtu\",\"every\":1,\"states\":\"none\"}}");
   free(text);
   json_decref(r);
 }
@@ -491,7 +511,9 @@ static void numbers_as_text(void **state) {
 
 static void build(const char *text, corot_mesh **mesh, corot_model **model) {
   scenario *s = accept(text);
-  assert_ok(scenario_build(s, mesh, model));
+  corot_refinement *refinement;
+  assert_ok(scenario_build(s, mesh, &refinement, model));
+  corot_refinement_destroy(refinement);
   scenario_destroy(s);
 }
 
@@ -604,10 +626,11 @@ static void build_refusals(void **state) {
   };
   for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
     corot_mesh *mesh = NULL;
+    corot_refinement *refinement = NULL;
     corot_model *model = NULL;
     scenario *s = accept(r[i].text);
-    assert_fails(scenario_build(s, &mesh, &model), COROT_EFORMAT, r[i].message);
-    assert_true(!mesh && !model);
+    assert_fails(scenario_build(s, &mesh, &refinement, &model), COROT_EFORMAT, r[i].message);
+    assert_true(!mesh && !refinement && !model);
     scenario_destroy(s);
   }
 }
@@ -625,8 +648,10 @@ static corot_status make_scenario(void *context) {
 
 static corot_status build_scenario(void *context) {
   corot_mesh *mesh = NULL;
+  corot_refinement *refinement = NULL;
   corot_model *model = NULL;
-  COROT_TRY(scenario_build(context, &mesh, &model));
+  COROT_TRY(scenario_build(context, &mesh, &refinement, &model));
+  corot_refinement_destroy(refinement);
   corot_model_destroy(model);
   corot_mesh_destroy(mesh);
   return COROT_OK;
@@ -657,7 +682,8 @@ static void schema_is_sound(void **state) {
     if (k->type == SCHEMA_CHOICE) assert_non_null(k->words);
   }
   int n = 0;
-  for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, "material.damping", k));) n++;
+  for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, "material.damping", k));)
+    n++;
   assert_int_equal(n, 3);
 }
 
@@ -706,6 +732,7 @@ int main(void) {
       cmocka_unit_test(mesh_path),
       cmocka_unit_test(overrides),
       cmocka_unit_test(overrides_in_order),
+      cmocka_unit_test(overrides_of_short_forms),
       cmocka_unit_test(bad_overrides),
       cmocka_unit_test(resolved_is_a_fixed_point),
       cmocka_unit_test(resolved_values),

@@ -11,7 +11,9 @@
 
 static void build(const char *text, corot_mesh **mesh, corot_model **model) {
   scenario *s = accept(text);
-  assert_ok(scenario_build(s, mesh, model));
+  corot_refinement *refinement;
+  assert_ok(scenario_build(s, mesh, &refinement, model));
+  corot_refinement_destroy(refinement);
   scenario_destroy(s);
 }
 
@@ -69,12 +71,23 @@ static void refusals_of_a_build(void **state) {
   };
   for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
     corot_mesh *mesh = NULL;
+    corot_refinement *refinement = NULL;
     corot_model *model = NULL;
     scenario *s = accept(r[i].text);
-    assert_fails(scenario_build(s, &mesh, &model), COROT_EFORMAT, r[i].message);
-    assert_true(!mesh && !model);
+    assert_fails(scenario_build(s, &mesh, &refinement, &model), COROT_EFORMAT, r[i].message);
+    assert_true(!mesh && !refinement && !model);
     scenario_destroy(s);
   }
+}
+
+static int blocks_of(const char *text) {
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL;
+  build(text, &mesh, &model);
+  int nblock = corot_model_nblock(model);
+  corot_model_destroy(model);
+  corot_mesh_destroy(mesh);
+  return nblock;
 }
 
 static void hierarchies(void **state) {
@@ -82,7 +95,7 @@ static void hierarchies(void **state) {
   static const struct {
     const char *text, *strain;
   } h[] = {
-      {REFINED("2") "hierarchy: {}\n", "polar+polar"},
+      {REFINED("2") "hierarchy: {}\n", "green+polar"},
       {REFINED("1") "strain: warp\nhierarchy: {coarse_strain: polar, force: paper}\n",
        "polar+warp"},
       {REFINED("2") "strain: cauchy\nhierarchy: {coarse_strain: green, frame_level: 2}\n",
@@ -97,6 +110,11 @@ static void hierarchies(void **state) {
     corot_model_destroy(model);
     corot_mesh_destroy(mesh);
   }
+  /* the nodes of level 0 are neighbours in the matrices only where they couple the levels */
+  int mean = blocks_of(REFINED("1") "hierarchy: {}\n");
+  assert_int_equal(blocks_of(REFINED("1") "hierarchy: {coupling: mean}\n"), mean);
+  assert_int_equal(blocks_of(REFINED("1")), mean);
+  assert_above(blocks_of(REFINED("1") "hierarchy: {coupling: nodes}\n"), mean);
   refuse(REFINED("1") "hierarchy: {frame_level: 2}\n",
          "4:26: hierarchy.frame_level: mesh.refine makes the levels 0 to 1");
   refuse(REFINED("1") "strain: green\nhierarchy: {}\n",
@@ -113,6 +131,36 @@ static void hierarchies(void **state) {
          "4:28: hierarchy.coarse_strain: unknown: gren; did you mean green?");
 }
 
+static void a_refinement_is_handed_to_whom_it_concerns(void **state) {
+  (void)state;
+  static const struct {
+    const char *text;
+    int nlevel; /* 0: none */
+  } r[] = {
+      {REFINED("2") "linear_solver: {name: pcg, preconditioner: hierarchical}\n", 2},
+      {REFINED("1") "linear_solver: {preconditioner: multigrid}\nhierarchy: {}\n", 1},
+      {REFINED("1") "linear_solver: pcg\n", 0},
+      {REFINED("1") "hierarchy: {}\n", 0},
+  };
+  for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
+    corot_mesh *mesh = NULL;
+    corot_refinement *refinement = NULL;
+    corot_model *model = NULL;
+    scenario *s = accept(r[i].text);
+    assert_ok(scenario_build(s, &mesh, &refinement, &model));
+    assert_int_equal(refinement ? refinement->nlevel : 0, r[i].nlevel);
+    if (refinement) assert_int_equal(refinement->nnode[r[i].nlevel], mesh->nnode);
+    corot_refinement_destroy(refinement);
+    corot_model_destroy(model);
+    corot_mesh_destroy(mesh);
+    scenario_destroy(s);
+  }
+  refuse(REFINED("0") "linear_solver: {name: pcg, preconditioner: hierarchical}\n",
+         "4:44: linear_solver.preconditioner: hierarchical needs mesh.refine");
+  refuse(MINIMAL "linear_solver: {preconditioner: multigrid}\n",
+         "4:33: linear_solver.preconditioner: multigrid needs mesh.refine");
+}
+
 static void memory_is_counted(void **state) {
   (void)state;
   assert_ok(refine_fits(1000, 2, 64000 * 50));
@@ -127,8 +175,10 @@ static void memory_is_counted(void **state) {
 
 static corot_status build_scenario(void *context) {
   corot_mesh *mesh = NULL;
+  corot_refinement *refinement = NULL;
   corot_model *model = NULL;
-  COROT_TRY(scenario_build(context, &mesh, &model));
+  COROT_TRY(scenario_build(context, &mesh, &refinement, &model));
+  corot_refinement_destroy(refinement);
   corot_model_destroy(model);
   corot_mesh_destroy(mesh);
   return COROT_OK;
@@ -139,7 +189,7 @@ static void failed_allocations(void **state) {
   scenario *s = accept(REFINED("1") "groups: {two: {nodes: [0, 1]}}\n");
   assert_true(assert_survives_failed_allocations(build_scenario, s) >= 50);
   scenario_destroy(s);
-  s = accept(REFINED("1") "hierarchy: {}\n");
+  s = accept(REFINED("1") "hierarchy: {}\nlinear_solver: {preconditioner: hierarchical}\n");
   assert_true(assert_survives_failed_allocations(build_scenario, s) >= 90);
   scenario_destroy(s);
 }
@@ -150,6 +200,7 @@ int main(void) {
       cmocka_unit_test(refine_0_changes_nothing),
       cmocka_unit_test(refusals_of_a_build),
       cmocka_unit_test(hierarchies),
+      cmocka_unit_test(a_refinement_is_handed_to_whom_it_concerns),
       cmocka_unit_test(memory_is_counted),
       cmocka_unit_test(failed_allocations),
   };

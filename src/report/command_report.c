@@ -1,0 +1,43 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli.h"
+#include "commands.h"
+#include "folder.h"
+#include "report.h"
+
+static const char help[] =
+    "usage: corot report DIR [-o FILE.html]\n"
+    "\n"
+    "Writes one HTML file that shows the run or the study in DIR: a summary, charts that can be\n"
+    "zoomed into, and, of a run with fields, the moving body to turn and play. Any browser opens\n"
+    "it, from the disk and without a network. Its name goes to stdout.\n"
+    "\n"
+    "  -o, --output FILE    default: DIR/report.html\n"
+    "\n"
+    "example: corot report out/bar\n";
+
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
+};
+
+int command_report(int argc, char **argv) {
+  const char *output = NULL;
+  opterr = 0;
+  for (int answer; (answer = getopt_long(argc, argv, ":o:h", options, NULL)) != -1;) {
+    if (answer == 'h') return fputs(help, stdout), EXIT_OK;
+    if (answer != 'o') return option_error("corot report", answer, argv, options);
+    output = optarg;
+  }
+  if (argc - optind != 1)
+    return usage_error("corot report", "expected one folder, found %d", argc - optind);
+  if (output && !*output) return usage_error("corot report", "--output: the name is empty");
+  char *path = output ? NULL : folder_path(argv[optind], "report.html");
+  if (!output && !path) return failure(COROT_ENOMEM);
+  corot_status status = report_write(argv[optind], output ? output : path);
+  if (status == COROT_OK) puts(output ? output : path);
+  free(path);
+  return status == COROT_OK ? EXIT_OK : failure(status);
+}

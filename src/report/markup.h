@@ -1,0 +1,21 @@
+/* Text for SVG and HTML. */
+#ifndef COROT_REPORT_MARKUP_H
+#define COROT_REPORT_MARKUP_H
+
+#include <stdio.h>
+
+/* Writes text that may stand between tags and in attributes: & < > " ' are escaped; control
+   characters and bytes that are not UTF-8 become '?'. NULL writes nothing. Errors are left in the
+   stream. */
+void markup_text(FILE *out, const char *text);
+
+/* The same of at most `most` characters, of which the last is then an ellipsis. */
+void markup_text_cut(FILE *out, const char *text, int most);
+
+/* Length in bytes of the character at `text`; 0 where there is none that XML could hold. */
+int markup_character(const char *text);
+
+/* Characters, not bytes. */
+int markup_length(const char *text);
+
+#endif

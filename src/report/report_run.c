@@ -1,0 +1,60 @@
+#include "report_run.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "body.h"
+#include "budget.h"
+#include "fields.h"
+#include "lookup.h"
+#include "page.h"
+#include "run_figures.h"
+#include "run_summary.h"
+#include "save.h"
+
+typedef corot_status figures(const run_folder *run, FILE *out);
+
+static corot_status section(const run_folder *run, const char *id, const char *heading,
+                            figures *write, FILE *out) {
+  page_section(id, heading, out);
+  fputs("<div class=\"figures\">\n", out);
+  corot_status status = write(run, out);
+  fputs("</div>\n", out);
+  page_section_end(out);
+  return status;
+}
+
+/* The body, where the run wrote fields. */
+static corot_status write_body(const run_folder *run, FILE *out) {
+  fields f;
+  COROT_TRY(fields_open(run->dir, &f));
+  bool frames = strcmp(lookup_text(run->result, "strain"), "green") != 0;
+  corot_status status = f.nframe > 0 ? body_write(&f, frames, out) : COROT_OK;
+  fields_close(&f);
+  return status;
+}
+
+static corot_status write_run(const void *what, FILE *out) {
+  const run_folder *run = what;
+  const char *title = lookup_text(run->result, "title");
+  page_begin(*title ? title : run->dir, "run", out);
+  run_summary_write(run, out);
+  if (run->budget) budget_write(run->budget, out);
+  COROT_TRY(write_body(run, out));
+  if (run->probes.ncolumn > 1) COROT_TRY(section(run, "probes", "Probes", run_figures_probes, out));
+  if (run->steps.nrow > 0) COROT_TRY(section(run, "steps", "Steps", run_figures_steps, out));
+  if (run->energy.nrow > 0) COROT_TRY(section(run, "energy", "Energy", run_figures_energy, out));
+  if (run->compare.nrow > 0)
+    COROT_TRY(section(run, "strains", "Strain measures", run_figures_compare, out));
+  run_summary_scenario(run, out);
+  page_end(out);
+  return COROT_OK;
+}
+
+corot_status report_run(const char *dir, const char *path) {
+  run_folder run;
+  COROT_TRY(run_folder_read(dir, &run));
+  corot_status status = save_text(path, write_run, &run);
+  run_folder_free(&run);
+  return status;
+}

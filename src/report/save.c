@@ -1,0 +1,19 @@
+#include "save.h"
+
+#include <stdlib.h>
+
+#include "folder.h"
+
+corot_status save_text(const char *path, save_writer *write, const void *what) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  corot_status status = write(what, out);
+  int failed = ferror(out);
+  failed |= fclose(out);
+  if (status == COROT_OK && failed) status = corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  if (status == COROT_OK) status = file_replace_durably(path, text, size);
+  free(text);
+  return status;
+}

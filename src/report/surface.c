@@ -1,0 +1,101 @@
+#include "surface.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct face {
+  int key[3];    /* its nodes, ascending */
+  int corner[3]; /* the same, winding outward */
+  int tet;
+} face;
+
+void surface_free(surface *s) {
+  free(s->corner);
+  free(s->tet);
+  free(s->node);
+  *s = (surface){0};
+}
+
+static void swap_if_greater(int *a, int *b) {
+  if (*a <= *b) return;
+  int keep = *a;
+  *a = *b;
+  *b = keep;
+}
+
+static face face_of(int e, const int *tet, int opposite) {
+  static const int outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  face f = {.tet = e};
+  for (int k = 0; k < 3; k++) f.key[k] = f.corner[k] = tet[outward[opposite][k]];
+  swap_if_greater(&f.key[0], &f.key[1]);
+  swap_if_greater(&f.key[1], &f.key[2]);
+  swap_if_greater(&f.key[0], &f.key[1]);
+  return f;
+}
+
+static int by_key(const void *a, const void *b) {
+  const face *p = a, *q = b;
+  for (int k = 0; k < 3; k++)
+    if (p->key[k] != q->key[k]) return p->key[k] < q->key[k] ? -1 : 1;
+  return 0;
+}
+
+static int by_tet(const void *a, const void *b) {
+  const face *p = a, *q = b;
+  if (p->tet != q->tet) return p->tet < q->tet ? -1 : 1;
+  return by_key(a, b);
+}
+
+/* Moves the faces that occur once to the front, in the order of their tets, and counts them. */
+static int keep_single(int n, face *f) {
+  qsort(f, (size_t)n, sizeof *f, by_key);
+  int kept = 0;
+  for (int i = 0, next; i < n; i = next) {
+    for (next = i + 1; next < n && by_key(&f[i], &f[next]) == 0; next++) continue;
+    if (next == i + 1) f[kept++] = f[i];
+  }
+  qsort(f, (size_t)kept, sizeof *f, by_tet);
+  return kept;
+}
+
+/* number [nnode]: 0 to begin with, then one more than each node's number on the surface. */
+static void number_nodes(int nnode, int *number, const face *f, surface *s) {
+  for (int i = 0; i < s->ntri; i++)
+    for (int k = 0; k < 3; k++) number[f[i].corner[k]] = 1;
+  for (int i = 0; i < nnode; i++) {
+    if (!number[i]) continue;
+    s->node[s->nnode++] = i;
+    number[i] = s->nnode;
+  }
+  for (int i = 0; i < s->ntri; i++) {
+    s->tet[i] = f[i].tet;
+    for (int k = 0; k < 3; k++) s->corner[i][k] = number[f[i].corner[k]] - 1;
+  }
+}
+
+corot_status surface_create(int nnode, int ntet, const int (*tet)[4], surface *out) {
+  size_t nface = 4 * (size_t)ntet;
+  face *f = malloc((nface + 1) * sizeof *f);
+  int *number = calloc((size_t)nnode + 1, sizeof *number);
+  surface s = {0};
+  bool complete = f && number;
+  if (complete) {
+    for (int e = 0; e < ntet; e++)
+      for (int k = 0; k < 4; k++) f[4 * e + k] = face_of(e, tet[e], k);
+    s.ntri = keep_single((int)nface, f);
+    s.corner = malloc(((size_t)s.ntri + 1) * sizeof *s.corner);
+    s.tet = malloc(((size_t)s.ntri + 1) * sizeof *s.tet);
+    s.node = malloc(((size_t)nnode + 1) * sizeof *s.node);
+    complete = s.corner && s.tet && s.node;
+  }
+  if (complete) number_nodes(nnode, number, f, &s);
+  free(f);
+  free(number);
+  if (!complete) {
+    surface_free(&s);
+    return corot_fail(COROT_ENOMEM, "the surface of %d tets: out of memory", ntet);
+  }
+  *out = s;
+  return COROT_OK;
+}

@@ -1,0 +1,95 @@
+#include "vtu.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static corot_status foreign(const vtu_file *f, const char *what) {
+  return corot_fail(COROT_EFORMAT,
+                    "%s: %s: not a file of fields as corot writes them on this machine", f->path,
+                    what);
+}
+
+static corot_status read_at(const vtu_file *f, long long at, void *to, size_t size) {
+  for (size_t done = 0; done < size;) {
+    ssize_t n = pread(f->fd, (char *)to + done, size - done, (off_t)(at + (long long)done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return corot_fail(COROT_EIO, "%s: cannot read: %s", f->path, strerror(errno));
+    if (n == 0) return foreign(f, "it is cut short");
+    done += (size_t)n;
+  }
+  return COROT_OK;
+}
+
+/* The value of an attribute in a tag: the text between its quotes, whole numbers only. */
+static long long attribute(const char *tag, const char *name) {
+  const char *end = strchr(tag, '>'), *at = strstr(tag, name);
+  if (!at || !end || at > end) return -1;
+  char *rest;
+  long long value = strtoll(at + strlen(name), &rest, 10);
+  return rest > at + strlen(name) && *rest == '"' && value >= 0 ? value : -1;
+}
+
+static corot_status read_header(vtu_file *f) {
+  static const char data[] = "<AppendedData encoding=\"raw\">\n";
+  const uint16_t one = 1;
+  const char *order =
+      *(const char *)&one == 1 ? "byte_order=\"LittleEndian\"" : "byte_order=\"BigEndian\"";
+  size_t size = f->size < (long long)sizeof f->header - 1 ? (size_t)f->size : sizeof f->header - 1;
+  COROT_TRY(read_at(f, 0, f->header, size));
+  f->header[size] = '\0';
+  char *end = strstr(f->header, data);
+  if (!end) return foreign(f, "no raw data");
+  char *begin = end + strlen(data);
+  begin += strspn(begin, " ");
+  if (*begin != '_') return foreign(f, "no raw data");
+  f->data = begin + 1 - f->header;
+  *end = '\0';
+  if (!strstr(f->header, order) || !strstr(f->header, "header_type=\"UInt64\""))
+    return foreign(f, "another byte order or type of sizes");
+  const char *piece = strstr(f->header, "<Piece ");
+  long long nnode = piece ? attribute(piece, " NumberOfPoints=\"") : -1;
+  long long ntet = piece ? attribute(piece, " NumberOfCells=\"") : -1;
+  if (nnode <= 0 || ntet <= 0 || nnode > INT32_MAX / 4 || ntet > INT32_MAX / 4)
+    return foreign(f, "no sizes");
+  f->nnode = (int)nnode;
+  f->ntet = (int)ntet;
+  return COROT_OK;
+}
+
+void vtu_close(vtu_file *f) {
+  if (f->fd >= 0) close(f->fd);
+  f->fd = -1;
+}
+
+corot_status vtu_open(const char *path, vtu_file *f) {
+  *f = (vtu_file){.path = path, .fd = open(path, O_RDONLY | O_CLOEXEC)};
+  struct stat about;
+  if (f->fd < 0 || fstat(f->fd, &about) != 0) {
+    corot_fail(COROT_EIO, "%s: %s", path, strerror(errno));
+    vtu_close(f);
+    return COROT_EIO;
+  }
+  f->size = about.st_size;
+  corot_status status = read_header(f);
+  if (status != COROT_OK) vtu_close(f);
+  return status;
+}
+
+corot_status vtu_array(const vtu_file *f, const char *name, const char *type, size_t bytes,
+                       void *values) {
+  char start[96];
+  snprintf(start, sizeof start, "<DataArray type=\"%s\" Name=\"%s\" ", type, name);
+  const char *tag = strstr(f->header, start);
+  long long offset = tag ? attribute(tag, " offset=\"") : -1;
+  if (offset < 0 || offset > f->size) return foreign(f, name);
+  uint64_t size;
+  COROT_TRY(read_at(f, f->data + offset, &size, sizeof size));
+  if (size != bytes) return foreign(f, name);
+  return read_at(f, f->data + offset + 8, values, bytes);
+}
