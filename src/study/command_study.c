@@ -148,10 +148,21 @@ static int conclude(const execute_options *o, const execute_totals *t, int signa
   return t->nfailed > 0 ? EXIT_CHECK : EXIT_OK;
 }
 
+/* Runs of another version are other runs: they stay where they are, and are not used. */
+static void tell_version(const char *dir) {
+  manifest *before = NULL;
+  if (manifest_read(dir, &before) != COROT_OK) return;
+  if (strcmp(before->version, corot_version()) != 0)
+    fprintf(stderr, "%s: made by corot %s; this is %s, and does all of it again\n", dir,
+            before->version, corot_version());
+  manifest_destroy(before);
+}
+
 static int execute_here(const manifest *m, const execute_options *o) {
   store_lock lock;
   execute_totals totals;
   int signal_number;
+  if (!o->quiet) tell_version(o->dir);
   corot_status status = store_enter(o->dir, m, o->shard, o->nshard, &lock);
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
