@@ -1,7 +1,7 @@
 /* Reading back what a run leaves, and the page made of it, whatever the files hold. */
+#include <app/read_csv.h>
 #include <app/write_vtu.h>
 #include <corot/mesh.h>
-#include <report/csv.h>
 #include <report/encode.h>
 #include <report/fields.h>
 #include <report/report.h>
