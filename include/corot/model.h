@@ -99,8 +99,19 @@ typedef struct corot_motion {
 
      E(u) = E_fine(u; R) + E_coarse(u_0) - E_linear(u_0),
 
-   u_0 their displacement, E_linear of level 0 under the model's measure. */
-typedef enum corot_coupling { COROT_COUPLING_MEAN, COROT_COUPLING_NODES } corot_coupling;
+   u_0 their displacement, E_linear of level 0 under the model's measure. ONE_WAY, the paper's words
+   taken literally: level 0 is a mesh of its own, which moves as if there were no other, and the
+   finer nodes follow,
+
+     M_0 u_0'' = f_0 - dE_coarse/du_0,   M_i u_i'' = f_i - dE_fine(u; R)/du_i on finer nodes,
+
+   M_0 and f_0 the lumped mass and the loads of level 0, which are T' of corot/hierarchy.h applied to
+   those of the nodes: to the detail its nodes are moving supports, and they feel nothing of it. */
+typedef enum corot_coupling {
+  COROT_COUPLING_MEAN,
+  COROT_COUPLING_NODES,
+  COROT_COUPLING_ONE_WAY,
+} corot_coupling;
 
 /* A strain measure of its own for level 0 of a refined mesh: nonlinear where the mesh is coarse,
    and on the finest level the model's, linear in frames that a coarser tet hands down to all its
@@ -109,10 +120,10 @@ typedef enum corot_coupling { COROT_COUPLING_MEAN, COROT_COUPLING_NODES } corot_
    and psi_model of the model's, R the frames of the tets of the frame level, with MEAN of their mean
    gradients. The viscous forces are put together from the same three terms.
 
-   Where the whole body moves as level 0 does (the differences of corot/hierarchy.h are zero), the
-   fine and the linear term cancel and E is that of the coarse mesh. With the same measure on both,
-   and frame level = nlevel, E is that of the plain model on the refined mesh. With nlevel = 0 the
-   model is the plain one of the coarse measure.
+   With MEAN and NODES, where the whole body moves as level 0 does (the differences of
+   corot/hierarchy.h are zero), the fine and the linear term cancel and E is that of the coarse mesh;
+   with the same measure on both, and frame level = nlevel, E is that of the plain model on the
+   refined mesh. With nlevel = 0 any is the plain model of the coarse measure.
 
    With MEAN and frames of level 0, E = sum_c V_c psi_coarse(Fm_c) + E_detail, where E_detail is
    quadratic in the detail F_i - Fm_c and not negative: such a body is as stable as one of the coarse
@@ -122,13 +133,19 @@ typedef enum corot_coupling { COROT_COUPLING_MEAN, COROT_COUPLING_NODES } corot_
    the energy is convex about the state up to a shear strain of 1.5, the largest tried, with one
    level and with two and for every frame level, like plain green; with NODES to 0.2 with one level
    and 0.06 with two, and not far beyond, the nodes of level 0 leave their surroundings, and tets
-   invert. Pressed together, either gives up at the latest where green does; polar on level 0 does
-   not.
+   invert. Pressed together, either gives up at the latest where a level 0 of green alone would;
+   polar there does not.
 
    With MEAN the matrices are those of E_fine with the frames held, on the plain model's pattern: K
    lacks what the coarse measure adds, a part of the size of its strains, as well as the turning of
    the frames. Implicit time steps hardly notice; equilibria are found by more iterations, and only
-   for moderate strains. */
+   for moderate strains.
+
+   With ONE_WAY there is no energy of the whole. Energies, powers and momenta are those of level 0
+   alone, whose balance closes; mass and forces on its nodes are those of level 0, too, and a sum
+   over all nodes counts the body twice. K and D are block diagonal: they leave out what a motion of
+   level 0 does to the finer nodes. Not with consistent mass, nor under a pressure, which acts on a
+   surface that level 0 does not have. */
 typedef struct corot_hierarchy_def {
   const corot_refinement *refinement; /* how the model's mesh was made, by corot_mesh_refine; the
                                          descendants of a tet of level 0 have one material */
@@ -138,7 +155,8 @@ typedef struct corot_hierarchy_def {
   /* The elastic force is the gradient of E, with the part by which R follows u: energy, momentum
      and angular momentum are conserved. False: that part is left out, as the paper does; a little
      cheaper, and off by the product of strain and difference, in a torque on each frame's tet.
-     Without meaning where frames are held. Needs polar (or cauchy, whose frames do not turn). */
+     Without meaning where frames are held, and with ONE_WAY. Needs polar (or cauchy, whose frames
+     do not turn). */
   bool conservative;
   corot_coupling coupling;
 } corot_hierarchy_def;
@@ -195,7 +213,8 @@ int corot_model_ndof(const corot_model *model);
 /* [nnode][3] the degree of freedom of each node's components; -1: held. */
 const int (*corot_model_dof(const corot_model *model))[3];
 
-/* [n] lumped mass (row sums) of each degree of freedom [kg], whichever mass is in use; positive. */
+/* [n] lumped mass (row sums) of each degree of freedom [kg], whichever mass is in use; positive. With
+   COROT_COUPLING_ONE_WAY on nodes of level 0 that of level 0. */
 const double *corot_model_mass(const corot_model *model);
 
 corot_mass corot_model_mass_kind(const corot_model *model);

@@ -56,7 +56,7 @@ static const schema_key keys[] = {
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
   {"hierarchy",               MAP,             OPTIONAL, ANY,          "",        0, 0, "with mesh.refine: a measure of its own for the unrefined mesh; strain is that of the refined one, in frames handed down"},
   {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "green", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh"},
-  {"hierarchy.coupling",      CHOICE,          OPTIONAL, ANY,          "",        "mean", "mean|nodes", "how the unrefined mesh follows the refined one: by the mean gradient over each of its tets, or by its own nodes, where green and hybrid are for small strains only: with two refinements, of 6 %"},
+  {"hierarchy.coupling",      CHOICE,          OPTIONAL, ANY,          "",        "mean", "mean|nodes|one-way", "mean: the unrefined mesh follows the mean gradient over each of its tets; nodes: its own nodes, for small strains only; one-way: it moves for itself, and the detail follows it"},
   {"hierarchy.frame_level",   INTEGER,         OPTIONAL, NOT_NEGATIVE, "",        "0", 0, "the level whose frames are handed down to finer ones, 0 (the unrefined mesh) to mesh.refine"},
   {"hierarchy.force",         CHOICE,          OPTIONAL, ANY,          "",        "conservative", "conservative|paper", "conservative: the gradient of the energy; paper: without the part by which the frames follow, which keeps momentum only"},
   {"dilatation",              SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "local", 0, "what lambda acts on; the name alone will do"},

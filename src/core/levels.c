@@ -1,6 +1,8 @@
 /* Making the parts of a hierarchical model. */
 #include "core/levels.h"
 
+#include <corot/hierarchy.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -128,7 +130,7 @@ static corot_status check_materials(const corot_refinement *r, const int *of_tet
 
 static corot_status check_choices(const corot_hierarchy_def *def, const corot_model *m) {
   const strain_measure *s = &strain_measures[m->strain];
-  if (def->coupling != COROT_COUPLING_MEAN && def->coupling != COROT_COUPLING_NODES)
+  if (def->coupling < COROT_COUPLING_MEAN || def->coupling > COROT_COUPLING_ONE_WAY)
     return corot_fail(COROT_EINVAL, "hierarchy: no coupling has the number %d", (int)def->coupling);
   if (s->pressure != BY_FRAME || s->shear != BY_FRAME)
     return corot_fail(COROT_EINVAL,
@@ -186,13 +188,31 @@ corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_t
   l->nlevel = r->nlevel;
   l->frame_level = def->frame_level;
   l->coupling = def->coupling;
-  l->same = coarse == m->strain;
-  l->turning = def->conservative && strain_measures[m->strain].frame == FRAME_POLAR;
+  bool one_way = def->coupling == COROT_COUPLING_ONE_WAY;
+  l->same = coarse == m->strain && !one_way;
+  l->turning = def->conservative && strain_measures[m->strain].frame == FRAME_POLAR && !one_way;
   snprintf(l->name, sizeof l->name, "%s+%s", strain_measures[coarse].name,
            strain_measures[m->strain].name);
   COROT_TRY(make_coarse(r, coarse, of_tet, m));
   if (l->frame_level > 0) COROT_TRY(make_framer(r, of_tet, m));
   return list_above(m);
+}
+
+corot_status corot_levels_own(const corot_model_def *def, int nnode, double (*nodal)[3]) {
+  const corot_hierarchy_def *h = def->hierarchy;
+  if (!h || h->coupling != COROT_COUPLING_ONE_WAY) return COROT_OK;
+  double(*all)[3] = malloc(nnode * sizeof *all);
+  if (!all) return corot_fail(COROT_ENOMEM, "no memory for the loads of %d nodes", nnode);
+  memcpy(all, nodal, nnode * sizeof *all);
+  corot_hierarchy_apply_transposed(h->refinement, all);
+  memcpy(nodal, all, h->refinement->nnode[0] * sizeof *all);
+  free(all);
+  return COROT_OK;
+}
+
+int corot_levels_body(const corot_model *m) {
+  bool one_way = m->levels->coupling == COROT_COUPLING_ONE_WAY;
+  return one_way ? m->levels->coarse->mesh->nnode : m->mesh->nnode;
 }
 
 const pattern *corot_levels_pattern(const corot_model *m) {

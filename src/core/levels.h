@@ -11,7 +11,9 @@
    w = G^-1 vee(R' dF_t), so the gradient has one more stress on t,
      V_t P_t = R [G^-1 sum V_i vee(A_i sigma_i)]x.
    It is zero where the descendants deform as t does, for A sigma is symmetric there; for the same
-   reason E_linear has no such part. */
+   reason E_linear has no such part.
+
+   One way, the rows of level 0's nodes are those of E_coarse alone. */
 #ifndef COROT_CORE_LEVELS_H
 #define COROT_CORE_LEVELS_H
 
@@ -52,9 +54,17 @@ typedef struct levels_state {
   level_fields on_framer;                /* the same arrays if the framer is linear */
   double *r;                             /* [3 nnode] force of coarse or linear */
   double (*nodal)[4];                    /* [the model's nnode] the parts' force */
+  double *kept;                          /* [the model's body_ndof] one way: r on level 0 */
   double (*K)[9], (*D)[9];               /* [coarse->pattern.nblock] of a part; NULL, see place */
   size_t bytes;                          /* of these arrays */
 } levels_state;
+
+/* Nodal masses or loads of the finest level become, on the nodes of level 0, those of level 0 if it
+   has its own: T' of corot/hierarchy.h. */
+corot_status corot_levels_own(const corot_model_def *def, int nnode, double (*nodal)[3]);
+
+/* The number of nodes that E is of: all, or one way those of level 0. */
+int corot_levels_body(const corot_model *m);
 
 /* Whether the definition is sound, and the mesh the refined one. */
 corot_status corot_levels_check(const corot_hierarchy_def *def, const corot_mesh *mesh);

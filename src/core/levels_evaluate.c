@@ -84,7 +84,10 @@ static void gather_parts(const corot_model *m, levels_state *ls) {
   if (l->framer != l->linear) corot_coarsen_transposed(&l->to_framer, ls->on_framer.sum, ls->nodal);
 }
 
-/* Coarse less linear force. */
+/* Whether level 0 is a mesh of its own. */
+static bool one_way(const corot_model *m) { return m->levels->coupling == COROT_COUPLING_ONE_WAY; }
+
+/* Coarse less linear force; one way, coarse force. */
 static corot_status coarse_force(const corot_model *m, corot_state *s, double t) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
@@ -94,6 +97,7 @@ static corot_status coarse_force(const corot_model *m, corot_state *s, double t)
   corot_status status = corot_residual(l->coarse, ls->coarse, t, f->u, f->v, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->coarse, status));
   add_scaled(n, 1, ls->r, f->sum);
+  if (one_way(m)) return COROT_OK;
   status = corot_residual(l->linear, ls->linear, t, f->u, f->v, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->linear, status));
   add_scaled(n, -1, ls->r, f->sum);
@@ -123,10 +127,20 @@ static void add_parts(const corot_model *m, corot_state *s) {
     }
 }
 
+/* s->r += force of the finest level; one way, nothing of it on the nodes of level 0. */
+static corot_status fine_force(const corot_model *m, corot_state *s, double t, force_kernel *kernel,
+                               bool damped) {
+  size_t kept = m->body_ndof * sizeof *s->r;
+  if (one_way(m)) memcpy(s->levels->kept, s->r, kept);
+  clear_moments(m, s->levels);
+  COROT_TRY(corot_sum_forces(m, s, t, kernel, damped));
+  if (one_way(m)) memcpy(s->r, s->levels->kept, kept);
+  return COROT_OK;
+}
+
 corot_status corot_levels_force(const corot_model *m, corot_state *s, double t, bool damped) {
   COROT_TRY(find_frames(m, s, t));
-  clear_moments(m, s->levels);
-  COROT_TRY(corot_sum_forces(m, s, t, corot_kernel_handed_force, damped));
+  COROT_TRY(fine_force(m, s, t, corot_kernel_handed_force, damped));
   COROT_TRY(parts_force(m, s, t, damped));
   add_parts(m, s);
   return COROT_OK;
@@ -138,13 +152,14 @@ corot_status corot_levels_nodal_force(const corot_model *m, corot_state *s, doub
   COROT_TRY(find_frames(m, s, t));
   clear_moments(m, s->levels);
   COROT_TRY(corot_nodal_forces(m, s, corot_kernel_handed_force, damped, f));
+  if (one_way(m)) memset(f, 0, m->body_nnode * sizeof *f);
   COROT_TRY(parts_force(m, s, t, damped));
   for (int n = 0; n < m->mesh->nnode; n++)
     for (int c = 0; c < 3; c++) f[n][c] += parts[n][c];
   return COROT_OK;
 }
 
-/* Change of coarse less linear force. */
+/* Its change. */
 static corot_status coarse_derivative(const corot_model *m, corot_state *s, double t,
                                       corot_tangent tangent) {
   const levels *l = m->levels;
@@ -156,6 +171,7 @@ static corot_status coarse_derivative(const corot_model *m, corot_state *s, doub
       corot_jvp(l->coarse, ls->coarse, t, f->u, f->v, tangent, f->du, f->dv, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->coarse, status));
   add_scaled(n, 1, ls->r, f->sum);
+  if (one_way(m)) return COROT_OK;
   status = corot_jvp(l->linear, ls->linear, t, f->u, f->v, tangent, f->du, f->dv, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->linear, status));
   add_scaled(n, -1, ls->r, f->sum);
@@ -183,7 +199,6 @@ corot_status corot_levels_derivative(const corot_model *m, corot_state *s, doubl
   corot_state *fs = ls->framer;
   const level_fields *c = &ls->on_coarse, *f = &ls->on_framer;
   COROT_TRY(find_frames(m, s, t));
-  clear_moments(m, ls);
   corot_levels_coarsen(l, (const double(*)[4])s->v, c->v, f->v);
   corot_levels_coarsen(l, (const double(*)[4])s->du, c->du, f->du);
   corot_levels_coarsen(l, (const double(*)[4])s->dv, c->dv, f->dv);
@@ -194,7 +209,7 @@ corot_status corot_levels_derivative(const corot_model *m, corot_state *s, doubl
     memset(fs->dR, 0, l->framer->tets.nblock * sizeof *fs->dR);
   }
   bool damped = m->damped && !s->still;
-  COROT_TRY(corot_sum_forces(m, s, t, corot_kernel_handed_derivative, damped));
+  COROT_TRY(fine_force(m, s, t, corot_kernel_handed_derivative, damped));
   COROT_TRY(parts_derivative(m, s, t, tangent));
   add_parts(m, s);
   return COROT_OK;
@@ -204,6 +219,11 @@ static void add_blocks(const levels *l, double a, const double (*part)[9], doubl
   for (int k = 0; k < l->coarse->pattern.nblock; k++) add_scaled(9, a, part[k], A[l->place[k]]);
 }
 
+/* The columns of level 0, and with them its rows. */
+static void clear_columns(const corot_model *m, double (*A)[9]) {
+  memset(A, 0, m->pattern.colptr[m->body_nnode] * sizeof *A);
+}
+
 corot_status corot_levels_add_matrices(const corot_model *m, corot_state *s, double t,
                                        corot_tangent tangent, double (*K)[9], double (*D)[9]) {
   const levels *l = m->levels;
@@ -211,7 +231,9 @@ corot_status corot_levels_add_matrices(const corot_model *m, corot_state *s, dou
   const level_fields *f = &ls->on_coarse;
   if (!l->place) return COROT_OK;
   double(*part_K)[9] = K ? ls->K : NULL, (*part_D)[9] = D ? ls->D : NULL;
-  for (int k = 0; k < 2; k++) {
+  if (one_way(m) && K) clear_columns(m, K);
+  if (one_way(m) && D) clear_columns(m, D);
+  for (int k = 0; k < (one_way(m) ? 1 : 2); k++) {
     const corot_model *part = k == 0 ? l->coarse : l->linear;
     corot_state *state = k == 0 ? ls->coarse : ls->linear;
     double sign = k == 0 ? 1 : -1;
@@ -237,15 +259,18 @@ corot_status corot_levels_energy(const corot_model *m, corot_state *s, double t,
                                  double *elastic, double *power) {
   const levels *l = m->levels;
   levels_state *ls = s->levels;
-  double coarse[2] = {0}, linear[2] = {0}, fine[2];
+  double coarse[2] = {0}, linear[2] = {0}, fine[2] = {0};
   COROT_TRY(corot_levels_hand_down(m, s, t));
   const level_fields *f = &ls->on_coarse;
   if (damped) corot_levels_coarsen(l, (const double(*)[4])s->v, f->v, ls->on_framer.v);
-  COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, damped, &fine[0], &fine[1])));
+  if (!one_way(m))
+    COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, damped, &fine[0], &fine[1])));
   if (!l->same) {
     corot_status status = part_energy(l->coarse, ls->coarse, t, f, damped, &coarse[0], &coarse[1]);
     COROT_TRY(part_status(l, s, 0, ls->coarse, status));
-    status = part_energy(l->linear, ls->linear, t, f, damped, &linear[0], &linear[1]);
+  }
+  if (!l->same && !one_way(m)) {
+    corot_status status = part_energy(l->linear, ls->linear, t, f, damped, &linear[0], &linear[1]);
     COROT_TRY(part_status(l, s, 0, ls->linear, status));
   }
   *elastic = coarse[0] + (fine[0] - linear[0]);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "core/levels.h"
+#include "core/mesh.h"
 
 static corot_status allocate_fields(int n, level_fields *f) {
   double *x = calloc(5 * (size_t)n, sizeof *x);
@@ -20,12 +21,14 @@ static corot_status allocate(const corot_model *m, levels_state *ls) {
   if (nf) COROT_TRY(allocate_fields((int)nf, &ls->on_framer));
   ls->r = calloc(n, sizeof *ls->r);
   ls->nodal = calloc(nnode, sizeof *ls->nodal);
+  size_t nkept = l->coupling == COROT_COUPLING_ONE_WAY ? m->body_ndof : 0;
+  COROT_TRY(COROT_ALLOC(ls->kept, nkept));
   if (nblock) ls->K = malloc(2 * nblock * sizeof *ls->K);
   if (!ls->r || !ls->nodal || (nblock && !ls->K))
     return corot_fail(COROT_ENOMEM, "no memory for the forces on %zu nodes", nnode);
   if (nblock) ls->D = ls->K + nblock;
-  ls->bytes =
-      (6 * n + 5 * nf) * sizeof *ls->r + nnode * sizeof *ls->nodal + 2 * nblock * sizeof *ls->K;
+  ls->bytes = (6 * n + 5 * nf + nkept) * sizeof *ls->r + nnode * sizeof *ls->nodal +
+              2 * nblock * sizeof *ls->K;
   return COROT_OK;
 }
 
@@ -62,6 +65,7 @@ void corot_levels_state_destroy(levels_state *ls) {
   free(ls->on_coarse.u);
   free(ls->r);
   free(ls->nodal);
+  free(ls->kept);
   free(ls->K);
   free(ls);
 }

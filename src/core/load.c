@@ -1,7 +1,7 @@
 /* Loads: constant forces and pressures that follow the surface, each with an amplitude in time. */
 #include <stdlib.h>
 
-#include "core/model.h"
+#include "core/levels.h"
 
 static void add_force(const corot_model *m, double *force, int node, const double value[3],
                       double factor) {
@@ -35,25 +35,26 @@ static void edges(const corot_model *m, const double (*u)[4], const int n[3], do
 }
 
 /* A third of each face's traction to each of its nodes. */
-static corot_status add_traction(const corot_model *m, const corot_load *from, load *to) {
+static corot_status add_traction(const corot_model *m, const corot_load *from, double (*f)[3]) {
   const corot_group *group;
   COROT_TRY(find_faces(m, from->group, "traction", &group));
-  for (int f = 0; f < group->ntri; f++) {
-    const int *n = group->tri[f];
+  for (int k = 0; k < group->ntri; k++) {
+    const int *n = group->tri[k];
     double a[3], b[3], area[3];
     edges(m, NULL, n, a, b);
     area_vector(a, b, area);
     double size = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-    for (int k = 0; k < 3; k++) add_force(m, to->force, n[k], from->value, size / 3);
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 3; c++) f[n[i]][c] += size / 3 * from->value[c];
   }
   return COROT_OK;
 }
 
-static corot_status add_point_force(const corot_model *m, const corot_load *from, load *to) {
+static corot_status add_point_force(const corot_model *m, const corot_load *from, double (*f)[3]) {
   const corot_group *group;
   COROT_TRY(corot_model_find_group(m->mesh, from->group, "force", &group));
   for (int i = 0; i < group->nnode; i++)
-    add_force(m, to->force, group->node[i], from->value, 1.0 / group->nnode);
+    for (int c = 0; c < 3; c++) f[group->node[i]][c] += 1.0 / group->nnode * from->value[c];
   return COROT_OK;
 }
 
@@ -66,9 +67,28 @@ static corot_status add_gravity(const corot_model *m, const corot_load *from, lo
   return COROT_OK;
 }
 
+/* A traction or a total force. */
+static corot_status add_surface(const corot_model_def *def, const corot_model *m,
+                                const corot_load *from, load *to) {
+  int nnode = m->mesh->nnode;
+  double(*f)[3] = calloc(nnode, sizeof *f);
+  if (!f) return corot_fail(COROT_ENOMEM, "no memory for the forces on %d nodes", nnode);
+  bool traction = from->kind == COROT_TRACTION;
+  corot_status status = traction ? add_traction(m, from, f) : add_point_force(m, from, f);
+  if (!status) status = corot_levels_own(def, nnode, f);
+  for (int n = 0; !status && n < nnode; n++) add_force(m, to->force, n, f[n], 1);
+  free(f);
+  return status;
+}
+
 static corot_status add_pressure(const corot_model *m, const corot_load *from, load *to) {
   const corot_group *group;
   COROT_TRY(find_faces(m, from->group, "pressure", &group));
+  if (m->body_nnode < m->mesh->nnode)
+    return corot_fail(COROT_EINVAL,
+                      "pressure on group '%s': it follows the fine surface, which level 0 of a "
+                      "one-way hierarchy does not have",
+                      from->group);
   to->tri = malloc(group->ntri * sizeof *to->tri);
   if (!to->tri) return corot_fail(COROT_ENOMEM, "no memory for %d faces", group->ntri);
   memcpy(to->tri, group->tri, group->ntri * sizeof *to->tri);
@@ -95,7 +115,8 @@ static corot_status copy_amplitude(const corot_amplitude *a, int k, load *to) {
   return COROT_OK;
 }
 
-static corot_status create(const corot_model *m, const corot_load *from, int k, load *to) {
+static corot_status create(const corot_model_def *def, const corot_model *m, int k, load *to) {
+  const corot_load *from = &def->load[k];
   for (int c = 0; c < 3; c++)
     if (!isfinite(from->value[c]))
       return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);
@@ -104,12 +125,11 @@ static corot_status create(const corot_model *m, const corot_load *from, int k, 
   to->force = calloc(m->ndof, sizeof *to->force);
   if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
   switch (from->kind) {
-    case COROT_TRACTION:
-      return add_traction(m, from, to);
     case COROT_GRAVITY:
       return add_gravity(m, from, to);
+    case COROT_TRACTION:
     case COROT_FORCE:
-      return add_point_force(m, from, to);
+      return add_surface(def, m, from, to);
     default:
       return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
                         (int)from->kind);
@@ -120,7 +140,7 @@ corot_status corot_loads_create(const corot_model_def *def, corot_model *m) {
   m->load = calloc(def->nload + 1, sizeof *m->load);
   if (!m->load) return corot_fail(COROT_ENOMEM, "no memory for %d loads", def->nload);
   m->nload = def->nload;
-  for (int k = 0; k < def->nload; k++) COROT_TRY(create(m, &def->load[k], k, &m->load[k]));
+  for (int k = 0; k < def->nload; k++) COROT_TRY(create(def, m, k, &m->load[k]));
   return COROT_OK;
 }
 

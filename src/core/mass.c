@@ -5,12 +5,12 @@
    in each component; a row sums to m/4, and that is what lumping puts on the diagonal. */
 #include <stdlib.h>
 
-#include "core/model.h"
+#include "core/levels.h"
 
 /* Row sums, of the held nodes too. */
-static corot_status lump(corot_model *m) {
+static corot_status lump(const corot_model_def *def, corot_model *m) {
   int nnode = m->mesh->nnode;
-  double(*nodal)[2] = calloc(nnode, sizeof *nodal);
+  double(*nodal)[3] = calloc(nnode, sizeof *nodal); /* mass, its damping, nothing */
   m->mass = malloc(m->ndof * sizeof *m->mass);
   m->inverse_mass = malloc(m->ndof * sizeof *m->inverse_mass);
   if (m->mass_damped) m->mass_damping = malloc(m->ndof * sizeof *m->mass_damping);
@@ -28,6 +28,7 @@ static corot_status lump(corot_model *m) {
         nodal[block->node[a][l]][1] += quarter * mat->damping_mass;
       }
   }
+  corot_status status = corot_levels_own(def, nnode, nodal);
   for (int n = 0; n < nnode; n++)
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
@@ -37,7 +38,7 @@ static corot_status lump(corot_model *m) {
       if (m->mass_damped) m->mass_damping[i] = nodal[n][1];
     }
   free(nodal);
-  return COROT_OK;
+  return status;
 }
 
 /* The pairs of a consistent mass. */
@@ -64,8 +65,12 @@ static corot_status couple(corot_model *m) {
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m) {
   if (def->mass != COROT_MASS_LUMPED && def->mass != COROT_MASS_CONSISTENT)
     return corot_fail(COROT_EINVAL, "no kind of mass has the number %d", (int)def->mass);
-  COROT_TRY(lump(m));
+  COROT_TRY(lump(def, m));
   if (def->mass == COROT_MASS_LUMPED) return COROT_OK;
+  if (m->body_nnode < m->mesh->nnode)
+    return corot_fail(COROT_EINVAL,
+                      "consistent mass: it would couple the finer nodes of a one-way hierarchy to "
+                      "level 0, which has a mass of its own");
   if (m->nmotion)
     return corot_fail(COROT_EINVAL,
                       "consistent mass: group '%s' is a moving support, and its sudden start would "

@@ -117,6 +117,9 @@ static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
   free(held);
   COROT_TRY(status);
   if (m->ndof == 0) return corot_fail(COROT_EINVAL, "every node is fixed: nothing can move");
+  m->body_nnode = m->levels ? corot_levels_body(m) : nnode;
+  for (int n = 0; n < m->body_nnode; n++)
+    for (int c = 0; c < 3; c++) m->body_ndof += m->dof[n][c] >= 0;
   return COROT_OK;
 }
 

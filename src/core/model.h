@@ -53,6 +53,8 @@ struct corot_model {
 
   int ndof;
   int (*dof)[3];        /* [nnode] or -1 */
+  int body_nnode;       /* energies and momenta are those of the first nodes: of all, or of */
+  int body_ndof;        /* a level 0 that has its own; and of the first degrees of freedom */
   double *mass;         /* [ndof] lumped, whichever is in use [kg] */
   double *inverse_mass; /* [ndof] */
   double *mass_damping; /* [ndof] force per velocity [kg/s]; NULL unless mass_damped */

@@ -148,8 +148,8 @@ static double dot(int n, const double *a, const double *b) {
 /* Kinetic energy and momenta from M v, which goes through s->r. */
 static void add_inertia(const corot_model *m, corot_state *s, const double *v, corot_energies *e) {
   corot_mass_multiply(m, v, s->r);
-  e->kinetic = 0.5 * dot(m->ndof, v, s->r);
-  for (int n = 0; n < m->mesh->nnode; n++) {
+  e->kinetic = 0.5 * dot(m->body_ndof, v, s->r);
+  for (int n = 0; n < m->body_nnode; n++) {
     double x[3], p[3];
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
@@ -167,7 +167,7 @@ static corot_status support_power(const corot_model *m, corot_state *s, double t
   double(*f)[4] = s->du; /* directions play no part here */
   COROT_TRY(m->levels ? corot_levels_nodal_force(m, s, t, m->damped, f)
                       : corot_nodal_forces(m, s, corot_kernel_force, m->damped, f));
-  for (int n = 0; n < m->mesh->nnode; n++)
+  for (int n = 0; n < m->body_nnode; n++)
     for (int i = 0; i < 3; i++)
       if (m->dof[n][i] < 0) *power -= f[n][i] * s->v[n][i];
   return COROT_OK;
@@ -186,11 +186,11 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
     COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, viscous)));
   if (m->nmotion) COROT_TRY(support_power(m, s, t, &e.power_external));
   external_force(m, s, t, s->r);
-  e.power_external += dot(m->ndof, s->r, v);
+  e.power_external += dot(m->body_ndof, s->r, v);
   if (m->mass_damped) {
     memset(s->r, 0, m->ndof * sizeof *s->r);
     corot_mass_damp(m, v, s->r);
-    e.power_dissipated -= dot(m->ndof, s->r, v);
+    e.power_dissipated -= dot(m->body_ndof, s->r, v);
   }
   add_inertia(m, s, v, &e);
   *energies = e;

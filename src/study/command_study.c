@@ -41,6 +41,16 @@ static const char help[] =
     "  export STUDY.yaml   the runs for other engines to carry out\n"
     "  schema [KEY]        every key of a study file: type, unit, default, meaning\n"
     "\n"
+    "A study file:\n"
+    "\n"
+    "  study: Which integrator, and how tight?\n"
+    "  base: bar.yaml\n"
+    "  set: {time.end: 5}\n"
+    "  axes:\n"
+    "    - {key: integrator.method, values: [cvode, ida]}\n"
+    "    - {key: integrator.rtol, log: {from: 1e-2, to: 1e-6, per_decade: 1}}\n"
+    "  repeat: 3\n"
+    "\n"
     "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 input or\n"
     "output, 130 and 143 interrupted.\n"
     "\n"
@@ -138,18 +148,30 @@ static int conclude(const execute_options *o, const execute_totals *t, int signa
   return t->nfailed > 0 ? EXIT_CHECK : EXIT_OK;
 }
 
+/* Runs of another version are other runs: they stay where they are, and are not used. */
+static void tell_version(const char *dir) {
+  manifest *before = NULL;
+  if (manifest_read(dir, &before) != COROT_OK) return;
+  if (strcmp(before->version, corot_version()) != 0)
+    fprintf(stderr, "%s: made by corot %s; this is %s, and does all of it again\n", dir,
+            before->version, corot_version());
+  manifest_destroy(before);
+}
+
 static int execute_here(const manifest *m, const execute_options *o) {
   store_lock lock;
   execute_totals totals;
   int signal_number;
+  if (!o->quiet) tell_version(o->dir);
   corot_status status = store_enter(o->dir, m, o->shard, o->nshard, &lock);
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
   status = execute_study(m, o, &totals, &signal_number);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
-    status = collect_study(m, o->dir);
+    status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
     if (status != COROT_OK) code = failure(status);
+    if (status == COROT_OK && !o->quiet) fprintf(stderr, "corot study table %s\n", o->dir);
   }
   store_leave(lock);
   return code;

@@ -125,7 +125,8 @@ static void the_papers_force_keeps_momentum_only(void **state) {
   assert_above(tight.energy, 1e-4); /* a conserving force: 1.4e-5 at ten times the tolerance */
 }
 
-/* Damped, pulled, and turned by its base: the balance closes with the tolerance. */
+/* Damped, pulled, and turned by its base: the balance closes with the tolerance. One way it is that
+   of level 0. */
 static void the_balance_of_energy_closes(void **state) {
   setup s = {"green", 0, 0, true, coupling_of(state), &soft, true};
   drift loose = run(&s, 1e-4), tight = run(&s, 1e-6);
@@ -138,7 +139,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       coupled_unit_test(a_free_body_keeps_its_invariants),
       coupled_unit_test(the_papers_force_keeps_momentum_only),
-      coupled_unit_test(the_balance_of_energy_closes),
+      each_coupling_unit_test(the_balance_of_energy_closes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,6 +13,7 @@ static const corot_material rubber = {.lambda = 1500, /* mu = 1e3, nu = 0.3 */
 
 /* `c` may be NULL: the plain polar model. */
 static body make_bent(const choice *c, corot_coupling coupling) {
+  int nlevel = c ? c->nlevel : 2;
   static const double time[] = {0, 2}, value[] = {0, 1};
   const corot_load load = {COROT_TRACTION, "zmax", {80, 0, 0}, {2, time, value}};
   const corot_box box = {.size = {0.1, 0.1, 0.3}, .cells = {1, 1, 3}};
@@ -22,7 +23,7 @@ static body make_bent(const choice *c, corot_coupling coupling) {
   corot_hierarchy_def hierarchy;
   corot_model_def def = definition(c ? c : &plain, coupling, &rubber, true, &hierarchy);
   assert_ok(corot_mesh_box(&box, &coarse));
-  assert_ok(corot_mesh_refine(coarse, 2, COROT_DIAGONAL_CONSISTENT, &fine, &refinement));
+  assert_ok(corot_mesh_refine(coarse, nlevel, COROT_DIAGONAL_CONSISTENT, &fine, &refinement));
   hierarchy.refinement = refinement;
   if (!c) def.hierarchy = NULL;
   def.nload = 1, def.load = &load;
@@ -62,6 +63,27 @@ static void it_stands_the_load_where_means_couple(void **state) {
   u = vectors(1, b.n);
   assert_fails(move(&b, 1e-4, 3, u), COROT_EINTEGRATE, "is inverted");
   free(u);
+  drop_body(&b);
+}
+
+/* One way, level 0 moves as the mesh of level 0 does alone, and the detail holds on to it. */
+static void one_way_it_bends_as_level_0_does(void **state) {
+  (void)state;
+  const choice c = {"green", "polar", 2, 0, true}, alone = {"green", "polar", 0, 0, true};
+  body b = make_bent(&c, COROT_COUPLING_ONE_WAY), coarse = make_bent(&alone, means);
+  double *u = vectors(2, b.n), *expected = u + b.n, error[2];
+  for (int k = 0; k < 2; k++) {
+    double rtol = k == 0 ? 1e-4 : 1e-6;
+    assert_ok(move(&b, rtol, 3, u));
+    assert_ok(move(&coarse, rtol, 3, expected));
+    assert_above(norm_max(b.n, u), 0.05);
+    for (int i = 0; i < coarse.n; i++) expected[i] -= u[i];
+    error[k] = norm_max(coarse.n, expected) / norm_max(b.n, u);
+  }
+  assert_below(error[0], 1e-3); /* 4e-5: ten times the tolerance, which is for all nodes */
+  assert_below(error[1], 5e-5); /* 1e-5 */
+  free(u);
+  drop_body(&coarse);
   drop_body(&b);
 }
 
@@ -106,8 +128,9 @@ static void an_equilibrium_is_found(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(it_stands_the_load_where_means_couple),
+      cmocka_unit_test(one_way_it_bends_as_level_0_does),
       coupled_unit_test(frames_of_finer_levels_come_closer),
-      coupled_unit_test(an_equilibrium_is_found),
+      each_coupling_unit_test(an_equilibrium_is_found),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,10 +20,14 @@ typedef struct solid {
   int n;
 } solid;
 
-/* A test that is run under each coupling, which is its state. */
+/* A test that is run under each coupling that has one energy, or under each, which is its state. */
 static const corot_coupling means = COROT_COUPLING_MEAN, nodes = COROT_COUPLING_NODES;
+static const corot_coupling one_way = COROT_COUPLING_ONE_WAY;
 #define coupled_unit_test(f) \
   {#f ", mean", f, NULL, NULL, (void *)&means}, { #f ", nodes", f, NULL, NULL, (void *)&nodes }
+
+#define each_coupling_unit_test(f) \
+  coupled_unit_test(f), { #f ", one way", f, NULL, NULL, (void *)&one_way }
 
 static inline corot_coupling coupling_of(void **state) { return *(const corot_coupling *)*state; }
 

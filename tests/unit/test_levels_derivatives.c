@@ -190,12 +190,12 @@ static void test_extrapolated_frames(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      coupled_unit_test(test_product_with_the_derivative),
+      each_coupling_unit_test(test_product_with_the_derivative),
       coupled_unit_test(test_matrices),
       coupled_unit_test(test_exact_tangent_at_rest),
-      coupled_unit_test(test_frames_are_handed_down),
+      each_coupling_unit_test(test_frames_are_handed_down),
       coupled_unit_test(test_update_of_held_frames),
-      coupled_unit_test(test_extrapolated_frames),
+      each_coupling_unit_test(test_extrapolated_frames),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

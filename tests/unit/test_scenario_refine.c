@@ -114,7 +114,13 @@ static void hierarchies(void **state) {
   int mean = blocks_of(REFINED("1") "hierarchy: {}\n");
   assert_int_equal(blocks_of(REFINED("1") "hierarchy: {coupling: mean}\n"), mean);
   assert_int_equal(blocks_of(REFINED("1")), mean);
-  assert_above(blocks_of(REFINED("1") "hierarchy: {coupling: nodes}\n"), mean);
+  int coupled = blocks_of(REFINED("1") "hierarchy: {coupling: nodes}\n");
+  assert_above(coupled, mean);
+  assert_int_equal(blocks_of(REFINED("1") "hierarchy: {coupling: one-way}\n"), coupled);
+  refuse(REFINED("1") "mass: consistent\nhierarchy: {coupling: one-way}\n",
+         "4:7: mass: with hierarchy.coupling one-way it must be lumped");
+  refuse(REFINED("1") "loads: [{group: zmax, pressure: 1.0}]\nhierarchy: {coupling: one-way}\n",
+         "5:23: hierarchy.coupling: a pressure follows the refined surface");
   refuse(REFINED("1") "hierarchy: {frame_level: 2}\n",
          "4:26: hierarchy.frame_level: mesh.refine makes the levels 0 to 1");
   refuse(REFINED("1") "strain: green\nhierarchy: {}\n",

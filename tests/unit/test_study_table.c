@@ -457,7 +457,7 @@ typedef struct collecting {
 
 static corot_status collect_once(void *context) {
   const collecting *c = context;
-  return collect_study(c->m, c->dir);
+  return collect_study(c->m, c->dir, NULL);
 }
 
 static void failed_allocations(void **state) {
