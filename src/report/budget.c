@@ -8,7 +8,7 @@
 
 /* A row: what, between which two runs, how much, and how much of the largest part. */
 static void write_row(const char *part, const char *pair, double error, double largest, FILE *out) {
-  double share = largest > 0 && fabs(error) <= largest ? 100 * fabs(error) / largest : 0;
+  double share = largest > 0 && isfinite(error) ? 100 * fmin(1, fabs(error) / largest) : 0;
   fputs("<tr><th scope=\"row\">", out);
   markup_text(out, part);
   fputs("</th><td>", out);

@@ -4,6 +4,7 @@
 #include <corot/mesh.h>
 #include <report/encode.h>
 #include <report/fields.h>
+#include <report/precision.h>
 #include <report/report.h>
 #include <report/surface.h>
 #include <stdio.h>
@@ -274,6 +275,15 @@ static void damaged_runs_do_no_harm(void **state) {
 
 static corot_status write_report(void *dir) { return report_write(dir, in(dir, "report.html")); }
 
+static corot_status write_diagram(void *dir) {
+  study_table t;
+  COROT_TRY(study_table_read(dir, &t));
+  corot_status status =
+      precision_write(&(precision){.table = &t, .cost = t.cost, .error = t.measure}, in(dir, "p"));
+  study_table_free(&t);
+  return status;
+}
+
 static void failed_allocations_are_survived(void **state) {
   (void)state;
   char *dir = temporary_folder();
@@ -284,6 +294,9 @@ static void failed_allocations_are_survived(void **state) {
            "{\"id\": \"a\", \"series\": \"s\", \"status\": \"done\", \"tolerance\": 1e-3,"
            " \"cost\": {\"rhs\": 10}, \"error\": {\"velocity\": 1e-2}}]}");
   assert_above((double)assert_survives_failed_allocations(write_report, dir), 10);
+  assert_above((double)assert_survives_failed_allocations(write_diagram, dir), 10);
+  static const char *const suffix[] = {"p.svg", "p.csv", "p.gp", "p.py"};
+  for (int i = 0; i < 4; i++) assert_true(exists(in(dir, suffix[i])));
   remove_folder(dir);
 }
 
