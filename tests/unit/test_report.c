@@ -303,7 +303,7 @@ static void failed_allocations_are_survived(void **state) {
 static void a_report_needs_a_run_or_a_study(void **state) {
   (void)state;
   char *dir = temporary_folder();
-  assert_fails(report_write(dir, in(dir, "report.html")), COROT_EIO, "neither the result.json");
+  assert_fails(report_write(dir, in(dir, "report.html")), COROT_EIO, "no result.json of a run");
   assert_false(exists(in(dir, "report.html")));
   put_file(in(dir, "result.json"), "{}");
   assert_ok(report_write(dir, in(dir, "report.html"))); /* nothing is known: nothing is said */
