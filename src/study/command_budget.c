@@ -6,6 +6,7 @@
 
 #include "budget.h"
 #include "command_study.h"
+#include "page.h"
 #include "variants_command.h"
 
 static const char help[] =
@@ -22,8 +23,9 @@ static const char help[] =
     "part\n"
     "with nothing else taken away, `cost` the CPU time without that approximation over that of "
     "the\n"
-    "run as given. The table goes to stdout, budget.json and a folder for each run to DIR. Runs\n"
-    "that are there already are not repeated. Exit code 1: some of the runs failed.\n"
+    "run as given. The table goes to stdout; budget.json, report.html and a folder for each run "
+    "to\n"
+    "DIR. Runs that are there already are not repeated. Exit code 1: some of the runs failed.\n"
     "\n"
     "  -o, --output DIR     the folder, made if need be; default: out/MODEL-budget in this folder\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
@@ -56,7 +58,8 @@ static int make_budget(void *context, const scenario *s, const variants_argument
   else
     budget_print(budget, stdout);
   json_decref(budget);
-  return code;
+  status = study_page(a->options.dir, a->options.quiet);
+  return status == COROT_OK ? code : failure(status);
 }
 
 int command_budget(int argc, char **argv) {

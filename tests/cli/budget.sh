@@ -33,6 +33,8 @@ assert d['check'] < 1e-2 * d['parts'][1]['error'], d['check']
 PY
 python3 same.py || complain "the budget is not that of its runs"
 
+grep -q "The largest part is that of" parts/report.html || complain "no page of the budget"
+
 # The second time nothing is run; the table names the parts.
 touch before
 expect 0 budget model.yaml -o parts --set time.end=0.2 --set strain=warp \
