@@ -105,8 +105,8 @@ typedef struct corot_motion {
 
      M_0 u_0'' = f_0 - dE_coarse/du_0,   M_i u_i'' = f_i - dE_fine(u; R)/du_i on finer nodes,
 
-   M_0 and f_0 the lumped mass and the loads of level 0, which are T' of corot/hierarchy.h applied to
-   those of the nodes: to the detail its nodes are moving supports, and they feel nothing of it. */
+   M_0 and f_0 the lumped mass and the loads of level 0, T' of corot/hierarchy.h times those of all
+   nodes: to the detail its nodes are moving supports, and they feel nothing of it. */
 typedef enum corot_coupling {
   COROT_COUPLING_MEAN,
   COROT_COUPLING_NODES,
@@ -117,24 +117,24 @@ typedef enum corot_coupling {
    and on the finest level the model's, linear in frames that a coarser tet hands down to all its
    descendants (Hauth & Strasser 2004, their hierarchical simulation; the paper leaves the combined
    system open). It is that of one of the energies above: psi_coarse of the coarse measure, E_fine
-   and psi_model of the model's, R the frames of the tets of the frame level, with MEAN of their mean
-   gradients. The viscous forces are put together from the same three terms.
+   and psi_model of the model's, R the frames of the tets of the frame level, with MEAN of their
+   mean gradients. The viscous forces are put together from the same terms.
 
    With MEAN and NODES, where the whole body moves as level 0 does (the differences of
-   corot/hierarchy.h are zero), the fine and the linear term cancel and E is that of the coarse mesh;
-   with the same measure on both, and frame level = nlevel, E is that of the plain model on the
-   refined mesh. With nlevel = 0 any is the plain model of the coarse measure.
+   corot/hierarchy.h are zero), the fine and the linear term cancel, and E is that of the coarse
+   mesh; with the same measure on both, and frame level = nlevel, E is that of the plain model on
+   the refined mesh. With nlevel = 0 any is the plain model of the coarse measure.
 
    With MEAN and frames of level 0, E = sum_c V_c psi_coarse(Fm_c) + E_detail, where E_detail is
-   quadratic in the detail F_i - Fm_c and not negative: such a body is as stable as one of the coarse
-   measure alone. With NODES, E_coarse - E_linear is of third order in the strain, of either sign,
-   and acts on the nodes of level 0 alone, which E_fine holds the more weakly the finer the mesh is.
-   Measured with green and polar, on a bar of 18 tets held at both ends in simple shear: with MEAN
-   the energy is convex about the state up to a shear strain of 1.5, the largest tried, with one
-   level and with two and for every frame level, like plain green; with NODES to 0.2 with one level
-   and 0.06 with two, and not far beyond, the nodes of level 0 leave their surroundings, and tets
-   invert. Pressed together, either gives up at the latest where a level 0 of green alone would;
-   polar there does not.
+   quadratic in the detail F_i - Fm_c and not negative: such a body is as stable as one of the
+   coarse measure alone. With NODES, E_coarse - E_linear is of third order in the strain, of either
+   sign, and acts on the nodes of level 0 alone, which E_fine holds the more weakly the finer the
+   mesh is. Measured with green and polar, on a bar of 18 tets held at both ends in simple shear:
+   with MEAN the energy is convex about the state up to a shear strain of 1.5, the largest tried,
+   with one level and with two and for every frame level, like plain green; with NODES to 0.2 with
+   one level and 0.06 with two, and not far beyond, the nodes of level 0 leave their surroundings,
+   and tets invert. Pressed together, either gives up at the latest where a level 0 of green alone
+   would; polar there does not.
 
    With MEAN the matrices are those of E_fine with the frames held, on the plain model's pattern: K
    lacks what the coarse measure adds, a part of the size of its strains, as well as the turning of
@@ -161,7 +161,8 @@ typedef struct corot_hierarchy_def {
   corot_coupling coupling;
 } corot_hierarchy_def;
 
-/* As in the paper: coarse strain green, frame level 0; conservative, coupling MEAN; no refinement. */
+/* As in the paper, coarse strain green and frame level 0; conservative, coupling MEAN; no
+   refinement. */
 corot_hierarchy_def corot_hierarchy_defaults(void);
 
 /* What a model is made of; everything in it is copied. */
@@ -218,8 +219,8 @@ int corot_model_ndof(const corot_model *model);
 /* [nnode][3] the degree of freedom of each node's components; -1: held. */
 const int (*corot_model_dof(const corot_model *model))[3];
 
-/* [n] lumped mass (row sums) of each degree of freedom [kg], whichever mass is in use; positive. With
-   COROT_COUPLING_ONE_WAY on nodes of level 0 that of level 0. */
+/* [n] lumped mass (row sums) of each degree of freedom [kg], whichever mass is in use; positive.
+   With COROT_COUPLING_ONE_WAY on nodes of level 0 that of level 0. */
 const double *corot_model_mass(const corot_model *model);
 
 corot_mass corot_model_mass_kind(const corot_model *model);

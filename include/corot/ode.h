@@ -104,8 +104,8 @@ typedef enum corot_tangent {
    What K leaves out, so as to stay symmetric: the change of the viscous force with u, and the
    variation of a warp frame; the turning of a pressure. With a hierarchy the frames handed down are
    held: their variation would couple all nodes below a tet of the frame level. Coupled by nodes,
-   `tangent` is for level 0, which couples its nodes; by means, which couple all nodes on the faces of
-   a tet, level 0 is left out; one way, so is its effect on finer nodes. corot_jvp has them. */
+   `tangent` is for level 0, which couples its nodes; by means, which couple all nodes on the faces
+   of a tet, level 0 is left out; one way, so is its effect on finer nodes. corot_jvp has them. */
 corot_status corot_jacobian(const corot_model *model, corot_state *state, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
 
@@ -141,9 +141,9 @@ corot_status corot_frames_drift(const corot_model *model, corot_state *state, do
 corot_status corot_frames_spin(const corot_model *model, corot_state *state, double t,
                                const double *u, const double *v, double *spin_max);
 
-/* Energies and powers of one instant; with COROT_COUPLING_ONE_WAY those of level 0. Of the kinetic energy and the momenta, the part of the free
-   degrees of freedom; the work of a moving support is that of the internal and viscous forces on
-   its nodes. */
+/* Energies and powers of one instant; with COROT_COUPLING_ONE_WAY those of level 0. Of the kinetic
+   energy and the momenta, the part of the free degrees of freedom; the work of a moving support is
+   that of the internal and viscous forces on its nodes. */
 typedef struct corot_energies {
   double kinetic;          /* 1/2 v' M v [J] */
   double elastic;          /* of the strain energy whose gradient is f_int (warp: whose held-frame
@@ -192,9 +192,9 @@ corot_status corot_internal_force(const corot_model *model, corot_state *state, 
 /* --- The matrices' pattern ------------------------------------------------------------------- */
 
 /* Number of stored 3x3 blocks: the diagonal and the lower triangle over pairs of nodes that share
-   a tet or, with COROT_DILATATION_NODAL, an average: those two tets apart; with
-   a hierarchy not coupled by means, also of level 0 if the measures differ. Blocks of held nodes are stored but mean
-   nothing. */
+   a tet or, with COROT_DILATATION_NODAL, an average: those two tets apart; with a hierarchy coupled
+   by nodes, if the measures differ, or one way, also a tet of level 0. Blocks of held nodes are
+   stored but mean nothing. */
 int corot_model_nblock(const corot_model *model);
 
 /* y = A x for blocks A [nblock][9]; x and y are [n] and may not overlap. */

@@ -3,10 +3,10 @@
    The load factor s grows from 0 to 1. At s the loads are s times those of time t, and the supports
    stand where they are at time s t. Each step of s is a Newton iteration with the exact tangent,
    which squares the error from one iteration to the next (under a pressure, whose turning with the
-   surface the symmetric tangent leaves out, for warp, whose frames' variation it leaves out, and for
-   a hierarchy the error shrinks by a factor). A step that finds no equilibrium, or an unstable one, is tried
-   again at half the length, the shortest with a line search, too; easy steps are followed by longer
-   ones.
+   surface the symmetric tangent leaves out, for warp, whose frames' variation it leaves out, and
+   for a hierarchy the error shrinks by a factor). A step that finds no equilibrium, or an unstable
+   one, is tried again at half the length, the shortest with a line search, too; easy steps are
+   followed by longer ones.
 
    An equilibrium is stable if the stiffness K is positive definite. (Under a pressure this speaks
    of the elastic part alone.) Load stepping ends where that is lost, as where a column buckles. */
@@ -55,7 +55,7 @@ corot_status corot_statics_create(const corot_statics_def *def, const corot_mode
 void corot_statics_destroy(corot_statics *statics);
 
 typedef enum corot_stability {
-  COROT_STABILITY_UNKNOWN, /* an iterative solver cannot tell, nor can the stiffness of a hierarchy */
+  COROT_STABILITY_UNKNOWN, /* an iterative solver cannot tell, nor can K of a hierarchy */
   COROT_STABLE,
   COROT_UNSTABLE,
 } corot_stability;

@@ -79,6 +79,7 @@ corot_status folder_clean(const char *dir) {
   COROT_TRY(remove_file(dir, "compare.csv"));
   COROT_TRY(remove_file(dir, "states.bin"));
   COROT_TRY(remove_file(dir, "fields.pvd"));
+  COROT_TRY(remove_file(dir, "report.html"));
   char *fields = folder_path(dir, "fields");
   if (!fields) return COROT_ENOMEM;
   corot_status status = remove_frames(fields);

@@ -190,7 +190,8 @@ corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_t
   l->coupling = def->coupling;
   bool one_way = def->coupling == COROT_COUPLING_ONE_WAY;
   l->same = coarse == m->strain && !one_way;
-  l->turning = def->conservative && strain_measures[m->strain].frame == FRAME_POLAR && !one_way;
+  l->turning = def->conservative && strain_measures[m->strain].frame == FRAME_POLAR && !one_way &&
+               def->frame_level < r->nlevel; /* a tet's own frame feels no moment */
   snprintf(l->name, sizeof l->name, "%s+%s", strain_measures[coarse].name,
            strain_measures[m->strain].name);
   COROT_TRY(make_coarse(r, coarse, of_tet, m));

@@ -73,7 +73,7 @@ static bool turning(const corot_model *m, const corot_state *s) {
 
 static void clear_sums(const levels *l, levels_state *ls) {
   memset(ls->on_coarse.sum, 0, l->coarse->ndof * sizeof(double));
-  memset(ls->on_framer.sum, 0, l->framer->ndof * sizeof(double));
+  if (l->turning) memset(ls->on_framer.sum, 0, l->framer->ndof * sizeof(double));
 }
 
 /* ls->nodal = the parts' force. */
@@ -81,7 +81,8 @@ static void gather_parts(const corot_model *m, levels_state *ls) {
   const levels *l = m->levels;
   memset(ls->nodal, 0, m->mesh->nnode * sizeof *ls->nodal);
   corot_coarsen_transposed(&l->to_coarse, ls->on_coarse.sum, ls->nodal);
-  if (l->framer != l->linear) corot_coarsen_transposed(&l->to_framer, ls->on_framer.sum, ls->nodal);
+  if (l->turning && l->framer != l->linear)
+    corot_coarsen_transposed(&l->to_framer, ls->on_framer.sum, ls->nodal);
 }
 
 /* Whether level 0 is a mesh of its own. */

@@ -18,6 +18,9 @@ static const char help[] =
     "  static MODEL.yaml    find its equilibrium under the full loads instead\n"
     "  check MODEL.yaml     say what is wrong with a scenario, or what it amounts to\n"
     "  study STUDY.yaml     run a scenario many times along axes, and compare: errors and costs\n"
+    "  budget MODEL.yaml    how wrong a run is, and because of what\n"
+    "  find-limit MODEL.yaml\n"
+    "                       where it stops being stable as one of its numbers grows\n"
     "  schema [KEY]         every key of a scenario: type, unit, default, meaning\n"
     "  mesh box             generate the mesh of a box\n"
     "  mesh info FILE       size, shape and groups of a mesh\n"
@@ -47,11 +50,10 @@ static void hold_standard_streams(void) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},         {"static", command_static},
-      {"check", command_check},     {"study", command_study},
-      {"plot", command_plot},       {"report", command_report},
-      {"schema", command_schema},   {"mesh", command_mesh},
-      {"--version", print_version}, {0},
+      {"run", command_run},     {"static", command_static},   {"check", command_check},
+      {"study", command_study}, {"budget", command_budget},   {"find-limit", command_find_limit},
+      {"plot", command_plot},   {"report", command_report},   {"schema", command_schema},
+      {"mesh", command_mesh},   {"--version", print_version}, {0},
   };
   hold_standard_streams();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */

@@ -230,6 +230,10 @@ static corot_status write_section(const body *b, int stride, bool has_frames, FI
   fputs("<figure class=\"body\" id=\"view\"><script type=\"application/json\">", out);
   COROT_TRY(write_data(b, has_frames, out));
   fputs("</script></figure>\n", out);
+  page_element(
+      out, "p class=\"note\"",
+      "Drag to turn it, shift and drag to move it, click and turn the wheel to scale it; a "
+      "click on a chart over time shows that moment here.");
   page_element(out, "p class=\"note\"",
                "The surface has %d triangles; %d of %d frames are here%s. Displacements are kept "
                "to %.1e m, fields to a 130000th of their range; those of a tet are constant in it.",

@@ -1,17 +1,15 @@
-/* The error budget of a run, DIR/budget.json, as a table:
-
-     {"measure": "displacement at the end, relative",
-      "parts": [{"part": "time integration", "pair": "rtol 1e-4 against 1e-6", "error": 1.2e-3,
-                 "advice": "..."}, ...],
-      "total": 2.0e-3, "interaction": -1.0e-4, "first": "what to change first"}
-
-   What is absent is left out. */
+/* The error budget of a run (budget.json, see study/budget.h) as a section of a report, and as a
+   report of its own. What is absent or null is left out. */
 #ifndef COROT_REPORT_BUDGET_H
 #define COROT_REPORT_BUDGET_H
 
+#include <corot/base.h>
 #include <jansson.h>
 #include <stdio.h>
 
 void budget_write(const json_t *budget, FILE *out);
+
+/* The report of DIR/budget.json alone. */
+corot_status report_budget(const char *dir, const char *path);
 
 #endif

@@ -9,9 +9,9 @@
 static const char help[] =
     "usage: corot report DIR [-o FILE.html]\n"
     "\n"
-    "Writes one HTML file that shows the run or the study in DIR: a summary, charts that can be\n"
-    "zoomed into, and, of a run with fields, the moving body to turn and play. Any browser opens\n"
-    "it, from the disk and without a network. Its name goes to stdout.\n"
+    "Writes one HTML file that shows the run, the study or the error budget in DIR: a summary,\n"
+    "charts that can be zoomed into, and, of a run with fields, the moving body to turn and play.\n"
+    "Any browser opens it, from the disk and without a network. Its name goes to stdout.\n"
     "\n"
     "  -o, --output FILE    default: DIR/report.html\n"
     "\n"

@@ -54,6 +54,13 @@ void page_section(const char *id, const char *heading, FILE *out) {
 
 void page_section_end(FILE *out) { fputs("</section>\n", out); }
 
+void page_hint(FILE *out) {
+  fputs(
+      "<p class=\"note\">Charts: drag to zoom, shift and drag to move, double click for all. A "
+      "click on a name hides its line.</p>\n",
+      out);
+}
+
 static void print(FILE *out, const char *format, va_list arguments) {
   char text[1024];
   vsnprintf(text, sizeof text, format, arguments);

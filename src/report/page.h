@@ -15,6 +15,9 @@ void page_end(FILE *out);
 void page_section(const char *id, const char *heading, FILE *out);
 void page_section_end(FILE *out);
 
+/* How charts are handled, for before the first of them. */
+void page_hint(FILE *out);
+
 /* A cell of a table: a number of so many digits, or empty where it is not finite. */
 void page_number(FILE *out, double x, int digits);
 

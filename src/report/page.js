@@ -15,4 +15,4 @@ for (const figure of document.querySelectorAll('figure.precision'))
 
 const view = document.querySelector('figure.body');
 const body = view ? new Body(view, takeData(view)) : null;
-window.corot = { charts, timeline, body };
+window.corot = { charts, timeline, body, Axis };

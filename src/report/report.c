@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "budget.h"
 #include "folder.h"
 #include "report_run.h"
 #include "report_study.h"
@@ -18,11 +19,14 @@ static corot_status has(const char *dir, const char *name, bool *there) {
 }
 
 corot_status report_write(const char *dir, const char *path) {
-  bool run = false, study = false;
+  bool run = false, study = false, budget = false;
   COROT_TRY(has(dir, "result.json", &run));
   COROT_TRY(has(dir, "table.json", &study));
+  COROT_TRY(has(dir, "budget.json", &budget));
   if (study) return report_study(dir, path);
   if (run) return report_run(dir, path);
+  if (budget) return report_budget(dir, path);
   return corot_fail(
-      COROT_EIO, "%s: holds neither the result.json of a run nor the table.json of a study", dir);
+      COROT_EIO, "%s: holds no result.json of a run, no table.json of a study and no budget.json",
+      dir);
 }

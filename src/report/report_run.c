@@ -41,6 +41,7 @@ static corot_status write_run(const void *what, FILE *out) {
   run_summary_write(run, out);
   if (run->budget) budget_write(run->budget, out);
   COROT_TRY(write_body(run, out));
+  page_hint(out);
   if (run->probes.ncolumn > 1) COROT_TRY(section(run, "probes", "Probes", run_figures_probes, out));
   if (run->steps.nrow > 0) COROT_TRY(section(run, "steps", "Steps", run_figures_steps, out));
   if (run->energy.nrow > 0) COROT_TRY(section(run, "energy", "Energy", run_figures_energy, out));

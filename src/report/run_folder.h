@@ -4,7 +4,7 @@
 
 #include <jansson.h>
 
-#include "csv.h"
+#include <app/read_csv.h>
 
 typedef struct run_folder {
   const char *dir;

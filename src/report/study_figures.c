@@ -69,7 +69,11 @@ void study_figures_precision(const study_table *t, FILE *out) {
   page_section("precision", "Work and precision", out);
   fputs(
       "<p>Each point is a run: how large its error is, and what it costs. The lower left is where "
-      "one wants to be.</p>\n<figure class=\"precision\" id=\"work-precision\">"
+      "one wants to be.</p>\n",
+      out);
+  page_hint(out);
+  fputs(
+      "<figure class=\"precision\" id=\"work-precision\">"
       "<script type=\"application/json\">",
       out);
   write_choices(t, out);

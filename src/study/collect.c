@@ -271,12 +271,29 @@ corot_status collect_table(const manifest *m, const char *dir, json_t **table) {
   return status;
 }
 
-corot_status collect_study(const manifest *m, const char *dir) {
+static void warn(const json_t *table, FILE *out) {
+  const json_t *references = json_object_get(table, "references");
+  const json_t *cells = json_object_get(table, "cells");
+  int nbelow = 0;
+  for (size_t i = 0; i < json_array_size(references); i++) {
+    const json_t *r = json_array_get(references, i);
+    if (!json_is_true(json_object_get(r, "agree")))
+      fprintf(out, "reference %zu: %s\n", i, json_string_value(json_object_get(r, "note")));
+  }
+  for (size_t i = 0; i < json_array_size(cells); i++)
+    nbelow += json_is_true(json_object_get(json_array_get(cells, i), "below_floor"));
+  if (nbelow > 0)
+    fprintf(out, "%d of %zu cells are not rated: less than ten times what the references know\n",
+            nbelow, json_array_size(cells));
+}
+
+corot_status collect_study(const manifest *m, const char *dir, FILE *warnings) {
   json_t *table = NULL;
   COROT_TRY(collect_table(m, dir, &table));
   corot_status status = json_file_write(dir, "table.json", table);
   if (status == COROT_OK) status = table_write_csv(table, dir);
   if (status == COROT_OK) status = table_write_sqlite(table, dir);
+  if (status == COROT_OK && warnings) warn(table, warnings);
   json_decref(table);
   return status;
 }

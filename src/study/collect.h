@@ -33,7 +33,8 @@
 /* The caller's to json_decref. */
 corot_status collect_table(const manifest *m, const char *dir, json_t **table);
 
-/* Collects, and writes all three files. */
-corot_status collect_study(const manifest *m, const char *dir);
+/* Collects, and writes all three files. To `warnings` (or NULL): references that part ways or are
+   not known, and how many cells are not rated. */
+corot_status collect_study(const manifest *m, const char *dir, FILE *warnings);
 
 #endif

@@ -55,7 +55,7 @@ int command_study_status(int argc, char **argv) {
 static corot_status collect_folder(const char *dir) {
   manifest *m = NULL;
   COROT_TRY(manifest_read(dir, &m));
-  corot_status status = collect_study(m, dir);
+  corot_status status = collect_study(m, dir, stderr);
   manifest_destroy(m);
   return status;
 }

@@ -10,6 +10,7 @@
 #include "collect.h"
 #include "command_folder.h"
 #include "execute.h"
+#include "page.h"
 #include "plan.h"
 #include "pool.h"
 #include "store.h"
@@ -23,7 +24,8 @@ static const char help[] =
     "Runs a scenario many times, as a study file (YAML, or JSON) says: with some of its keys "
     "varied\n"
     "along axes, and against references. Each run is a process with a folder of its own. A study\n"
-    "that was stopped or killed goes on where it was; runs that are done are not repeated.\n"
+    "that was stopped or killed goes on where it was; runs that are done are not repeated. What\n"
+    "they say together is in table.json, table.csv and report.html, a page to look at.\n"
     "\n"
     "  -o, --output DIR    the study's folder, made if need be; default: out/STUDY in this folder\n"
     "  -j, --jobs N        so many runs at once; default: one a processor\n"
@@ -40,6 +42,16 @@ static const char help[] =
     "  csv DIR             the table as CSV\n"
     "  export STUDY.yaml   the runs for other engines to carry out\n"
     "  schema [KEY]        every key of a study file: type, unit, default, meaning\n"
+    "\n"
+    "A study file:\n"
+    "\n"
+    "  study: Which integrator, and how tight?\n"
+    "  base: bar.yaml\n"
+    "  set: {time.end: 5}\n"
+    "  axes:\n"
+    "    - {key: integrator.method, values: [cvode, ida]}\n"
+    "    - {key: integrator.rtol, log: {from: 1e-2, to: 1e-6, per_decade: 1}}\n"
+    "  repeat: 3\n"
     "\n"
     "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 input or\n"
     "output, 130 and 143 interrupted.\n"
@@ -138,17 +150,30 @@ static int conclude(const execute_options *o, const execute_totals *t, int signa
   return t->nfailed > 0 ? EXIT_CHECK : EXIT_OK;
 }
 
+/* Runs of another version are other runs: they stay where they are, and are not used. */
+static void tell_version(const char *dir) {
+  manifest *before = NULL;
+  if (manifest_read(dir, &before) != COROT_OK) return;
+  if (strcmp(before->version, corot_version()) != 0)
+    fprintf(stderr, "%s: made by corot %s; this is %s, and does all of it again\n", dir,
+            before->version, corot_version());
+  manifest_destroy(before);
+}
+
 static int execute_here(const manifest *m, const execute_options *o) {
   store_lock lock;
   execute_totals totals;
   int signal_number;
+  if (!o->quiet) tell_version(o->dir);
   corot_status status = store_enter(o->dir, m, o->shard, o->nshard, &lock);
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
   status = execute_study(m, o, &totals, &signal_number);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
-    status = collect_study(m, o->dir);
+    status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
+    if (status == COROT_OK && !o->quiet) fprintf(stderr, "corot study table %s\n", o->dir);
+    if (status == COROT_OK) status = study_page(o->dir, o->quiet);
     if (status != COROT_OK) code = failure(status);
   }
   store_leave(lock);

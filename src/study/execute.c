@@ -67,7 +67,7 @@ static void clear_progress(const execution *e) {
 /* A failure in words, but for all too many. */
 static void tell_failure(execution *e, const task *t, const char *reason) {
   enum { MOST = 8 };
-  if (e->ntold >= MOST) return;
+  if (e->ntold >= MOST || e->o->expects_failures) return;
   clear_progress(e);
   fprintf(stderr, "%s/runs/%s: %s\n", e->o->dir, t->run->id, reason);
   if (++e->ntold == MOST) fputs("(further failures are recorded, but not shown)\n", stderr);

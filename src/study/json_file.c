@@ -8,21 +8,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-corot_status json_file_read(const char *path, json_t **out) {
-  FILE *file = fopen(path, "re");
-  if (!file) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+/* All of a file, the caller's to free: jansson's own reading takes it byte by byte. */
+static corot_status read_text(FILE *file, const char *path, char **text, size_t *size) {
+  long end = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+  if (end < 0) return corot_fail(COROT_EIO, "%s: cannot read: %s", path, strerror(errno));
+  rewind(file);
+  *text = malloc((size_t)end + 1);
+  if (!*text) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  *size = fread(*text, 1, (size_t)end, file);
+  if (ferror(file)) return corot_fail(COROT_EIO, "%s: cannot read: %s", path, strerror(errno));
+  return COROT_OK;
+}
+
+static corot_status parse(const char *path, const char *text, size_t size, json_t **out) {
   json_error_t error;
-  json_t *value = json_loadf(file, 0, &error);
-  bool unread = ferror(file);
-  fclose(file);
-  if (unread) {
-    json_decref(value);
-    return corot_fail(COROT_EIO, "%s: cannot read it", path);
-  }
+  json_t *value = json_loadb(text, size, 0, &error);
   if (!value)
     return corot_fail(COROT_EFORMAT, "%s:%d:%d: %s", path, error.line, error.column, error.text);
   *out = value;
   return COROT_OK;
+}
+
+corot_status json_file_read(const char *path, json_t **out) {
+  FILE *file = fopen(path, "re");
+  if (!file) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+  char *text = NULL;
+  size_t size = 0;
+  corot_status status = read_text(file, path, &text, &size);
+  fclose(file);
+  if (status == COROT_OK) status = parse(path, text, size, out);
+  free(text);
+  return status;
 }
 
 corot_status json_file_write(const char *dir, const char *name, const json_t *value) {

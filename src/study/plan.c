@@ -280,12 +280,12 @@ static json_t *column_names(const study *s) {
   return list;
 }
 
-/* Of the title and of the base, as it is without the study. */
+/* Of the title and of what the base says, without defaults: those are the version's. */
 static corot_status identify(const study *s, char digest[HASH_SIZE]) {
-  scenario *base = NULL;
-  COROT_TRY(scenario_read_with(s->base, 0, NULL, &base));
-  json_t *both = json_pack("{s:s, s:O}", "study", s->title, "base", base->resolved);
-  scenario_destroy(base);
+  config *base = NULL;
+  COROT_TRY(config_read(s->base, &base));
+  json_t *both = json_pack("{s:s, s:o}", "study", s->title, "base", study_value_json(base->root));
+  config_destroy(base);
   char *text = json_dumps(both, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   json_decref(both);
   if (!text) return no_memory();

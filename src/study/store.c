@@ -27,8 +27,9 @@ static corot_status read_own(const char *dir, const study_run *run, const char *
   char *path = store_path(dir, run, name);
   if (!path) return COROT_ENOMEM;
   json_t *json = NULL;
-  if (access(path, F_OK) == 0) json_file_read(path, &json);
+  corot_status status = access(path, F_OK) == 0 ? json_file_read(path, &json) : COROT_OK;
   free(path);
+  if (status == COROT_ENOMEM) return status;
   const json_t *hash = json_object_get(json, "hash");
   if (strcmp(hash_path, "hashes.run") == 0)
     hash = json_object_get(json_object_get(json, "hashes"), "run");

@@ -5,14 +5,20 @@ bar_source bar_source_default(const char *strain) {
   return (bar_source){.box = {.size = {0.1, 0.1, 0.6}, .cells = {2, 2, 12}}, .strain = strain};
 }
 
-static corot_status get_mesh(const bar_source *source, corot_mesh **mesh) {
-  corot_mesh *m;
-  COROT_TRY(source->mesh ? corot_mesh_read(source->mesh, &m) : corot_mesh_box(&source->box, &m));
+static corot_status get_mesh(const bar_source *source, int nlevel, corot_mesh **mesh,
+                             corot_refinement **levels) {
+  corot_mesh *coarse, *m;
+  COROT_TRY(source->mesh ? corot_mesh_read(source->mesh, &coarse)
+                         : corot_mesh_box(&source->box, &coarse));
+  corot_status refined = corot_mesh_refine(coarse, nlevel, COROT_DIAGONAL_CONSISTENT, &m, levels);
+  corot_mesh_destroy(coarse);
+  COROT_TRY(refined);
   corot_mesh_quality q = corot_mesh_measure(m);
   corot_status status = corot_mesh_group_plane(m, "lowest face", 2, q.min[2], 0);
   if (!status) status = corot_mesh_group_plane(m, "highest face", 2, q.max[2], 0);
   if (status) {
     corot_mesh_destroy(m);
+    if (levels) corot_refinement_destroy(*levels);
     return status;
   }
   *mesh = m;
@@ -34,10 +40,16 @@ static corot_status make_model(corot_mesh *mesh, const char *strain, corot_model
 }
 
 corot_status bar_model(const bar_source *source, corot_model **model) {
+  return bar_model_refined(source, 0, model, NULL);
+}
+
+corot_status bar_model_refined(const bar_source *source, int nlevel, corot_model **model,
+                               corot_refinement **levels) {
   corot_mesh *mesh;
-  COROT_TRY(get_mesh(source, &mesh));
+  COROT_TRY(get_mesh(source, nlevel, &mesh, levels));
   corot_status status = make_model(mesh, source->strain, model);
   corot_mesh_destroy(mesh);
+  if (status && levels) corot_refinement_destroy(*levels);
   return status;
 }
 

@@ -16,6 +16,7 @@ int command_memory(int argc, char **argv);
 int command_frames(int argc, char **argv);
 int command_precision(int argc, char **argv);
 int command_hierarchy(int argc, char **argv);
+int command_jitter(int argc, char **argv);
 
 /* Where the bar of corot-bench run comes from. */
 typedef struct bar_source {
@@ -28,6 +29,10 @@ typedef struct bar_source {
 bar_source bar_source_default(const char *strain);
 
 corot_status bar_model(const bar_source *source, corot_model **model);
+
+/* The same, its mesh refined so many times; `levels` may be NULL. */
+corot_status bar_model_refined(const bar_source *source, int nlevel, corot_model **model,
+                               corot_refinement **levels);
 
 /* Takes --mesh ('m'), --cells ('c') or --strain ('s') with its argument. Returns EXIT_OK or the
    exit code of a usage error; -1: `answer` is none of them. */

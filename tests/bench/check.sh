@@ -38,6 +38,9 @@ lines "{r['solver'] for r in d if r.get('role') == 'static'} >= {'pcg, hierarchi
   and all(r['factor_s'] > 0 and r['solve_s'] > 0 for r in d if r['bench'] == 'hierarchy')
   and all(r['bytes_per_s'] > 0 for r in d if r['bench'] == 'transformation')
   and len(d) > 20" hierarchy --json --levels 1
+lines "len(d) > 6 and all(0 < r['median_s'] and 1 <= r['ratio'] for r in d[1:])
+  and {r['iterations'] > 0 for r in d[1:] if r['solver'] == 'pcg, multigrid'} == {True}" \
+  jitter --json --cells 1,1,2 --levels 1 --end 1 --repeat 1
 "$bench" --help | grep -q kernels || { echo "FAILED: corot-bench --help"; failed=1; }
 usage
 usage kernel
@@ -47,4 +50,6 @@ usage memory extra
 usage solvers --most 0
 usage solvers --role other
 usage hierarchy --levels 0
+usage jitter --levels x
+usage jitter --end 0
 exit $failed

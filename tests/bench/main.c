@@ -12,6 +12,7 @@ static const char help[] =
     "       corot-bench precision [--json] [OPTIONS]\n"
     "       corot-bench memory [--json] [--tets N]\n"
     "       corot-bench hierarchy [--json] [--levels N]\n"
+    "       corot-bench jitter [--json] [OPTIONS]\n"
     "\n"
     "kernels   forces, Jacobians and the rest, per tet, beside the floor set by memory and\n"
     "          arithmetic of this machine\n"
@@ -21,6 +22,7 @@ static const char help[] =
     "precision error against CPU time, for every integrator\n"
     "memory    bytes per tet\n"
     "hierarchy solvers that use the levels of a refined mesh, and the hierarchical basis\n"
+    "jitter    how even the steps of an animation are in wall time\n"
     "\n"
     "'corot-bench COMMAND --help' says more.\n"
     "\n"
@@ -59,6 +61,7 @@ int main(int argc, char **argv) {
                                   {"memory", command_memory},
                                   {"precision", command_precision},
                                   {"hierarchy", command_hierarchy},
+                                  {"jitter", command_jitter},
                                   {0}};
   return dispatch("corot-bench", help, table, argc, argv);
 }

@@ -41,12 +41,19 @@ expect 0 study study.yaml --dry-run; no_err
 [ "$(grep -c missing stdout)" = 6 ] || complain "not 6 runs"
 [ ! -e out/study ] || complain "a dry run leaves a folder"
 expect 0 study study.yaml; err "out/study: 6 of 6 runs done (6 now), 0 failed"
+err "out/study/report.html"; grep -q "which one" out/study/report.html || complain "no page of the study"
 [ "$(cat out/study/runs/*/timings.json | grep -c '"cpu"')" = 4 ] || complain "not one timing for each cell"
 [ "$(ls out/study/runs/*/states.bin | wc -l)" = 6 ] || complain "not 6 files of states"
 expect 0 study study.yaml --quiet; no_err
 study 'axes: [{key: integrator.method, values: [ida, cvode, arkode]}, {key: integrator.rtol, values: [0.001, 1e-4]}]' 'repeat: 1'
 expect 0 study study.yaml -j 1; err "8 of 8 runs done (2 now)"
 expect 0 study status out/study; out "6 cells, 8 runs: 8 done, 0 failed, 0 missing"
+
+# Results of another version, or of another scenario by the same name, are not taken for ours.
+sed -i 's/"corot": "[^"]*"/"corot": "0.0.1"/' out/study/study.json
+run=$(ls -d out/study/runs/* | head -1)
+sed -i 's/"run": "./"run": "x/' "$run/result.json"
+expect 0 study study.yaml; err "out/study: made by corot 0.0.1; this is "; err "8 of 8 runs done (1 now)"
 
 # Another study's folder is refused, and so is one that is in use.
 sed -i 's/which one/which other one/' study.yaml
@@ -137,7 +144,7 @@ for k in range(0, len(states), 1 + 2 * n):
     for i in range(n): states[k + 1 + i] *= 1.01
 open(path, "wb").write(data[:head] + states.tobytes())
 PYTHON
-expect 0 study collect e/ours
+expect 0 study collect e/ours; err "reference 0: cvode and arkode part ways"; err "2 of 2 cells are not rated"
 expect 0 study table e/ours; out "cvode and arkode part ways: from t = 0.0"
 
 # A full disk loses what was under way, and no more.

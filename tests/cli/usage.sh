@@ -5,7 +5,7 @@ expect 0 --help; out "usage: corot COMMAND"; no_err
 expect 2; err "usage: corot COMMAND"; no_out
 expect 2 chek; err "unknown command chek; did you mean check?"; no_out
 expect 2 wombat; err "unknown command wombat"; no_out
-for command in run check schema "mesh box" "mesh info"; do
+for command in run check schema study "study export" "mesh box" "mesh info"; do
   # shellcheck disable=SC2086
   expect 0 $command --help; out "usage: corot $command"; out "example: corot $command"; no_err
 done

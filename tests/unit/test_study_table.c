@@ -242,7 +242,7 @@ static void put_result(const char *dir, const manifest *m, const study_run *run,
   corot_model *model = NULL;
   char digest[HASH_SIZE];
   assert_ok(scenario_read(m->base, run->nset, (char *const *)run->set, &s));
-  assert_ok(scenario_build(s, &mesh, &model));
+  assert_ok(scenario_build(s, &mesh, NULL, &model));
   hash_mesh(mesh, digest);
   json_t *result = json_pack("{s:s, s:i, s:{s:s, s:s}, s:O, s:{s:i, s:i, s:i, s:i}, s:{s:f, s:f}}",
                              "status", "ok", "exit_code", 0, "hashes", "run", run->hash, "mesh",
@@ -457,7 +457,7 @@ typedef struct collecting {
 
 static corot_status collect_once(void *context) {
   const collecting *c = context;
-  return collect_study(c->m, c->dir);
+  return collect_study(c->m, c->dir, NULL);
 }
 
 static void failed_allocations(void **state) {

@@ -30,15 +30,15 @@ static void cleaning_leaves_files_of_others_alone(void **state) {
   char *dir = temporary_folder();
   assert_ok(folder_make(in(dir, "fields")));
   const char *ours[] = {"result.json", "fields.pvd", "fields/fields_000000.vtu",
-                        "fields/fields_1234567.vtu"};
+                        "fields/fields_1234567.vtu", "report.html"};
   const char *theirs[] = {"notes.txt", "fields/fields_.vtu", "fields/fields_old.vtu",
-                          "fields/fields_000001.vtu.gz"};
-  for (int i = 0; i < 4; i++) {
+                          "fields/fields_000001.vtu.gz", "other.html"};
+  for (int i = 0; i < 5; i++) {
     put_file(in(dir, ours[i]), "old");
     put_file(in(dir, theirs[i]), "old");
   }
   assert_ok(folder_clean(dir));
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 5; i++) {
     assert_false(exists(in(dir, ours[i])));
     assert_true(exists(in(dir, theirs[i])));
   }

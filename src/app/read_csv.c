@@ -1,4 +1,4 @@
-#include "csv.h"
+#include "read_csv.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
-/* The tables of a run, read back. See app/write_csv.h. */
-#ifndef COROT_REPORT_CSV_H
-#define COROT_REPORT_CSV_H
+/* The tables of a run, read back. See write_csv.h. */
+#ifndef COROT_APP_READ_CSV_H
+#define COROT_APP_READ_CSV_H
 
 #include <corot/base.h>
 

@@ -1,0 +1,44 @@
+/* What an error budget runs: a scenario, and the same with one approximation after the other taken
+   away. */
+#ifndef COROT_STUDY_BUDGET_PLAN_H
+#define COROT_STUDY_BUDGET_PLAN_H
+
+#include "app/scenario.h"
+
+typedef enum budget_kind {
+  BUDGET_ALGEBRA,    /* Newton's and the linear solver's tolerance */
+  BUDGET_TIME,       /* the steps */
+  BUDGET_FRAME_AGE,  /* held or extrapolated frames, for those found in every evaluation */
+  BUDGET_FRAME_RULE, /* warp frames, for polar ones */
+  BUDGET_HIERARCHY,  /* frames of coarser tets, for each tet's own */
+  BUDGET_STRAIN,     /* the measure, for green */
+  BUDGET_SPACE,      /* the mesh, for the next octasection */
+  BUDGET_KINDS,
+} budget_kind;
+
+enum { BUDGET_SETTINGS = 4, BUDGET_SETTING_SIZE = 192 };
+
+/* What takes one approximation away. */
+typedef struct budget_part {
+  budget_kind kind;
+  int nset;
+  char set[BUDGET_SETTINGS][BUDGET_SETTING_SIZE]; /* as after --set, in order */
+} budget_part;
+
+typedef struct budget_plan {
+  int npart;
+  budget_part part[BUDGET_KINDS]; /* in the order of budget_kind, without those that the scenario
+                                     does not make */
+  budget_part check; /* replaces part TIME: an independent method, for how far that is to be
+                        trusted */
+} budget_plan;
+
+extern const char *const budget_names[BUDGET_KINDS];    /* "time integration" */
+extern const char *const budget_remedies[BUDGET_KINDS]; /* what to change if that part is largest */
+
+/* Relative tolerance that stands for no error of time, against that of the scenario. */
+double budget_tight_rtol(const scenario *s);
+
+void budget_plan_make(const scenario *s, budget_plan *plan);
+
+#endif

@@ -1,0 +1,111 @@
+#include "variants_command.h"
+
+#include <app/cli.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "pool.h"
+
+static const struct option common[] = {
+    {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
+    {"jobs", required_argument, NULL, 'j'},   {"quiet", no_argument, NULL, 'q'},
+    {"json", no_argument, NULL, 'J'},         {"help", no_argument, NULL, 'h'},
+};
+
+enum { NCOMMON = sizeof common / sizeof *common, NOPTION = 32 };
+
+/* --- Arguments --- */
+
+static int take_jobs(const variants_command *c, const char *text, int *njob) {
+  char *end;
+  long n = strtol(text, &end, 10);
+  if (end == text || *end || n < 1 || n > POOL_MAX)
+    return usage_error(c->program, "--jobs %s: expected 1 to %d", text, POOL_MAX);
+  *njob = (int)n;
+  return -1;
+}
+
+/* -1, or an exit code. */
+static int take_option(const variants_command *c, int answer, char **argv,
+                       const struct option *known, variants_arguments *a) {
+  switch (answer) {
+    case 'o':
+      a->options.dir = optarg;
+      return *optarg ? -1 : usage_error(c->program, "--output: the name is empty");
+    case 's':
+      a->set[a->nset++] = optarg;
+      return -1;
+    case 'j':
+      return take_jobs(c, optarg, &a->options.njob);
+    case 'q':
+      a->options.quiet = true;
+      return -1;
+    case 'J':
+      a->json = true;
+      return -1;
+    case 'h':
+      fputs(c->help, stdout);
+      return EXIT_OK;
+    case '?':
+    case ':':
+      return option_error(c->program, answer, argv, known);
+    default:
+      return c->take(c->context, answer, optarg);
+  }
+}
+
+/* "out/NAME-SUFFIX" for "some/folder/NAME.yaml"; the caller's to free. */
+static char *default_folder(const char *path, const char *suffix) {
+  const char *slash = strrchr(path, '/');
+  const char *name = slash ? slash + 1 : path;
+  const char *dot = strrchr(name, '.');
+  int length = (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name));
+  size_t size = (size_t)length + strlen(suffix) + sizeof "out/-";
+  char *folder = malloc(size);
+  if (folder) snprintf(folder, size, "out/%.*s-%s", length, name, suffix);
+  return folder;
+}
+
+static int go(const variants_command *c, const char *path, variants_arguments *a) {
+  scenario *s = NULL;
+  corot_status status = scenario_read(path, a->nset, (char *const *)a->set, &s);
+  if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
+  if (status != COROT_OK) return failure(status);
+  char *folder = a->options.dir ? NULL : default_folder(path, c->suffix);
+  if (folder) a->options.dir = folder;
+  int code =
+      a->options.dir ? c->go(c->context, s, a) : failure(corot_fail(COROT_ENOMEM, "out of memory"));
+  free(folder);
+  scenario_destroy(s);
+  return code;
+}
+
+int variants_command_run(const variants_command *c, int argc, char **argv) {
+  long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  variants_arguments a = {.options = {.shard = 1, .nshard = 1, .progress = true}};
+  a.options.njob = processors < 1 ? 1 : processors > POOL_MAX ? POOL_MAX : (int)processors;
+  a.set = calloc((size_t)argc + 1, sizeof *a.set);
+  if (!a.set) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
+
+  struct option all[NOPTION] = {0};
+  memcpy(all, common, sizeof common);
+  for (int i = 0; c->more && c->more[i].name && NCOMMON + i < NOPTION - 1; i++)
+    all[NCOMMON + i] = c->more[i];
+  int code = -1;
+  opterr = 0;
+  for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":o:j:qh", all, NULL)) != -1;)
+    code = take_option(c, answer, argv, all, &a);
+  if (code < 0 && argc - optind != 1)
+    code = usage_error(c->program, "expected one scenario, found %d", argc - optind);
+  if (code < 0 && c->ready) code = c->ready(c->context, &a);
+  if (code < 0) code = go(c, argv[optind], &a);
+  free(a.set);
+  return code;
+}
+
+int variants_interrupted(int signal_number) {
+  fputs("interrupted; the same command goes on from here\n", stderr);
+  return 128 + signal_number;
+}

@@ -1,0 +1,265 @@
+"""Looks at the reports of a run and of a study (see report.sh) with headless Chromium.
+
+Numbers are compared with the run's own tables. How long it takes is printed, not tested; of any
+report:  python3 report.py measure FILE.html"""
+
+import csv
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import time
+
+from selenium import webdriver
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select
+
+FLAGS = """--headless --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader
+--disable-quic --no-first-run --disable-background-networking --disable-component-update
+--disable-sync --disable-default-apps""".split()
+
+# How many pixels the body covers, and a number that depends on all of them.
+PIXELS = """const c = document.createElement('canvas'), of = document.querySelector('canvas');
+c.width = of.width; c.height = of.height;
+const d = c.getContext('2d'); d.drawImage(of, 0, 0);
+const p = d.getImageData(0, 0, c.width, c.height).data;
+let covered = 0, hash = 0;
+for (let i = 0; i < p.length; i += 4) {
+  if (p[i + 3]) covered++;
+  hash = (hash * 31 + p[i] * 7 + p[i + 1] * 5 + p[i + 2]) % 2147483647;
+}
+return [covered / (c.width * c.height), hash];"""
+
+
+class Page:
+    """A browser of its own; anything the page complains of fails the test at its end."""
+
+    def __init__(self, path, flags=()):
+        options = webdriver.ChromeOptions()
+        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        for flag in [*FLAGS, *flags, "--user-data-dir=" + self.profile.name]:
+            options.add_argument(flag)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.browser = webdriver.Chrome(options=options)
+        self.url = pathlib.Path(path).absolute().as_uri()
+        self.open(1200, False)
+
+    def open(self, width, dark):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600})
+        scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": scheme})
+        self.browser.get(self.url)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        log = [e for e in self.browser.get_log("browser") if e["level"] == "SEVERE"]
+        self.browser.quit()
+        assert kind or not log, log
+
+    def js(self, script, *arguments):
+        return self.browser.execute_script(script, *arguments)
+
+    def find(self, selector):
+        return self.browser.find_element(By.CSS_SELECTOR, selector)
+
+    def all(self, selector):
+        return self.browser.find_elements(By.CSS_SELECTOR, selector)
+
+
+def table(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def check_charts(page, run):
+    rows = {name: table(f"{run}/{name}.csv") for name in ("probes", "steps", "energy")}
+    expected = {"probe-0": ("probes", 3), "probe-1": ("probes", 3), "step-size": ("steps", 1),
+                "order": ("steps", 1), "error-estimate": ("steps", 1), "newton": ("steps", 1),
+                "frame-angle": ("steps", 1), "energies": ("energy", 4), "balance": ("energy", 2)}
+    charts = page.js("return Object.keys(corot.charts)")
+    assert sorted(charts) == sorted(expected), charts
+    for name, (source, nseries) in expected.items():
+        figure = page.find("#" + name)
+        points = [int(g.get_attribute("data-points")) for g in figure.find_elements(By.CSS_SELECTOR, ".frame g.series")]
+        assert points == [len(rows[source])] * nseries, (name, points)
+        for axis in ".tick.x", ".tick.y":
+            labels = [t.text for t in figure.find_elements(By.CSS_SELECTOR, axis)]
+            assert len(labels) >= 2 and all(labels), (name, axis, labels)
+        assert all(t.text for t in figure.find_elements(By.CSS_SELECTOR, "text.label")), name
+        label = figure.find_elements(By.CSS_SELECTOR, "text.label")[1].text
+        assert "[" in label or name in ("order", "newton", "error-estimate"), label  # has its unit
+    # No point is left out of a line that is not crowded.
+    path = page.find("#probe-0 g.series .line").get_attribute("d")
+    assert path.count("L") + path.count("M") == len(rows["probes"])
+    updates = sum(1 for r in rows["steps"] if "frames" in r["event"])
+    assert updates > 10 and len(page.all("#frame-angle .frame .mark")) == updates
+
+
+def check_pointer(page, run):
+    rows = table(f"{run}/probes.csv")
+    svg = page.find("#probe-0 .frame > svg")
+    page.js("arguments[0].scrollIntoView({block: 'center'})", svg)
+    at = lambda x: page.js("""const c = corot.charts['probe-0'], b = c.svg.getBoundingClientRect();
+        return Math.round(c.across(arguments[0]) - b.width / 2)""", x)
+    ActionChains(page.browser).move_to_element_with_offset(svg, at(0.5), 0).perform()
+    tip = page.find("#probe-0 .tip").text
+    row = next(r for r in rows if abs(float(r["t"]) - 0.5) < 1e-9)
+    for c in "ux", "uy", "uz":
+        shown = float(tip.split(c + ": ")[1].split("\n")[0])
+        assert abs(shown - float(row["corner." + c])) <= 1e-4 * abs(shown), (tip, row)
+
+    # Dragging zooms all charts over time, a double click shows all again.
+    whole = page.js("return [corot.charts.energies.x.low, corot.charts.energies.x.high]")
+    actions = ActionChains(page.browser).move_to_element_with_offset(svg, at(0.2), 0).click_and_hold()
+    actions.move_to_element_with_offset(svg, at(0.6), 5).release().perform()
+    low, high = page.js("return [corot.charts.energies.x.low, corot.charts.energies.x.high]")
+    assert abs(low - 0.2) < 0.01 and abs(high - 0.6) < 0.01, (low, high)
+    assert page.find("#step-size .reset").is_displayed()
+    ActionChains(page.browser).double_click(svg).perform()
+    assert page.js("return [corot.charts.energies.x.low, corot.charts.energies.x.high]") == whole
+
+    button = page.find("#probe-0 .legend button")
+    button.click()
+    assert len(page.all("#probe-0 .frame g.series")) == 2
+    button.click()
+    assert len(page.all("#probe-0 .frame g.series")) == 3
+
+
+def check_body(page, run):
+    rows = table(f"{run}/probes.csv")
+    assert page.js("return corot.body.t.length") == len(rows)
+    # The surface has the probe's node: its displacement, to half a step of 65535.
+    worst = page.js("""const b = corot.body, rows = arguments[0]; let worst = 0;
+      for (let i = 0; i < b.nodes; i++) {
+        const at = [0.1, 0.1, 0.4].every((x, c) => Math.abs(b.rest[3 * i + c] - x) < 1e-9);
+        if (at) rows.forEach((u, k) => u.forEach((x, c) => {
+          const m = b.moved[c];
+          worst = Math.max(worst, Math.abs(m.low + m.step * m.q[k * b.nodes + i] - x) / m.step);
+        }));
+      }
+      return worst;""", [[float(r["corner." + c]) for c in ("ux", "uy", "uz")] for r in rows])
+    assert 0 < worst < 0.5001, worst
+
+    slider, seen = page.find("#frame"), set()
+    for frame in 0, len(rows) // 2, len(rows) - 1:
+        page.js("""const s = arguments[0]; s.value = arguments[1]; s.dispatchEvent(new Event('input'))""", slider, frame)
+        covered, picture = page.js(PIXELS)
+        assert 0.02 < covered < 0.8, covered
+        seen.add(picture)
+        assert f"t = {float(rows[frame]['t']):g} s" in page.find(".player output").text
+    assert len(seen) == 3
+    canvas = page.find("canvas")
+    page.js("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    ActionChains(page.browser).drag_and_drop_by_offset(canvas, 120, 30).perform()
+    seen.add(page.js(PIXELS)[1])
+    names = [o.text for o in Select(page.find("#field")).options]
+    assert names == ["displacement", "speed", "von Mises stress", "rotation", "drift of the frame",
+                     "volume over rest volume"], names
+    for name in names:
+        Select(page.find("#field")).select_by_visible_text(name)
+        assert page.find(".scale").text.startswith(name)
+        seen.add(page.js(PIXELS)[1])
+    assert len(seen) >= 9, len(seen)  # of which one is chosen already
+
+    page.find("#play").click()
+    time.sleep(0.5)
+    first = page.js("return corot.body.frame")
+    time.sleep(0.5)
+    assert page.js("return corot.body.frame") > first
+    assert page.js("return corot.timeline.moment") > 0  # shown in the charts, too
+
+
+def check_looks(page):
+    for width, dark in (390, False), (390, True), (1200, True), (1200, False):
+        page.open(width, dark)
+        wide = page.js("return document.documentElement.scrollWidth")
+        assert wide <= width, (width, wide)
+        paper, ink = (page.js("""const c = getComputedStyle(document.body)[arguments[0]]
+            .match(/\\d+/g).map(Number); return (c[0] + c[1] + c[2]) / 765""", of)
+                      for of in ("backgroundColor", "color"))
+        assert (paper < 0.2 and ink > 0.8) if dark else (paper > 0.9 and ink < 0.2), (paper, ink)
+
+
+def check_ticks(page):
+    """The page's axes choose as those of the SVG files, of which test_chart.c knows."""
+    cases = [([0, 40, False], 5, ["0", "10", "20", "30", "40"]),
+             ([-0.21, 0.42, False], 7, ["-0.2", "-0.1", "0", "0.1", "0.2", "0.3", "0.4"]),
+             ([0, 4.1e-6, False], 5, ["0", "1e-6", "2e-6", "3e-6", "4e-6"]),
+             ([0.5e-2, 2e1, True], 8, ["10^-2", "10^-1", "1", "10"]),
+             ([0.15, 0.9, True], 7, ["0.2", "0.5"])]
+    for axis, most, expected in cases:
+        labels = page.js("""return new corot.Axis(...arguments[0]).ticks(arguments[1])
+            .map((t) => t.label).filter((l) => l)""", axis, most)
+        assert labels == expected, (axis, labels)
+
+
+def measure(page, path):
+    """Prints what is not tested: it depends on the machine."""
+    load = page.js("const t = performance.timing; return t.loadEventEnd - t.navigationStart")
+    rate = page.browser.execute_async_script("""const done = arguments[0], body = corot.body;
+      if (!body) return done(null);
+      let n = 0; const began = performance.now();
+      const step = () => {
+        body.show(n++ % body.t.length);
+        const passed = performance.now() - began;
+        if (passed < 2000) requestAnimationFrame(step);
+        else done(1000 * n / passed);
+      };
+      requestAnimationFrame(step);""")
+    frames = f", {rate:.0f} frames/s painted in software" if rate else ""
+    print(f"{path}: {os.path.getsize(path) / 1e6:.2f} MB, loaded in {load} ms{frames}")
+
+
+def check_run(run):
+    path = f"{run}/report.html"
+    with Page(path) as page:
+        assert page.browser.title == "A bar <that> bends & swings"
+        assert page.js("return performance.getEntriesByType('resource').length") == 0
+        check_ticks(page)
+        check_charts(page, run)
+        check_pointer(page, run)
+        check_body(page, run)
+        check_looks(page)
+        measure(page, path)
+    with Page(path, flags=["--disable-3d-apis"]) as page:  # painted without WebGL
+        assert page.js("return corot.body.paint.constructor.name") == "Paint2d"
+        covered, picture = page.js(PIXELS)
+        assert 0.02 < covered < 0.8, covered
+        page.js("corot.body.show(0)")
+        assert page.js(PIXELS)[1] != picture
+
+
+def check_study(folder):
+    path = folder + ".html"
+    with open(folder + "/table.json") as file:
+        cells = json.load(file)["cells"]
+    with Page(path) as page:
+        for name in "displacement", "velocity_end":
+            rated = [c for c in cells if c["status"] == "done" and name not in c["unrated"]]
+            label = page.js("return corot.charts['work-precision'].data.yLabel")
+            assert name.split("_")[0] in label, label
+            marks = len(page.all("#work-precision .frame .mark"))
+            assert rated and marks == len(rated), (name, marks, len(rated))
+            for axis in ".tick.x", ".tick.y":
+                assert len(page.all("#work-precision " + axis)) >= 2
+            Select(page.find("#error")).select_by_visible_text("relative error of velocity, at the end")
+        Select(page.find("#cost")).select_by_visible_text("steps")
+        assert page.find("#work-precision text.label").text == "steps"
+        assert "1 %" in page.find(".answer").text
+        assert len(page.all("#runs tbody tr")) == len(cells)
+        check_looks(page)
+        measure(page, path)
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "measure":
+        with Page(sys.argv[2]) as measured:
+            measure(measured, sys.argv[2])
+    else:
+        check_run(sys.argv[1])
+        check_study(sys.argv[2])

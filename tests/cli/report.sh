@@ -1,0 +1,60 @@
+. "$(dirname "$0")/lib.sh"
+
+expect 2 report; err "expected one folder"
+expect 2 report a b; err "found 2"
+expect 2 report a --output=; err "the name is empty"
+expect 2 report a --outptu b; err "did you mean --output?"
+expect 0 report --help; out "-o, --output FILE"
+expect 5 report none; no_out; err "none: holds no result.json of a run"
+
+expect 0 run model.yaml -o run --quiet
+expect 0 report run; out run/report.html; no_err
+expect 0 report run -o other.html; out other.html
+cmp -s run/report.html other.html || complain "two reports of one run differ"
+python3 - <<'PY' || complain "the page"
+import html.parser, re
+class Page(html.parser.HTMLParser):
+    found = []
+    def handle_starttag(self, tag, attributes):
+        self.found.append((tag, dict(attributes)))
+page = Page()
+text = open("run/report.html", encoding="utf-8").read()
+page.feed(text)
+for tag, attributes in page.found:  # nothing is fetched
+    assert tag not in ("img", "iframe", "object", "embed"), tag
+    assert "src" not in attributes and attributes.get("href", "data:,") == "data:,", attributes
+assert not set(re.findall(r"https?://[^\s'\"<]*", text)) - {"http://www.w3.org/2000/svg"}
+assert [a["id"] for t, a in page.found if t == "section"] == \
+    ["summary", "body", "probes", "steps", "energy", "scenario"]
+PY
+
+expect 0 run model.yaml -o bare --quiet --set output.fields=none
+expect 0 report bare
+grep -q 'id="body"' bare/report.html && complain "a body without fields"
+expect 0 static model.yaml -o still --quiet
+expect 0 report still
+grep -q 'Equilibrium of' still/report.html || complain "statics are not called so"
+expect 4 run model.yaml -o gone --quiet --set 'integrator={method: newmark, step: 0.004, newton: {iterations: 1}}'
+expect 0 report gone
+grep -q 'class="outcome bad"' gone/report.html || complain "a failure is not called so"
+
+mkdir budget
+cat >budget/budget.json <<'JSON'
+{"title": "T", "measure": "displacement", "first": "space first", "total": 0.5, "check": null,
+ "parts": [{"part": "space", "pair": "mesh.refine=1", "error": 0.4, "end": 0.3, "alone": 0.35, "cost": 8.0, "advice": "refine"}]}
+JSON
+expect 0 report budget
+for text in 'space first' 'mesh.refine=1' 4.00e-01 5.00e-01 refine 'width:100.0%'; do
+  grep -qF "$text" budget/report.html || complain "the budget lacks $text"
+done
+grep -qF 'check of time' budget/report.html && complain "something of what is not known"
+cp budget/budget.json bare
+expect 0 report bare
+grep -qF 'space first' bare/report.html || complain "the run's report lacks its budget"
+
+expect 5 report run -o none/report.html; err "none/report.html"
+printf '{' >bare/result.json
+expect 3 report bare; err "bare/result.json:1:"
+printf '<VTKFile' >run/fields/fields_000002.vtu
+expect 3 report run; err "fields_000002.vtu"
+exit $failed

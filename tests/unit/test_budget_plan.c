@@ -1,0 +1,112 @@
+/* Which runs an error budget needs, for scenarios that make one approximation or another. */
+#define TEST_NAME "test_budget_plan"
+#include "scenario_text.h"
+#include "study/budget_plan.h"
+
+static budget_plan plan_of(const char *text) {
+  scenario *s = accept(text);
+  budget_plan plan;
+  budget_plan_make(s, &plan);
+  scenario_destroy(s);
+  return plan;
+}
+
+static void assert_kinds(const char *text, const char *names) {
+  budget_plan plan = plan_of(text);
+  char found[256] = "";
+  for (int i = 0; i < plan.npart; i++) {
+    if (i) strcat(found, ", ");
+    strcat(found, budget_names[plan.part[i].kind]);
+    assert_true(plan.part[i].nset > 0);
+  }
+  assert_string_equal(found, names);
+}
+
+static void parts_are_the_approximations_made(void **state) {
+  (void)state;
+  assert_kinds(MINIMAL "strain: green\n", "algebraic solver, time integration, space");
+  assert_kinds(MINIMAL, "algebraic solver, time integration, strain measure, space");
+  assert_kinds(MINIMAL "strain: green\nintegrator: {method: erk}\n", "time integration, space");
+  assert_kinds(MINIMAL "strain: warp\nframes: {policy: hold, interval: 0.1}\n",
+               "algebraic solver, time integration, frame age, frame rule, strain measure, space");
+  assert_kinds(MINIMAL "strain: cauchy\nframes: {policy: step}\n",
+               "algebraic solver, time integration, strain measure, space");
+  assert_kinds("mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 1}\n" MATERIAL TIME
+               "hierarchy: {coarse_strain: green}\nframes: {policy: step}\n",
+               "algebraic solver, time integration, frame age, hierarchy, strain measure, space");
+}
+
+/* All settings of the plan, one after the other, make scenarios; the last one has none of the
+   approximations left. */
+static void assert_settings_accepted(const char *text) {
+  budget_plan plan = plan_of(text);
+  char *list[(BUDGET_KINDS + 1) * BUDGET_SETTINGS];
+  int n = 0;
+  for (int i = 0; i < plan.npart; i++) {
+    for (int k = 0; k < plan.part[i].nset; k++) list[n++] = plan.part[i].set[k];
+    scenario *s = NULL;
+    assert_ok(scenario_read_text("test.yaml", text, strlen(text), n, list, &s));
+    if (plan.part[i].kind == BUDGET_TIME) {
+      assert_true(corot_integrator_controls_error(s->integrator.method));
+      assert_true(s->integrator.rtol <= 1e-6);
+    }
+    if (i == plan.npart - 1) {
+      assert_string_equal(s->strain, "green");
+      assert_true(!s->coarse_strain && s->frames.frames == COROT_FRAMES_EXACT);
+    }
+    scenario_destroy(s);
+    s = NULL; /* and each alone */
+    assert_ok(scenario_read_text("test.yaml", text, strlen(text), plan.part[i].nset,
+                                 list + n - plan.part[i].nset, &s));
+    scenario_destroy(s);
+  }
+  for (int k = 0; k < plan.check.nset; k++) list[n++] = plan.check.set[k];
+  scenario *s = NULL;
+  assert_ok(scenario_read_text("test.yaml", text, strlen(text), n, list, &s));
+  scenario_destroy(s);
+}
+
+static void settings_make_scenarios(void **state) {
+  (void)state;
+  static const char *const texts[] = {
+      MINIMAL "frames: {policy: exact}\n",
+      MINIMAL "strain: hybrid\nviscosity: objective\nframes: {policy: hold, max_angle: 0.1}\n",
+      MINIMAL "integrator: {method: bdf3, step: 0.01, solution: linear}\nlinear_solver: pcg\n",
+      MINIMAL "integrator: {method: arkode, order: 4, rtol: 1e-3, atol: {displacement: 1e-3}}\n",
+      MINIMAL "integrator: {method: erk, atol: {velocity: 1e-3}}\nlinear_solver: klu\n",
+      MINIMAL "integrator: {method: ida, rtol: 1e-9}\n",
+      "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 2}\n" MATERIAL TIME
+      "hierarchy: {coarse_strain: green, frame_level: 1}\nframes: {policy: hold, interval: 0.1}\n",
+  };
+  for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+    print_message("%s", texts[i]);
+    assert_settings_accepted(texts[i]);
+  }
+}
+
+static void no_error_of_time_is_three_digits_less(void **state) {
+  (void)state;
+  static const struct {
+    const char *text;
+    double rtol;
+  } cases[] = {
+      {MINIMAL "integrator: {rtol: 1e-2}\n", 1e-6},
+      {MINIMAL "integrator: {rtol: 1e-4}\n", 1e-7},
+      {MINIMAL "integrator: {rtol: 1e-8}\n", 1e-10},
+      {MINIMAL "integrator: {method: bdf2, step: 1}\n", 1e-6},
+  };
+  for (int i = 0; i < 4; i++) {
+    scenario *s = accept(cases[i].text);
+    assert_close(budget_tight_rtol(s), cases[i].rtol, 1e-12, 0);
+    scenario_destroy(s);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(parts_are_the_approximations_made),
+      cmocka_unit_test(settings_make_scenarios),
+      cmocka_unit_test(no_error_of_time_is_three_digits_less),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
