@@ -153,11 +153,10 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
     set[i] = text[i];
     v[i] = (variant){.label = strchr(text[i], '=') + 1, .nset = 1, .set = &set[i]};
   }
-  char title[256];
-  snprintf(title, sizeof title, "Limit of %.80s: %.100s", s->key,
-           *s->scenario->title ? s->scenario->title : s->scenario->path);
-  variants all = {.title = title,
-                  .scenario = s->scenario->path,
+  char what[SETTING_SIZE];
+  snprintf(what, sizeof what, "Limit of %s", s->key);
+  variants all = {.what = what,
+                  .scenario = s->scenario,
                   .nset = s->arguments->nset,
                   .set = s->arguments->set,
                   .nvariant = n,

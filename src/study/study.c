@@ -122,8 +122,7 @@ static corot_status read_all(study *s, const char *path) {
   return study_make_cells(s);
 }
 
-/* Takes over the tree. */
-static corot_status from_tree(config *tree, const char *path, study **out) {
+corot_status study_from_tree(config *tree, const char *path, study **out) {
   study *s = calloc(1, sizeof *s);
   if (!s) {
     config_destroy(tree);
@@ -141,13 +140,13 @@ static corot_status from_tree(config *tree, const char *path, study **out) {
 corot_status study_read(const char *path, study **out) {
   config *tree = NULL;
   COROT_TRY(config_read(path, &tree));
-  return from_tree(tree, path, out);
+  return study_from_tree(tree, path, out);
 }
 
 corot_status study_read_text(const char *path, const char *text, size_t size, study **out) {
   config *tree = NULL;
   COROT_TRY(config_read_text(path, text, size, &tree));
-  return from_tree(tree, path, out);
+  return study_from_tree(tree, path, out);
 }
 
 void study_destroy(study *s) {
