@@ -113,7 +113,15 @@ static corot_status read_grids(study *s) {
   return COROT_OK;
 }
 
+static corot_status check_kind(config_node *root) {
+  const config_node *mesh = config_find(root, "mesh");
+  if (!mesh || config_find(root, "base")) return COROT_OK;
+  return config_fail_key(mesh,
+                         "this is a scenario; a study names one as its base, and what varies");
+}
+
 static corot_status read_all(study *s, const char *path) {
+  COROT_TRY(check_kind(s->tree->root));
   COROT_TRY(schema_apply(&study_schema, s->tree));
   COROT_TRY(read_heads(s, path));
   COROT_TRY(study_read_settings(s->tree, config_find(s->tree->root, "set"), &s->nset, &s->set));
