@@ -75,6 +75,9 @@ void *config_alloc(config *tree, size_t count, size_t size);
 /* A copy of the text [length]. */
 char *config_copy(config *tree, const char *text, size_t length);
 
+/* `file` as seen from the folder of the file `path`; NULL: no memory. */
+const char *config_beside(config *tree, const char *path, const char *file);
+
 /* A new node without a place. NULL: no memory. */
 config_node *config_node_create(config *tree, config_kind kind);
 

@@ -158,6 +158,7 @@ static corot_status conclude(execution *e, int i, int ended) {
   }
   t->state = record.state;
   t->lost = record.state == RUN_MISSING;
+  e->nnew += record.state == RUN_DONE;
   e->nfailed += record.state == RUN_FAILED;
   if (record.state != RUN_DONE && !pool_signal()) tell_failure(e, t, reason);
   run_record_free(&record);
@@ -204,7 +205,6 @@ static corot_status run_all(execution *e) {
     COROT_TRY(store_clear(e->o->dir, e->task[i].run));
     COROT_TRY(execution_start(e, i, "", NULL));
     execution_show(e);
-    e->nnew++;
   }
   while (!pool_is_empty()) COROT_TRY(wait_one(e));
   return COROT_OK;

@@ -13,18 +13,6 @@ static const char *name_of(config *tree, const char *path) {
   return config_copy(tree, name, dot && dot > name ? (size_t)(dot - name) : strlen(name));
 }
 
-/* `file` as seen from the folder of `path`. */
-static const char *beside(config *tree, const char *path, const char *file) {
-  const char *slash = strrchr(path, '/');
-  size_t folder = slash && file[0] != '/' ? (size_t)(slash - path) + 1 : 0;
-  size_t length = strlen(file);
-  char *joined = config_alloc(tree, folder + length + 1, 1);
-  if (!joined) return NULL;
-  memcpy(joined, path, folder);
-  memcpy(joined + folder, file, length);
-  return joined;
-}
-
 /* The base must be there, and be a scenario. */
 static corot_status check_base(const study *s) {
   config *base = NULL;
@@ -45,7 +33,7 @@ static corot_status read_heads(study *s, const char *path) {
   s->base_node = config_find(root, "base");
   s->path = config_copy(s->tree, path, strlen(path));
   s->name = name_of(s->tree, path);
-  s->base = beside(s->tree, path, s->base_node->text);
+  s->base = config_beside(s->tree, path, s->base_node->text);
   if (!s->path || !s->name || !s->base) return no_memory();
   if (!*s->title) return config_fail(config_find(root, "study"), "the title is empty");
   s->repeat = (int)config_find(root, "repeat")->number;
