@@ -51,7 +51,11 @@ void config_destroy(config *tree);
    number ("loads.0.traction=[1, 0, 0]"). */
 corot_status config_override(config *tree, const char *assignment);
 
-/* The same with a value that has been read already; its texts, and the source it names in messages,
+/* The two sides of "KEY.PATH=VALUE"; nothing is set. */
+corot_status config_parse_assignment(config *tree, const char *assignment, const char **path,
+                                     config_node **value);
+
+/* As config_override, with a value that has been read already; its texts, and the source it names in messages,
    must outlive the tree. */
 corot_status config_set(config *tree, const char *path, const config_node *value);
 

@@ -94,11 +94,8 @@ static corot_status load_run(budgeting *b, const char *dir, int i) {
 
 static corot_status carry_out(budgeting *b, int nset, const char *const *set,
                               const execute_options *options, int *signal_number) {
-  const scenario *s = b->scenario;
-  char title[256];
-  snprintf(title, sizeof title, "Error budget: %.200s", *s->title ? s->title : s->path);
-  variants v = {.title = title,
-                .scenario = s->path,
+  variants v = {.what = "Error budget",
+                .scenario = b->scenario,
                 .nset = nset,
                 .set = set,
                 .nvariant = b->nrun,

@@ -27,8 +27,8 @@ typedef struct budget_part {
 
 typedef struct budget_plan {
   int npart;
-  budget_part part[BUDGET_KINDS]; /* in the order of budget_kind, without those that the scenario
-                                     does not make */
+  budget_part part[BUDGET_KINDS]; /* those that the scenario makes, in the order of budget_kind;
+                                     the age of frames before time, if steps are what ends it */
   budget_part check; /* replaces part TIME: an independent method, for how far that is to be
                         trusted */
 } budget_plan;

@@ -202,22 +202,6 @@ static double tolerance_of(const cell *c) {
   return number;
 }
 
-static int compare_values(const config_node *a, const config_node *b) {
-  double x, y;
-  bool first = config_parse_number(a, &x), second = config_parse_number(b, &y);
-  if (first && second) return (x > y) - (x < y);
-  if (first != second) return first ? -1 : 1;
-  if (a->kind != b->kind) return (int)a->kind - (int)b->kind;
-  if (a->kind == CONFIG_SCALAR) return strcmp(a->text, b->text);
-  const config_node *c = a->child, *d = b->child;
-  for (; c && d; c = c->next, d = d->next) {
-    int order = c->key && d->key ? strcmp(c->key, d->key) : 0;
-    if (order == 0) order = compare_values(c, d);
-    if (order != 0) return order;
-  }
-  return (c != NULL) - (d != NULL);
-}
-
 /* By series, from coarse to fine in each by one kind of tolerance, then by the coordinates. */
 static int by_place(const void *first, const void *second) {
   const cell *a = first, *b = second;
@@ -229,7 +213,7 @@ static int by_place(const void *first, const void *second) {
   if (x != y) return x > y ? -1 : 1;
   for (int i = 0; i < a->nplace && i < b->nplace; i++) {
     order = strcmp(a->place[i].key, b->place[i].key);
-    if (order == 0) order = compare_values(a->place[i].value, b->place[i].value);
+    if (order == 0) order = study_compare_values(a->place[i].value, b->place[i].value);
     if (order != 0) return order;
   }
   return a->nplace - b->nplace;

@@ -113,7 +113,15 @@ static corot_status read_grids(study *s) {
   return COROT_OK;
 }
 
+static corot_status check_kind(config_node *root) {
+  const config_node *mesh = config_find(root, "mesh");
+  if (!mesh || config_find(root, "base")) return COROT_OK;
+  return config_fail_key(mesh,
+                         "this is a scenario; a study names one as its base, and what varies");
+}
+
 static corot_status read_all(study *s, const char *path) {
+  COROT_TRY(check_kind(s->tree->root));
   COROT_TRY(schema_apply(&study_schema, s->tree));
   COROT_TRY(read_heads(s, path));
   COROT_TRY(study_read_settings(s->tree, config_find(s->tree->root, "set"), &s->nset, &s->set));
@@ -122,8 +130,7 @@ static corot_status read_all(study *s, const char *path) {
   return study_make_cells(s);
 }
 
-/* Takes over the tree. */
-static corot_status from_tree(config *tree, const char *path, study **out) {
+corot_status study_from_tree(config *tree, const char *path, study **out) {
   study *s = calloc(1, sizeof *s);
   if (!s) {
     config_destroy(tree);
@@ -141,13 +148,13 @@ static corot_status from_tree(config *tree, const char *path, study **out) {
 corot_status study_read(const char *path, study **out) {
   config *tree = NULL;
   COROT_TRY(config_read(path, &tree));
-  return from_tree(tree, path, out);
+  return study_from_tree(tree, path, out);
 }
 
 corot_status study_read_text(const char *path, const char *text, size_t size, study **out) {
   config *tree = NULL;
   COROT_TRY(config_read_text(path, text, size, &tree));
-  return from_tree(tree, path, out);
+  return study_from_tree(tree, path, out);
 }
 
 void study_destroy(study *s) {
