@@ -208,6 +208,11 @@ const corot_mesh *corot_model_mesh(const corot_model *model);
 /* The name of the strain measure; with a hierarchy both, as "green+polar". */
 const char *corot_model_strain(const corot_model *model);
 
+/* Whether the stiffness and damping matrices depend on the frames alone, and stay while these are
+   held: with polar, warp and cauchy, and under a hierarchy with coupling MEAN of these on the finest
+   level, whatever the coarse measure. */
+bool corot_model_matrices_by_frames(const corot_model *model);
+
 /* Number n of free degrees of freedom: the length of u, v and r everywhere. */
 int corot_model_ndof(const corot_model *model);
 

@@ -308,6 +308,12 @@ const char *corot_model_strain(const corot_model *m) {
   return m->levels ? m->levels->name : strain_measures[m->strain].name;
 }
 
+bool corot_model_matrices_by_frames(const corot_model *m) {
+  const strain_measure *measure = &strain_measures[m->strain];
+  bool parts_in_them = m->levels && m->levels->place;
+  return measure->pressure == BY_FRAME && measure->shear == BY_FRAME && !parts_in_them;
+}
+
 int corot_model_ndof(const corot_model *m) { return m->ndof; }
 const int (*corot_model_dof(const corot_model *m))[3] { return (const int(*)[3])m->dof; }
 const double *corot_model_mass(const corot_model *m) { return m->mass; }

@@ -71,10 +71,9 @@ static corot_status predict(corot_integrator *self, const stage *g, double *norm
 
 /* Whether K and D are the same in every step until the frames change. */
 static bool has_constant_matrices(const corot_integrator *self) {
-  const char *strain = corot_model_strain(self->model);
-  if (strcmp(strain, "cauchy") == 0) return true;
-  bool by_frame = strcmp(strain, "polar") == 0 || strcmp(strain, "warp") == 0;
-  return by_frame && corot_state_frames(self->state) == COROT_FRAMES_HELD;
+  if (strcmp(corot_model_strain(self->model), "cauchy") == 0) return true;
+  return corot_model_matrices_by_frames(self->model) &&
+         corot_state_frames(self->state) == COROT_FRAMES_HELD;
 }
 
 static corot_status solve_linear(corot_integrator *self, const stage *g) {

@@ -106,3 +106,10 @@ void budget_plan_make(const scenario *s, budget_plan *plan) {
   }
   add(begin(plan, BUDGET_SPACE), "mesh.refine=%d", s->refine + 1);
 }
+
+void budget_plan_skip(budget_plan *plan, budget_kind kind) {
+  int n = 0;
+  for (int i = 0; i < plan->npart; i++)
+    if (plan->part[i].kind != kind) plan->part[n++] = plan->part[i];
+  plan->npart = n;
+}

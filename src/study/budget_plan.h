@@ -41,4 +41,7 @@ double budget_tight_rtol(const scenario *s);
 
 void budget_plan_make(const scenario *s, budget_plan *plan);
 
+/* Takes a kind of part out of the plan, if it is there. */
+void budget_plan_skip(budget_plan *plan, budget_kind kind);
+
 #endif

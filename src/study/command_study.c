@@ -10,6 +10,7 @@
 #include "collect.h"
 #include "command_folder.h"
 #include "execute.h"
+#include "page.h"
 #include "plan.h"
 #include "pool.h"
 #include "store.h"
@@ -23,7 +24,8 @@ static const char help[] =
     "Runs a scenario many times, as a study file (YAML, or JSON) says: with some of its keys "
     "varied\n"
     "along axes, and against references. Each run is a process with a folder of its own. A study\n"
-    "that was stopped or killed goes on where it was; runs that are done are not repeated.\n"
+    "that was stopped or killed goes on where it was; runs that are done are not repeated. What\n"
+    "they say together is in table.json, table.csv and report.html, a page to look at.\n"
     "\n"
     "  -o, --output DIR    the study's folder, made if need be; default: out/STUDY in this folder\n"
     "  -j, --jobs N        so many runs at once; default: one a processor\n"
@@ -166,8 +168,9 @@ static int execute_here(const manifest *m, const execute_options *o) {
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
     status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
-    if (status != COROT_OK) code = failure(status);
     if (status == COROT_OK && !o->quiet) fprintf(stderr, "corot study table %s\n", o->dir);
+    if (status == COROT_OK) status = study_page(o->dir, o->quiet);
+    if (status != COROT_OK) code = failure(status);
   }
   store_leave(lock);
   return code;

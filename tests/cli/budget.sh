@@ -33,6 +33,8 @@ assert d['check'] < 1e-2 * d['parts'][1]['error'], d['check']
 PY
 python3 same.py || complain "the budget is not that of its runs"
 
+grep -q "The largest part is that of" parts/report.html || complain "no page of the budget"
+
 # The second time nothing is run; the table names the parts.
 touch before
 expect 0 budget model.yaml -o parts --set time.end=0.2 --set strain=warp \
@@ -62,6 +64,16 @@ expect 1 budget model.yaml -o fails --quiet --set strain=green --set time.end=0.
   --set integrator.rtol=1e-2 --set integrator.max_steps=40
 grep -q "^time integration  *?  *?  *?  *?  integrator.rtol=1e-06" stdout || complain "a part of a failed run"
 grep -q "^algebraic solver  *[0-9]" stdout || complain "the parts of runs that did not fail"
+
+# Parts may be left out, but not all of them.
+expect 0 budget model.yaml -o exact --quiet --set strain=green --set time.end=0.05 --skip space
+grep -q "^space" stdout && complain "a part that was left out"
+expect 0 budget model.yaml -o exact --quiet --set strain=green --set time.end=0.05 --skip space \
+  --skip "time integration"
+grep -q "^check of time  *?" stdout || complain "a check of nothing"
+expect 2 budget model.yaml --skip spice; err "--skip spice: expected a part"
+expect 3 budget model.yaml --set strain=green --skip space --skip "time integration" \
+  --skip "algebraic solver" -o nothing; err "nothing is left"; no_out
 
 expect 2 budget; err "expected one scenario, found 0"
 expect 2 budget model.yaml --jobs 0; err "--jobs 0: expected 1 to"

@@ -42,6 +42,7 @@ expect 0 study study.yaml --dry-run; no_err
 [ "$(grep -c missing stdout)" = 6 ] || complain "not 6 runs"
 [ ! -e out/study ] || complain "a dry run leaves a folder"
 expect 0 study study.yaml; err "out/study: 6 of 6 runs done (6 now), 0 failed"
+err "out/study/report.html"; grep -q "which one" out/study/report.html || complain "no page of the study"
 [ "$(cat out/study/runs/*/timings.json | grep -c '"cpu"')" = 4 ] || complain "not one timing for each cell"
 [ "$(ls out/study/runs/*/states.bin | wc -l)" = 6 ] || complain "not 6 files of states"
 expect 0 study study.yaml --quiet; no_err

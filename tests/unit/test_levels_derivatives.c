@@ -85,6 +85,26 @@ static void test_matrices(void **state) {
   }
 }
 
+/* A model says that its matrices depend on the frames alone; then, and only then, held frames give
+   the same ones wherever the body is. */
+static void test_matrices_by_frames(void **state) {
+  corot_coupling coupling = coupling_of(state);
+  const choice c = {"green", "polar", 2, 0, true};
+  solid s = make_solid(&c, coupling, &soft, true);
+  double *u = vectors(2, s.n), *zero = u + s.n;
+  int nblock = corot_model_nblock(s.model);
+  double(*K)[9] = calloc(2 * nblock, sizeof *K), (*bent)[9] = K + nblock;
+  bend(&s, 0.6, 0.01, u);
+  corot_state_use(s.state, COROT_FRAMES_HELD);
+  assert_ok(corot_jacobian(s.model, s.state, 0, zero, zero, COROT_TANGENT_HELD, K, NULL));
+  assert_ok(corot_jacobian(s.model, s.state, 0, u, zero, COROT_TANGENT_HELD, bent, NULL));
+  bool same = memcmp(K, bent, nblock * sizeof *K) == 0;
+  assert_int_equal(corot_model_matrices_by_frames(s.model), same);
+  assert_int_equal(same, coupling == COROT_COUPLING_MEAN);
+  free(K), free(u);
+  drop_solid(&s);
+}
+
 /* Under exact frames, what is left out is of the size of the strain times the difference. */
 static void test_exact_tangent_at_rest(void **state) {
   corot_coupling coupling = coupling_of(state);
@@ -192,6 +212,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       each_coupling_unit_test(test_product_with_the_derivative),
       coupled_unit_test(test_matrices),
+      each_coupling_unit_test(test_matrices_by_frames),
       coupled_unit_test(test_exact_tangent_at_rest),
       each_coupling_unit_test(test_frames_are_handed_down),
       coupled_unit_test(test_update_of_held_frames),
