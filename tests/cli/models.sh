@@ -6,7 +6,8 @@ models=$(dirname "$0")/../../models
 size() {
   expect 0 check "$models/$1/$1.yaml" --json
   json "d['mesh']['tets'] == $3"
-  expect 0 check "$models/$1/$1.yaml" --json --set mesh.refine=0 --set hierarchy=null
+  expect 0 check "$models/$1/$1.yaml" --json --set mesh.refine=0 --set hierarchy=null \
+    --set linear_solver=auto
   json "d['mesh']['tets'] == $2"
 }
 size bar 337 337
