@@ -25,12 +25,16 @@ static bool has_column(const columns *c, const char *name) {
   return false;
 }
 
-static void add_columns(const grid *g, columns *c) {
+static corot_status add_columns(const grid *g, columns *c) {
   for (int i = 0; i < g->naxis; i++)
     for (int k = 0; k < g->axis[i].point->nplace; k++) {
       const char *name = g->axis[i].point->place[k].key;
-      if (!has_column(c, name) && c->n < MAX_COLUMNS) c->name[c->n++] = name;
+      if (has_column(c, name)) continue;
+      if (c->n == MAX_COLUMNS)
+        return config_fail(g->axis[i].node, "more than %d columns", MAX_COLUMNS);
+      c->name[c->n++] = name;
     }
+  return COROT_OK;
 }
 
 /* Fails at a node that should name a column and does not. */
@@ -65,7 +69,7 @@ static corot_status check_exclude(const grid *g, const columns *c) {
 
 static corot_status check_columns(const study *s) {
   columns all = {0};
-  for (int i = 0; i < s->ngrid; i++) add_columns(&s->grid[i], &all);
+  for (int i = 0; i < s->ngrid; i++) COROT_TRY(add_columns(&s->grid[i], &all));
   for (int i = 0; i < s->ngrid; i++) COROT_TRY(check_exclude(&s->grid[i], &all));
   COROT_TRY(check_names(s->group, &all));
   return s->tolerance->source ? check_names(s->tolerance, &all) : COROT_OK;
