@@ -118,7 +118,7 @@ static void read_messages(const char *path, size_t size, char *text) {
 /* Why a run has left no result. */
 static void explain(int ended, size_t size, char *reason) {
   char said[1024];
-  snprintf(said, sizeof said, "%s", reason);
+  snprintf(said, sizeof said, "%.*s", (int)sizeof said - 1, reason);
   if (ended < 0)
     snprintf(reason, size, "killed by signal %d (%s)%s%s", -ended, strsignal(-ended),
              *said ? ": " : "", said);
