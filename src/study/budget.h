@@ -3,7 +3,8 @@
    One approximation after the other is taken away (budget_plan.h), so that two neighbours in this
    chain of runs differ in one thing, and what the coarser ones hide is gone before the finer ones
    are looked at. An error is that of errors.h for the displacement, between the two neighbours. As
-   a check of their independence each approximation is also taken away alone.
+   a check of their independence each approximation is also taken away alone (with the measure the
+   hierarchy goes, too, which green does not fit).
 
    DIR/budget.json:
      {"title", "scenario", "measure",
