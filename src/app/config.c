@@ -44,6 +44,17 @@ char *config_copy(config *tree, const char *text, size_t length) {
   return copy;
 }
 
+const char *config_beside(config *tree, const char *path, const char *file) {
+  const char *slash = strrchr(path, '/');
+  size_t folder = slash && file[0] != '/' ? (size_t)(slash - path) + 1 : 0;
+  size_t length = strlen(file);
+  char *joined = config_alloc(tree, folder + length + 1, 1);
+  if (!joined) return NULL;
+  memcpy(joined, path, folder);
+  memcpy(joined + folder, file, length);
+  return joined;
+}
+
 void config_destroy(config *tree) {
   if (!tree) return;
   while (tree->block) {

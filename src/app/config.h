@@ -51,7 +51,11 @@ void config_destroy(config *tree);
    number ("loads.0.traction=[1, 0, 0]"). */
 corot_status config_override(config *tree, const char *assignment);
 
-/* The same with a value that has been read already; its texts, and the source it names in messages,
+/* The two sides of "KEY.PATH=VALUE"; nothing is set. */
+corot_status config_parse_assignment(config *tree, const char *assignment, const char **path,
+                                     config_node **value);
+
+/* As config_override, with a value that has been read already; its texts, and the source it names in messages,
    must outlive the tree. */
 corot_status config_set(config *tree, const char *path, const config_node *value);
 
@@ -70,6 +74,9 @@ void *config_alloc(config *tree, size_t count, size_t size);
 
 /* A copy of the text [length]. */
 char *config_copy(config *tree, const char *text, size_t length);
+
+/* `file` as seen from the folder of the file `path`; NULL: no memory. */
+const char *config_beside(config *tree, const char *path, const char *file);
 
 /* A new node without a place. NULL: no memory. */
 config_node *config_node_create(config *tree, config_kind kind);

@@ -6,7 +6,8 @@
 static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* The value, read with the whole assignment as its place. */
-static corot_status parse_value(config *tree, const char *assignment, config_node **value) {
+static corot_status parse_value(config *tree, const char *assignment, config_node **out) {
+  config_node *value = NULL;
   const char *text = strchr(assignment, '=') + 1;
   size_t length = strlen(assignment);
   config_source *s = config_alloc(tree, 1, sizeof *s);
@@ -15,13 +16,14 @@ static corot_status parse_value(config *tree, const char *assignment, config_nod
   if (!s || !name || !copy) return no_memory();
   snprintf(name, length + sizeof "--set ", "--set %s", assignment);
   *s = (config_source){.name = name, .text = copy, .size = strlen(text)};
-  COROT_TRY(config_parse(tree, s, false, value));
-  if (!*value) {
-    *value = config_node_create(tree, CONFIG_SCALAR);
-    if (!*value) return no_memory();
-    (*value)->text = "";
-    (*value)->source = s;
+  COROT_TRY(config_parse(tree, s, false, &value));
+  if (!value) {
+    value = config_node_create(tree, CONFIG_SCALAR);
+    if (!value) return no_memory();
+    value->text = "";
+    value->source = s;
   }
+  *out = value;
   return COROT_OK;
 }
 
@@ -104,13 +106,22 @@ corot_status config_set(config *tree, const char *path, const config_node *value
   return copy_value(tree, node, value);
 }
 
-corot_status config_override(config *tree, const char *assignment) {
+corot_status config_parse_assignment(config *tree, const char *assignment, const char **path,
+                                     config_node **value) {
   size_t length = strcspn(assignment, "=");
   if (assignment[length] != '=' || length == 0)
     return corot_fail(COROT_EFORMAT, "--set %s: expected KEY=VALUE, such as integrator.rtol=1e-6",
                       assignment);
+  const char *copy = config_copy(tree, assignment, length);
+  if (!copy) return no_memory();
+  COROT_TRY(parse_value(tree, assignment, value));
+  *path = copy;
+  return COROT_OK;
+}
+
+corot_status config_override(config *tree, const char *assignment) {
+  const char *path = NULL;
   config_node *value = NULL;
-  COROT_TRY(parse_value(tree, assignment, &value));
-  const char *path = config_copy(tree, assignment, length);
-  return path ? config_set(tree, path, value) : no_memory();
+  COROT_TRY(config_parse_assignment(tree, assignment, &path, &value));
+  return config_set(tree, path, value);
 }

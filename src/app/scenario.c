@@ -8,18 +8,6 @@
 
 /* --- Mesh and groups --- */
 
-/* `file` as seen from the folder of `path`. */
-static const char *beside(config *tree, const char *path, const char *file) {
-  const char *slash = strrchr(path, '/');
-  size_t folder = slash && file[0] != '/' ? (size_t)(slash - path) + 1 : 0;
-  size_t length = strlen(file);
-  char *joined = config_alloc(tree, folder + length + 1, 1);
-  if (!joined) return NULL;
-  memcpy(joined, path, folder);
-  memcpy(joined + folder, file, length);
-  return joined;
-}
-
 static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root;
   config_node *box = config_find(root, "mesh.box");
@@ -29,7 +17,7 @@ static corot_status read_mesh(scenario *s) {
   if (!box) {
     config_node *file = config_find(root, "mesh.file");
     if (!*file->text) return config_fail(file, "the name is empty");
-    s->mesh_file = beside(s->source, s->path, file->text);
+    s->mesh_file = config_beside(s->source, s->path, file->text);
     return s->mesh_file ? COROT_OK : no_memory();
   }
   double cells[3];

@@ -58,8 +58,8 @@ static void plan_check(budgeting *b, int ntime) {
 }
 
 static void plan_runs(budgeting *b) {
-  int n = 0, ntime = 0;
-  b->nrun = check_run(b) + 1;
+  int n = 0, ntime = -1;
+
   name_run(b, 0, "as given", "");
   for (int i = 0; i < b->plan.npart; i++) {
     const budget_part *part = &b->plan.part[i];
@@ -70,7 +70,8 @@ static void plan_runs(budgeting *b) {
     name_run(b, chain_run(i), "less ", budget_names[part->kind]);
     name_run(b, alone_run(b, i), budget_names[part->kind], ", alone");
   }
-  plan_check(b, ntime);
+  b->nrun = check_run(b) + (ntime >= 0);
+  if (ntime >= 0) plan_check(b, ntime);
 }
 
 static corot_status load_run(budgeting *b, const char *dir, int i) {
@@ -93,11 +94,8 @@ static corot_status load_run(budgeting *b, const char *dir, int i) {
 
 static corot_status carry_out(budgeting *b, int nset, const char *const *set,
                               const execute_options *options, int *signal_number) {
-  const scenario *s = b->scenario;
-  char title[256];
-  snprintf(title, sizeof title, "Error budget: %.200s", *s->title ? s->title : s->path);
-  variants v = {.title = title,
-                .scenario = s->path,
+  variants v = {.what = "Error budget",
+                .scenario = b->scenario,
                 .nset = nset,
                 .set = set,
                 .nvariant = b->nrun,
@@ -197,15 +195,16 @@ static json_t *runs_json(const budgeting *b) {
 }
 
 static corot_status totals(const budgeting *b, json_t *parts, json_t **out) {
-  distance total, check;
-  int ntime = 0;
+  distance total, check = {.displacement = {NAN, NAN}};
+  int ntime = -1;
   double sum = 0;
   for (int i = 0; i < b->plan.npart; i++) {
     if (b->plan.part[i].kind == BUDGET_TIME) ntime = i;
     sum += number_of(json_array_get(parts, (size_t)i), "error");
   }
   COROT_TRY(measure(b, 0, chain_run(b->plan.npart - 1), &total));
-  corot_status status = measure(b, check_run(b), chain_run(ntime), &check);
+  corot_status status = COROT_OK;
+  if (ntime >= 0) status = measure(b, check_run(b), chain_run(ntime), &check);
   json_decref(check.probes);
   *out = json_pack("{s:o, s:s, s:s, s:O, s:o, s:o, s:o?, s:o, s:o, s:o, s:o, s:o}", "title",
                    json_text_string(b->scenario->title), "scenario", b->scenario->path, "measure",
@@ -241,12 +240,18 @@ static void release(budgeting *b) {
   free(b);
 }
 
-corot_status budget_make(const scenario *s, int nset, const char *const *set,
+corot_status budget_make(const scenario *s, int nset, const char *const *set, const bool *skip,
                          const execute_options *options, json_t **out, int *signal_number) {
   budgeting *b = calloc(1, sizeof *b);
   if (!b) return corot_fail(COROT_ENOMEM, "out of memory");
   b->scenario = s;
   budget_plan_make(s, &b->plan);
+  for (int k = 0; k < BUDGET_KINDS; k++)
+    if (skip[k]) budget_plan_skip(&b->plan, (budget_kind)k);
+  if (b->plan.npart == 0) {
+    free(b);
+    return corot_fail(COROT_EINVAL, "nothing is left of the budget");
+  }
   plan_runs(b);
   json_t *made = NULL;
   corot_status status = carry_out(b, nset, set, options, signal_number);

@@ -3,7 +3,8 @@
    One approximation after the other is taken away (budget_plan.h), so that two neighbours in this
    chain of runs differ in one thing, and what the coarser ones hide is gone before the finer ones
    are looked at. An error is that of errors.h for the displacement, between the two neighbours. As
-   a check of their independence each approximation is also taken away alone.
+   a check of their independence each approximation is also taken away alone (with the measure the
+   hierarchy goes, too, which green does not fit).
 
    DIR/budget.json:
      {"title", "scenario", "measure",
@@ -18,11 +19,13 @@
 #ifndef COROT_STUDY_BUDGET_H
 #define COROT_STUDY_BUDGET_H
 
+#include "budget_plan.h"
 #include "execute.h"
 
 /* Makes the runs that are missing in options->dir, and *out, the caller's to json_decref. set
-   [nset]: "KEY=VALUE" on top of the scenario, which has them already. */
-corot_status budget_make(const scenario *s, int nset, const char *const *set,
+   [nset]: "KEY=VALUE" on top of the scenario, which has them already. skip [BUDGET_KINDS]: parts
+   that are not looked at. COROT_EINVAL: no part is left. */
+corot_status budget_make(const scenario *s, int nset, const char *const *set, const bool *skip,
                          const execute_options *options, json_t **out, int *signal_number);
 
 void budget_print(const json_t *budget, FILE *out);

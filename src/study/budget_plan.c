@@ -72,18 +72,30 @@ static budget_part *begin(budget_plan *plan, budget_kind kind) {
   return part;
 }
 
-void budget_plan_make(const scenario *s, budget_plan *plan) {
-  *plan = (budget_plan){0};
+static void plan_time(const scenario *s, budget_plan *plan) {
   const char *method = s->integrator.method;
-  bool controlled = corot_integrator_controls_error(method), explicit = is(method, "erk");
-  bool hierarchy = s->coarse_strain && s->refine > 0;
-
-  if (!explicit) tighten_algebra(s, begin(plan, BUDGET_ALGEBRA));
+  bool controlled = corot_integrator_controls_error(method);
   tighten_time(s, controlled ? method : "cvode", begin(plan, BUDGET_TIME));
   plan->check.kind = BUDGET_TIME;
   tighten_time(s, is(method, "arkode") ? "cvode" : "arkode", &plan->check);
-  if (s->frames.frames != COROT_FRAMES_EXACT && (has_frames(s->strain) || hierarchy))
-    add(begin(plan, BUDGET_FRAME_AGE), "frames={policy: exact}");
+}
+
+/* Frames that are renewed after steps are as old as the steps are long: their error would vanish
+   with that of time, and count as such, if it were not looked at before. */
+static void plan_time_and_frame_age(const scenario *s, bool hierarchy, budget_plan *plan) {
+  bool aged = s->frames.frames != COROT_FRAMES_EXACT && (has_frames(s->strain) || hierarchy);
+  bool by_step = aged && (s->frames.every_step || s->frames.max_angle > 0);
+  if (!by_step) plan_time(s, plan);
+  if (aged) add(begin(plan, BUDGET_FRAME_AGE), "frames={policy: exact}");
+  if (by_step) plan_time(s, plan);
+}
+
+void budget_plan_make(const scenario *s, budget_plan *plan) {
+  *plan = (budget_plan){0};
+  bool hierarchy = s->coarse_strain && s->refine > 0;
+
+  if (!is(s->integrator.method, "erk")) tighten_algebra(s, begin(plan, BUDGET_ALGEBRA));
+  plan_time_and_frame_age(s, hierarchy, plan);
   if (is(s->strain, "warp")) add(begin(plan, BUDGET_FRAME_RULE), "strain=polar");
   if (hierarchy) add(begin(plan, BUDGET_HIERARCHY), "hierarchy=null");
   if (!is(s->strain, "green")) {
@@ -93,4 +105,11 @@ void budget_plan_make(const scenario *s, budget_plan *plan) {
     if (hierarchy) add(part, "hierarchy=null");
   }
   add(begin(plan, BUDGET_SPACE), "mesh.refine=%d", s->refine + 1);
+}
+
+void budget_plan_skip(budget_plan *plan, budget_kind kind) {
+  int n = 0;
+  for (int i = 0; i < plan->npart; i++)
+    if (plan->part[i].kind != kind) plan->part[n++] = plan->part[i];
+  plan->npart = n;
 }

@@ -27,8 +27,8 @@ typedef struct budget_part {
 
 typedef struct budget_plan {
   int npart;
-  budget_part part[BUDGET_KINDS]; /* in the order of budget_kind, without those that the scenario
-                                     does not make */
+  budget_part part[BUDGET_KINDS]; /* those that the scenario makes, in the order of budget_kind;
+                                     the age of frames before time, if steps are what ends it */
   budget_part check; /* replaces part TIME: an independent method, for how far that is to be
                         trusted */
 } budget_plan;
@@ -40,5 +40,8 @@ extern const char *const budget_remedies[BUDGET_KINDS]; /* what to change if tha
 double budget_tight_rtol(const scenario *s);
 
 void budget_plan_make(const scenario *s, budget_plan *plan);
+
+/* Takes a kind of part out of the plan, if it is there. */
+void budget_plan_skip(budget_plan *plan, budget_kind kind);
 
 #endif

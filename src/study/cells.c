@@ -25,12 +25,16 @@ static bool has_column(const columns *c, const char *name) {
   return false;
 }
 
-static void add_columns(const grid *g, columns *c) {
+static corot_status add_columns(const grid *g, columns *c) {
   for (int i = 0; i < g->naxis; i++)
     for (int k = 0; k < g->axis[i].point->nplace; k++) {
       const char *name = g->axis[i].point->place[k].key;
-      if (!has_column(c, name) && c->n < MAX_COLUMNS) c->name[c->n++] = name;
+      if (has_column(c, name)) continue;
+      if (c->n == MAX_COLUMNS)
+        return config_fail(g->axis[i].node, "more than %d columns", MAX_COLUMNS);
+      c->name[c->n++] = name;
     }
+  return COROT_OK;
 }
 
 /* Fails at a node that should name a column and does not. */
@@ -65,7 +69,7 @@ static corot_status check_exclude(const grid *g, const columns *c) {
 
 static corot_status check_columns(const study *s) {
   columns all = {0};
-  for (int i = 0; i < s->ngrid; i++) add_columns(&s->grid[i], &all);
+  for (int i = 0; i < s->ngrid; i++) COROT_TRY(add_columns(&s->grid[i], &all));
   for (int i = 0; i < s->ngrid; i++) COROT_TRY(check_exclude(&s->grid[i], &all));
   COROT_TRY(check_names(s->group, &all));
   return s->tolerance->source ? check_names(s->tolerance, &all) : COROT_OK;
@@ -202,22 +206,6 @@ static double tolerance_of(const cell *c) {
   return number;
 }
 
-static int compare_values(const config_node *a, const config_node *b) {
-  double x, y;
-  bool first = config_parse_number(a, &x), second = config_parse_number(b, &y);
-  if (first && second) return (x > y) - (x < y);
-  if (first != second) return first ? -1 : 1;
-  if (a->kind != b->kind) return (int)a->kind - (int)b->kind;
-  if (a->kind == CONFIG_SCALAR) return strcmp(a->text, b->text);
-  const config_node *c = a->child, *d = b->child;
-  for (; c && d; c = c->next, d = d->next) {
-    int order = c->key && d->key ? strcmp(c->key, d->key) : 0;
-    if (order == 0) order = compare_values(c, d);
-    if (order != 0) return order;
-  }
-  return (c != NULL) - (d != NULL);
-}
-
 /* By series, from coarse to fine in each by one kind of tolerance, then by the coordinates. */
 static int by_place(const void *first, const void *second) {
   const cell *a = first, *b = second;
@@ -229,7 +217,7 @@ static int by_place(const void *first, const void *second) {
   if (x != y) return x > y ? -1 : 1;
   for (int i = 0; i < a->nplace && i < b->nplace; i++) {
     order = strcmp(a->place[i].key, b->place[i].key);
-    if (order == 0) order = compare_values(a->place[i].value, b->place[i].value);
+    if (order == 0) order = study_compare_values(a->place[i].value, b->place[i].value);
     if (order != 0) return order;
   }
   return a->nplace - b->nplace;

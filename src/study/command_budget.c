@@ -29,6 +29,7 @@ static const char help[] =
     "\n"
     "  -o, --output DIR     the folder, made if need be; default: out/MODEL-budget in this folder\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
+    "      --skip PART      leaves a part out, by its name in the table: space, of a large mesh\n"
     "  -j, --jobs N         so many runs at once; default: the number of processors\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           budget.json on stdout in place of the table\n"
@@ -45,11 +46,24 @@ static int complete(const json_t *budget) {
   return code;
 }
 
+static const struct option own[] = {{"skip", required_argument, NULL, 'K'}, {0}};
+
+static int take(void *context, int option, const char *value) {
+  (void)option;
+  bool *skip = context;
+  for (int k = 0; k < BUDGET_KINDS; k++)
+    if (strcmp(value, budget_names[k]) == 0) {
+      skip[k] = true;
+      return -1;
+    }
+  return usage_error("corot budget", "--skip %s: expected a part, such as space", value);
+}
+
 static int make_budget(void *context, const scenario *s, const variants_arguments *a) {
-  (void)context;
+  const bool *skip = context;
   json_t *budget = NULL;
   int signal_number = 0;
-  corot_status status = budget_make(s, a->nset, a->set, &a->options, &budget, &signal_number);
+  corot_status status = budget_make(s, a->nset, a->set, skip, &a->options, &budget, &signal_number);
   if (status != COROT_OK) return failure(status);
   if (signal_number) return variants_interrupted(signal_number);
   int code = complete(budget);
@@ -63,7 +77,13 @@ static int make_budget(void *context, const scenario *s, const variants_argument
 }
 
 int command_budget(int argc, char **argv) {
-  const variants_command c = {
-      .program = "corot budget", .help = help, .suffix = "budget", .go = make_budget};
+  bool skip[BUDGET_KINDS] = {false};
+  const variants_command c = {.program = "corot budget",
+                              .help = help,
+                              .suffix = "budget",
+                              .more = own,
+                              .take = take,
+                              .go = make_budget,
+                              .context = skip};
   return variants_command_run(&c, argc, argv);
 }

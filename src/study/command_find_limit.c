@@ -104,7 +104,8 @@ static int take(void *context, int option, const char *value) {
 
 /* --- Trials --- */
 
-/* The largest sum of kinetic and elastic energy; NaN where the table is empty. */
+/* The largest sum of kinetic and elastic energy, infinite if it ever is no number; NaN where the
+   table is empty. */
 static corot_status largest_energy(const char *dir, double *largest) {
   csv table;
   double *kinetic = NULL, *elastic = NULL;
@@ -112,8 +113,10 @@ static corot_status largest_energy(const char *dir, double *largest) {
   corot_status status = csv_numbers(&table, csv_find(&table, "kinetic"), &kinetic);
   if (status == COROT_OK) status = csv_numbers(&table, csv_find(&table, "elastic"), &elastic);
   *largest = NAN;
-  for (int i = 0; status == COROT_OK && i < table.nrow; i++)
-    *largest = fmax(*largest, kinetic[i] + elastic[i]);
+  for (int i = 0; status == COROT_OK && i < table.nrow; i++) {
+    double energy = kinetic[i] + elastic[i];
+    *largest = fmax(*largest, isnan(energy) ? INFINITY : energy);
+  }
   free(kinetic);
   free(elastic);
   csv_free(&table);
@@ -153,11 +156,10 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
     set[i] = text[i];
     v[i] = (variant){.label = strchr(text[i], '=') + 1, .nset = 1, .set = &set[i]};
   }
-  char title[256];
-  snprintf(title, sizeof title, "Limit of %.80s: %.100s", s->key,
-           *s->scenario->title ? s->scenario->title : s->scenario->path);
-  variants all = {.title = title,
-                  .scenario = s->scenario->path,
+  char what[SETTING_SIZE];
+  snprintf(what, sizeof what, "Limit of %s", s->key);
+  variants all = {.what = what,
+                  .scenario = s->scenario,
                   .nset = s->arguments->nset,
                   .set = s->arguments->set,
                   .nvariant = n,
@@ -221,6 +223,8 @@ static int conclude(const search *s, const limit_result *r) {
 static int ready(void *context, variants_arguments *a) {
   search *s = context;
   if (!s->key) return usage_error("corot find-limit", "--key is missing");
+  if (isnan(s->def.from)) return usage_error("corot find-limit", "--from is missing");
+  if (isnan(s->def.to)) return usage_error("corot find-limit", "--to is missing");
   snprintf(s->first, sizeof s->first, "%s=%.9g", s->key, s->def.from);
   a->set[a->nset++] = s->first;
   return -1;

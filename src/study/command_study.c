@@ -122,12 +122,8 @@ static int take_option(int answer, char **argv, arguments *a) {
 /* --- Running --- */
 
 static void announce(const manifest *m, const execute_options *o) {
-  int nown = 0;
-  for (int i = 0; i < m->ncell; i++) {
-    bool shared = false;
-    for (int k = 0; k < i && !shared; k++) shared = m->cell[k].run == m->cell[i].run;
-    nown += !shared;
-  }
+  int nown = 0; /* runs are numbered as cells first need them */
+  for (int i = 0; i < m->ncell; i++) nown += m->cell[i].run == nown;
   fprintf(stderr, "%s: %d cells, %d runs; %s\n", m->title, m->ncell, m->nrun, o->dir);
   if (nown < m->ncell)
     fprintf(stderr, "%d cells are the same run as another; each run is made once\n",

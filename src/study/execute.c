@@ -118,7 +118,7 @@ static void read_messages(const char *path, size_t size, char *text) {
 /* Why a run has left no result. */
 static void explain(int ended, size_t size, char *reason) {
   char said[1024];
-  snprintf(said, sizeof said, "%s", reason);
+  snprintf(said, sizeof said, "%.*s", (int)sizeof said - 1, reason);
   if (ended < 0)
     snprintf(reason, size, "killed by signal %d (%s)%s%s", -ended, strsignal(-ended),
              *said ? ": " : "", said);
@@ -158,6 +158,7 @@ static corot_status conclude(execution *e, int i, int ended) {
   }
   t->state = record.state;
   t->lost = record.state == RUN_MISSING;
+  e->nnew += record.state == RUN_DONE;
   e->nfailed += record.state == RUN_FAILED;
   if (record.state != RUN_DONE && !pool_signal()) tell_failure(e, t, reason);
   run_record_free(&record);
@@ -204,7 +205,6 @@ static corot_status run_all(execution *e) {
     COROT_TRY(store_clear(e->o->dir, e->task[i].run));
     COROT_TRY(execution_start(e, i, "", NULL));
     execution_show(e);
-    e->nnew++;
   }
   while (!pool_is_empty()) COROT_TRY(wait_one(e));
   return COROT_OK;

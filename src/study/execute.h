@@ -19,7 +19,7 @@ typedef struct execute_totals {
   int ndone;   /* of them, at the end */
   int nfailed; /* for a reason of their own, which is recorded */
   int nlost;   /* stopped from outside or for want of disk or memory: will be tried again */
-  int nnew;    /* carried out now */
+  int nnew;    /* of those done: now */
 } execute_totals;
 
 /* Runs first, side by side; then, one at a time, timed repetitions of those that belong to cells.

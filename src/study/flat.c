@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const char *const costs[] = {"cpu",      "cpu_min", "cpu_max", "wall",           "wall_min",
                                     "wall_max", "steps",   "rhs",     "factorisations", "solves",
@@ -30,10 +31,20 @@ static corot_status add_all(flat *f, const char *group, const char *prefix, size
   return COROT_OK;
 }
 
+/* To SQL, columns that differ in case alone are the same. */
 static bool among(const char *word, size_t n, const char *const *list) {
   for (size_t i = 0; i < n; i++)
-    if (strcmp(word, list[i]) == 0) return true;
+    if (strcasecmp(word, list[i]) == 0) return true;
   return false;
+}
+
+/* Whether a coordinate has the name of a column of ours. */
+static bool is_taken(const char *key) {
+  static const char *const prefix[] = {"cost.", "error.", "drift."};
+  for (size_t i = 0; i < COUNT(prefix); i++)
+    if (strncasecmp(key, prefix[i], strlen(prefix[i])) == 0) return true;
+  return among(key, COUNT(before), before) || among(key, COUNT(after), after) ||
+         among(key, COUNT(last), last);
 }
 
 /* The object of errors that has most to say: all of a study have the same names but for those of
@@ -51,9 +62,7 @@ static corot_status add_coordinates(flat *f, const json_t *columns) {
   for (size_t i = 0; i < json_array_size(columns); i++) {
     const char *key = json_string_value(json_array_get(columns, i));
     if (!key) return corot_fail(COROT_EFORMAT, "table.json: not a table of a study");
-    bool taken = among(key, COUNT(before), before) || among(key, COUNT(after), after) ||
-                 among(key, COUNT(last), last);
-    COROT_TRY(add(f, "settings", taken ? "settings." : "", key));
+    COROT_TRY(add(f, "settings", is_taken(key) ? "settings." : "", key));
   }
   return COROT_OK;
 }

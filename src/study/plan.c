@@ -106,7 +106,9 @@ static void coordinates(const cell *c, size_t size, char *text) {
 static corot_status read_scenario(const planner *p, const cell *c, int nset, const setting *set,
                                   scenario **out) {
   corot_status status = scenario_read_with(p->study->base, nset, set, out);
-  if (status == COROT_OK || status == COROT_ENOMEM || p->study->ncell == 1) return status;
+  bool made_up = !p->study->base_node->source->lines; /* no file: nobody can exclude its cells */
+  if (status == COROT_OK || status == COROT_ENOMEM || p->study->ncell == 1 || made_up)
+    return status;
   char text[512];
   coordinates(c, sizeof text, text);
   return corot_fail(status, "%s\n  (in the cell %s; exclude: leaves cells out)", corot_error(),

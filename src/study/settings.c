@@ -84,15 +84,29 @@ json_t *study_value_json(const config_node *value) {
   return json;
 }
 
-bool study_same_value(const config_node *a, const config_node *b) {
-  double x, y;
-  if (config_parse_number(a, &x) && config_parse_number(b, &y)) return x == y;
-  if (a->kind != b->kind) return false;
-  if (a->kind == CONFIG_SCALAR) return strcmp(a->text, b->text) == 0;
+static int compare_scalars(const config_node *a, const config_node *b) {
+  double x = 0, y = 0;
+  bool first = config_parse_number(a, &x), second = config_parse_number(b, &y);
+  if (first || second) return first && second ? (x > y) - (x < y) : second - first;
+  first = config_is_null(a);
+  second = config_is_null(b);
+  return first || second ? second - first : strcmp(a->text, b->text);
+}
+
+int study_compare_values(const config_node *a, const config_node *b) {
+  if (a->kind != b->kind) return (int)a->kind - (int)b->kind;
+  if (a->kind == CONFIG_SCALAR) return compare_scalars(a, b);
   const config_node *c = a->child, *d = b->child;
-  for (; c && d; c = c->next, d = d->next)
-    if ((c->key && strcmp(c->key, d->key) != 0) || !study_same_value(c, d)) return false;
-  return !c && !d;
+  for (; c && d; c = c->next, d = d->next) {
+    int order = c->key ? strcmp(c->key, d->key) : 0;
+    if (order == 0) order = study_compare_values(c, d);
+    if (order != 0) return order;
+  }
+  return (c != NULL) - (d != NULL);
+}
+
+bool study_same_value(const config_node *a, const config_node *b) {
+  return study_compare_values(a, b) == 0;
 }
 
 /* --- Settings --- */

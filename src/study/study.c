@@ -13,18 +13,6 @@ static const char *name_of(config *tree, const char *path) {
   return config_copy(tree, name, dot && dot > name ? (size_t)(dot - name) : strlen(name));
 }
 
-/* `file` as seen from the folder of `path`. */
-static const char *beside(config *tree, const char *path, const char *file) {
-  const char *slash = strrchr(path, '/');
-  size_t folder = slash && file[0] != '/' ? (size_t)(slash - path) + 1 : 0;
-  size_t length = strlen(file);
-  char *joined = config_alloc(tree, folder + length + 1, 1);
-  if (!joined) return NULL;
-  memcpy(joined, path, folder);
-  memcpy(joined + folder, file, length);
-  return joined;
-}
-
 /* The base must be there, and be a scenario. */
 static corot_status check_base(const study *s) {
   config *base = NULL;
@@ -45,7 +33,7 @@ static corot_status read_heads(study *s, const char *path) {
   s->base_node = config_find(root, "base");
   s->path = config_copy(s->tree, path, strlen(path));
   s->name = name_of(s->tree, path);
-  s->base = beside(s->tree, path, s->base_node->text);
+  s->base = config_beside(s->tree, path, s->base_node->text);
   if (!s->path || !s->name || !s->base) return no_memory();
   if (!*s->title) return config_fail(config_find(root, "study"), "the title is empty");
   s->repeat = (int)config_find(root, "repeat")->number;
@@ -113,7 +101,15 @@ static corot_status read_grids(study *s) {
   return COROT_OK;
 }
 
+static corot_status check_kind(config_node *root) {
+  const config_node *mesh = config_find(root, "mesh");
+  if (!mesh || config_find(root, "base")) return COROT_OK;
+  return config_fail_key(mesh,
+                         "this is a scenario; a study names one as its base, and what varies");
+}
+
 static corot_status read_all(study *s, const char *path) {
+  COROT_TRY(check_kind(s->tree->root));
   COROT_TRY(schema_apply(&study_schema, s->tree));
   COROT_TRY(read_heads(s, path));
   COROT_TRY(study_read_settings(s->tree, config_find(s->tree->root, "set"), &s->nset, &s->set));
@@ -122,8 +118,7 @@ static corot_status read_all(study *s, const char *path) {
   return study_make_cells(s);
 }
 
-/* Takes over the tree. */
-static corot_status from_tree(config *tree, const char *path, study **out) {
+corot_status study_from_tree(config *tree, const char *path, study **out) {
   study *s = calloc(1, sizeof *s);
   if (!s) {
     config_destroy(tree);
@@ -141,13 +136,13 @@ static corot_status from_tree(config *tree, const char *path, study **out) {
 corot_status study_read(const char *path, study **out) {
   config *tree = NULL;
   COROT_TRY(config_read(path, &tree));
-  return from_tree(tree, path, out);
+  return study_from_tree(tree, path, out);
 }
 
 corot_status study_read_text(const char *path, const char *text, size_t size, study **out) {
   config *tree = NULL;
   COROT_TRY(config_read_text(path, text, size, &tree));
-  return from_tree(tree, path, out);
+  return study_from_tree(tree, path, out);
 }
 
 void study_destroy(study *s) {

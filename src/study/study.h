@@ -69,6 +69,9 @@ typedef struct study {
 corot_status study_read(const char *path, study **out);
 corot_status study_read_text(const char *path, const char *text, size_t size, study **out);
 
+/* The same from a tree, which is taken over in any case. */
+corot_status study_from_tree(config *tree, const char *path, study **out);
+
 /* Takes NULL. */
 void study_destroy(study *s);
 
@@ -91,7 +94,10 @@ corot_status study_value_text(config *tree, const config_node *value, const char
 /* A value as JSON, numbers as such. NULL: no memory. */
 json_t *study_value_json(const config_node *value);
 
-/* Whether two values mean the same; 1e-3 and 0.001 do. */
+/* An order of values by what they mean, as of qsort: numbers before ~ and null before words. */
+int study_compare_values(const config_node *a, const config_node *b);
+
+/* Whether two values mean the same: 1e-3 and 0.001 do, 1 and "1" do not. */
 bool study_same_value(const config_node *a, const config_node *b);
 
 #endif

@@ -11,63 +11,110 @@
 
 static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
-/* --- As a study file --- */
+/* --- As a study --- */
 
-static void write_quoted(const char *text, FILE *out) {
-  json_t *string = json_string(text);
-  json_dumpf(string, out, JSON_ENCODE_ANY);
-  json_decref(string);
+static const config_source generated = {.name = "the variants of a scenario", .text = ""};
+
+/* A node under `key`; in a list, NULL. */
+static config_node *add(config *tree, config_node *parent, config_kind kind, const char *key) {
+  config_node *node = config_node_create(tree, kind);
+  if (!node) return NULL;
+  node->source = &generated;
+  node->key = key;
+  if (parent) config_append(parent, node);
+  return node;
 }
 
-/* A map with a line for each key; the last of equal ones counts. */
-static void write_settings(int indent, int nset, const char *const *set, FILE *out) {
-  int written = 0;
-  for (int i = 0; i < nset; i++) {
-    size_t length = strcspn(set[i], "=");
-    bool again = false;
-    for (int k = i + 1; k < nset; k++) again |= strncmp(set[i], set[k], length + 1) == 0;
-    if (again) continue;
-    fprintf(out, "\n%*s%.*s: %s", indent, "", (int)length, set[i], set[i] + length + 1);
-    written++;
+static corot_status add_text(config *tree, config_node *map, const char *key, const char *text) {
+  config_node *node = add(tree, map, CONFIG_SCALAR, key);
+  char *copy = config_copy(tree, text, strlen(text));
+  if (!node || !copy) return no_memory();
+  node->text = copy;
+  node->quoted = true;
+  return COROT_OK;
+}
+
+static bool is_at_or_below(const char *key, const char *above) {
+  size_t length = strlen(above);
+  return strncmp(key, above, length) == 0 && (key[length] == '\0' || key[length] == '.');
+}
+
+/* A later setting takes the place of those of the same key and below it; what then remains may be
+   applied in the order of the keys. */
+static corot_status add_setting(config *tree, config_node *map, const char *assignment) {
+  const char *key = NULL;
+  config_node *value = NULL;
+  COROT_TRY(config_parse_assignment(tree, assignment, &key, &value));
+  for (config_node *c = map->child, *next; c; c = next) {
+    next = c->next;
+    if (is_at_or_below(c->key, key)) config_remove(c);
   }
-  fputs(written ? "\n" : " {}\n", out);
+  value->key = key;
+  config_append(map, value);
+  return COROT_OK;
 }
 
-static void write_study(const variants *v, const char *base, FILE *out) {
-  fputs("study: ", out);
-  write_quoted(v->title, out);
-  fputs("\nbase: ", out);
-  write_quoted(base, out);
-  fputs("\nset:", out);
-  write_settings(2, v->nset, v->set, out);
-  fputs("axes:\n  - name: run\n    variants:\n", out);
+static corot_status add_settings(config *tree, config_node *parent, int nset,
+                                 const char *const *set) {
+  config_node *map = add(tree, parent, CONFIG_MAP, "set");
+  if (!map) return no_memory();
+  for (int i = 0; i < nset; i++) COROT_TRY(add_setting(tree, map, set[i]));
+  return COROT_OK;
+}
+
+static corot_status add_axis(config *tree, const variants *v, config_node *axes) {
+  config_node *entry = add(tree, axes, CONFIG_MAP, NULL);
+  if (!entry) return no_memory();
+  COROT_TRY(add_text(tree, entry, "name", "run"));
+  config_node *list = add(tree, entry, CONFIG_LIST, "variants");
+  if (!list) return no_memory();
   for (int i = 0; i < v->nvariant; i++) {
-    fputs("      - label: ", out);
-    write_quoted(v->variant[i].label, out);
-    fputs("\n        set:", out);
-    write_settings(10, v->variant[i].nset, v->variant[i].set, out);
+    config_node *item = add(tree, list, CONFIG_MAP, NULL);
+    if (!item) return no_memory();
+    COROT_TRY(add_text(tree, item, "label", v->variant[i].label));
+    COROT_TRY(add_settings(tree, item, v->variant[i].nset, v->variant[i].set));
   }
-  fputs("reference: none\n", out);
+  return COROT_OK;
 }
 
-static corot_status study_text(const variants *v, char **text, size_t *size) {
-  char *base = realpath(v->scenario, NULL);
-  if (!base) return corot_fail(COROT_EIO, "%s: cannot be found", v->scenario);
-  FILE *out = open_memstream(text, size);
-  if (out) write_study(v, base, out);
+static corot_status add_title(config *tree, const variants *v) {
+  const char *of = *v->scenario->title ? v->scenario->title : v->scenario->path;
+  size_t size = strlen(v->what) + strlen(of) + sizeof ": ";
+  char *title = config_alloc(tree, size, 1);
+  if (!title) return no_memory();
+  snprintf(title, size, "%s: %s", v->what, of);
+  return add_text(tree, tree->root, "study", title);
+}
+
+static corot_status fill(config *tree, const variants *v, const char *base) {
+  tree->root = add(tree, NULL, CONFIG_MAP, NULL);
+  if (!tree->root) return no_memory();
+  COROT_TRY(add_title(tree, v));
+  COROT_TRY(add_text(tree, tree->root, "base", base));
+  COROT_TRY(add_settings(tree, tree->root, v->nset, v->set));
+  config_node *axes = add(tree, tree->root, CONFIG_LIST, "axes");
+  if (!axes) return no_memory();
+  COROT_TRY(add_axis(tree, v, axes));
+  return add_text(tree, tree->root, "reference", "none");
+}
+
+static corot_status make_study(const variants *v, study **out) {
+  char *base = realpath(v->scenario->path, NULL);
+  if (!base)
+    return corot_fail(COROT_EIO, "%s: its absolute name cannot be found", v->scenario->path);
+  config *tree = calloc(1, sizeof *tree);
+  corot_status status = tree ? fill(tree, v, base) : no_memory();
   free(base);
-  return out && fclose(out) == 0 ? COROT_OK : no_memory();
+  if (status == COROT_OK) return study_from_tree(tree, "runs", out);
+  config_destroy(tree);
+  return status;
 }
 
 static corot_status plan(const variants *v, manifest **out) {
-  char *text = NULL;
-  size_t size = 0;
   study *s = NULL;
-  corot_status status = study_text(v, &text, &size);
-  if (status == COROT_OK) status = study_read_text("runs", text, size, &s);
-  if (status == COROT_OK) status = plan_study(s, out);
+  COROT_TRY(make_study(v, &s));
+  corot_status status = plan_study(s, out);
   study_destroy(s);
-  free(text);
   return status;
 }
 

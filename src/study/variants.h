@@ -12,10 +12,10 @@ typedef struct variant {
 } variant;
 
 typedef struct variants {
-  const char *title;    /* of the study that they make together */
-  const char *scenario; /* its path */
+  const char *what; /* they are for: the beginning of the title of the study that they make */
+  const scenario *scenario;
   int nset;
-  const char *const *set; /* [nset] "KEY=VALUE" for all of them */
+  const char *const *set; /* [nset] "KEY=VALUE" for all of them, in order; the scenario has them */
   int nvariant;
   const variant *variant; /* [nvariant] */
 } variants;

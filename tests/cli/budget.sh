@@ -46,16 +46,40 @@ out "frame rule"; out "sum of the parts"; out "The largest part is that of "
 expect 0 budget model.yaml -o exact --quiet --set strain=green --set time.end=0.05
 out "time integration"; grep -q "strain measure\|frame" stdout && complain "a part that is not there"
 
+# Overrides count in their order, as they do for `run`, and whatever is in them: a later map takes the
+# place of what was set below it.
+expect 0 budget model.yaml -o order --quiet --set strain=green --set time.end=0.02 \
+  --set integrator.rtol=1e-2 --set 'integrator={method: ida}' --set "title='a: \"b\", # c'"
+cat >given.py <<'PY'
+import json
+d = json.load(open('order/budget.json'))
+s = json.load(open('order/runs/%s/result.json' % d['runs'][0]['id']))['scenario']
+assert s['integrator']['method'] == 'ida' and s['integrator']['rtol'] == 1e-4, s['integrator']
+assert d['title'] == s['title'] == 'a: "b", # c', (d['title'], s['title'])
+PY
+python3 given.py || complain "the run as given is not what was given"
+
 # A run that fails leaves its part open: so many steps do for the run as given, not for a fine one.
 expect 1 budget model.yaml -o fails --quiet --set strain=green --set time.end=0.1 \
   --set integrator.rtol=1e-2 --set integrator.max_steps=40
 grep -q "^time integration  *?  *?  *?  *?  integrator.rtol=1e-06" stdout || complain "a part of a failed run"
 grep -q "^algebraic solver  *[0-9]" stdout || complain "the parts of runs that did not fail"
 
+# Parts may be left out, but not all of them.
+expect 0 budget model.yaml -o exact --quiet --set strain=green --set time.end=0.05 --skip space
+grep -q "^space" stdout && complain "a part that was left out"
+expect 0 budget model.yaml -o exact --quiet --set strain=green --set time.end=0.05 --skip space \
+  --skip "time integration"
+grep -q "^check of time  *?" stdout || complain "a check of nothing"
+expect 2 budget model.yaml --skip spice; err "--skip spice: expected a part"
+expect 3 budget model.yaml --set strain=green --skip space --skip "time integration" \
+  --skip "algebraic solver" -o nothing; err "nothing is left"; no_out
+
 expect 2 budget; err "expected one scenario, found 0"
 expect 2 budget model.yaml --jobs 0; err "--jobs 0: expected 1 to"
 expect 2 budget model.yaml --sett a=b; err "--sett"
 expect 3 budget none.yaml; err "none.yaml"; no_out
 expect 3 budget model.yaml --set strain=gren; err "did you mean green?"; no_out
+expect 3 budget model.yaml -o bad --set mesh.refine=99; err "--set mesh.refine=99: mesh.refine: "; no_out
 expect 0 budget --help; out "example: corot budget"; no_err
 exit $failed

@@ -32,10 +32,14 @@ out "not even 0.1 is stable"
 
 expect 2 find-limit model.yaml --from 1 --to 2; err "--key is missing"
 expect 2 find-limit model.yaml --key time.end --from 2 --to 1; err "expected 0 < from < to"
-expect 2 find-limit model.yaml --key time.end --from 1; err "from 1 to nan"
 expect 2 find-limit model.yaml --key time.end --from x; err "x: expected a number"
 expect 2 find-limit model.yaml --key time.end --from 1 --to 2 --energy 1; err "above 1"
 expect 2 find-limit model.yaml --key time.end --from 1 --to 2 --scan 1.5; err "a scan of 0 values"
 expect 3 find-limit model.yaml --key time.ende --from 1 --to 2; err "did you mean end?"
+expect 2 find-limit model.yaml --key time.end --to 2; err "--from is missing"
+expect 2 find-limit model.yaml --key time.end --from 1; err "--to is missing"
+expect 3 find-limit model.yaml --key integrator.max_order --from 1 --to 2 --scan 3
+err "--set integrator.max_order=1.41421356: integrator.max_order: "
+grep -q exclude stderr && complain "there is nothing to exclude cells with"
 expect 0 find-limit --help; out "example: corot find-limit"; no_err
 exit $failed

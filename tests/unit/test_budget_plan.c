@@ -33,7 +33,18 @@ static void parts_are_the_approximations_made(void **state) {
                "algebraic solver, time integration, strain measure, space");
   assert_kinds("mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 1}\n" MATERIAL TIME
                "hierarchy: {coarse_strain: green}\nframes: {policy: step}\n",
-               "algebraic solver, time integration, frame age, hierarchy, strain measure, space");
+               "algebraic solver, frame age, time integration, hierarchy, strain measure, space");
+}
+
+/* Fine steps in time would take the error of such frames away with that of time. */
+static void frames_as_old_as_steps_come_before_time(void **state) {
+  (void)state;
+  static const char order[] =
+      "algebraic solver, frame age, time integration, strain measure, space";
+  assert_kinds(MINIMAL "frames: {policy: step}\n", order);
+  assert_kinds(MINIMAL "frames: {policy: hold, max_angle: 0.1}\n", order);
+  assert_kinds(MINIMAL "frames: {policy: hold, interval: 0.1}\n",
+               "algebraic solver, time integration, frame age, strain measure, space");
 }
 
 /* All settings of the plan, one after the other, make scenarios; the last one has none of the
@@ -105,6 +116,7 @@ static void no_error_of_time_is_three_digits_less(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(parts_are_the_approximations_made),
+      cmocka_unit_test(frames_as_old_as_steps_come_before_time),
       cmocka_unit_test(settings_make_scenarios),
       cmocka_unit_test(no_error_of_time_is_three_digits_less),
   };

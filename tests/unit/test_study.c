@@ -133,6 +133,23 @@ static void references_belong_to_solids(void **state) {
   remove_folder(dir);
 }
 
+/* ~ and null are one value; 1 and "1" are two, and null none of them. */
+static void values_are_what_they_mean(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  manifest *m = planned(dir,
+                        "axes: [{key: title, values: [~, null, \"null\", \"1\", 1, 1.0]}]\n"
+                        "exclude: [{title: 1e0}]\n"
+                        "reference: none");
+  assert_int_equal(m->ncell, 3);
+  assert_true(json_is_null(json_object_get(m->cell[0].settings, "title")) +
+                  json_is_null(json_object_get(m->cell[1].settings, "title")) +
+                  json_is_null(json_object_get(m->cell[2].settings, "title")) ==
+              1);
+  manifest_destroy(m);
+  remove_folder(dir);
+}
+
 static void equal_runs_are_one(void **state) {
   (void)state;
   char *dir = temporary_folder();
@@ -212,6 +229,7 @@ int main(void) {
       cmocka_unit_test(excluded_and_grouped),
       cmocka_unit_test(the_order_of_axes_does_not_matter),
       cmocka_unit_test(references_belong_to_solids),
+      cmocka_unit_test(values_are_what_they_mean),
       cmocka_unit_test(equal_runs_are_one),
       cmocka_unit_test(as_read_from_its_file),
       cmocka_unit_test(failed_allocations),
