@@ -170,8 +170,9 @@ static double number_of(const json_t *object, const char *key) {
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-/* The largest part, and what to do about it. */
-static json_t *advice(const json_t *parts) {
+/* The largest part, and what to do about it. Parts of opposite directions may leave less than the
+   largest of them: then to take away one alone can make things worse. */
+static json_t *advice(const json_t *parts, double total) {
   const json_t *part, *largest = NULL;
   size_t i;
   json_array_foreach(parts, i, part) {
@@ -179,10 +180,14 @@ static json_t *advice(const json_t *parts) {
     if (isfinite(error) && (!largest || error > number_of(largest, "error"))) largest = part;
   }
   if (!largest) return json_null();
-  return json_sprintf("The largest part is that of %s, %.1e of the displacement. Change first: %s.",
-                      json_string_value(json_object_get(largest, "part")),
-                      number_of(largest, "error"),
-                      json_string_value(json_object_get(largest, "advice")));
+  char cancel[128] = "";
+  if (total < 0.7 * number_of(largest, "error"))
+    snprintf(cancel, sizeof cancel,
+             " Parts cancel one another: together they are %.1e; look at each alone.", total);
+  return json_sprintf(
+      "The largest part is that of %s, %.1e of the displacement. Change first: %s.%s",
+      json_string_value(json_object_get(largest, "part")), number_of(largest, "error"),
+      json_string_value(json_object_get(largest, "advice")), cancel);
 }
 
 static json_t *runs_json(const budgeting *b) {
@@ -212,8 +217,8 @@ static corot_status totals(const budgeting *b, json_t *parts, json_t **out) {
                    "parts", parts, "total", json_file_real(total.displacement.max), "total_end",
                    json_file_real(total.displacement.end), "total_probes", total.probes, "sum",
                    json_file_real(sum), "interaction", json_file_real(total.displacement.max - sum),
-                   "check", json_file_real(check.displacement.max), "first", advice(parts), "runs",
-                   runs_json(b));
+                   "check", json_file_real(check.displacement.max), "first",
+                   advice(parts, total.displacement.max), "runs", runs_json(b));
   if (status == COROT_OK && !*out) status = corot_fail(COROT_ENOMEM, "out of memory");
   return status;
 }

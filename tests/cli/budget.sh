@@ -28,6 +28,7 @@ assert 0 < d['total'] < 1.5 * d['sum'], d
 assert abs(d['interaction'] - (d['total'] - d['sum'])) < 1e-15
 largest = max(d['parts'], key=lambda p: p['error'])
 assert largest['part'] in d['first'] and largest['advice'] in d['first'], d['first']
+assert ('Parts cancel' in d['first']) == (d['total'] < 0.7 * largest['error']), d['first']
 # two methods agree on time's part far better than what it is
 assert d['check'] < 1e-2 * d['parts'][1]['error'], d['check']
 PY
