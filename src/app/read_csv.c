@@ -134,3 +134,9 @@ corot_status csv_numbers(const csv *t, int column, double **number) {
   *number = x;
   return COROT_OK;
 }
+
+corot_status csv_column(const csv *t, const char *name, double **number) {
+  int column = csv_find(t, name);
+  if (column < 0) return corot_fail(COROT_EFORMAT, "a table of the run has no column %s", name);
+  return csv_numbers(t, column, number);
+}

@@ -26,4 +26,7 @@ int csv_find(const csv *table, const char *name);
 /* The numbers of a column [nrow], NAN where there is none; the caller's to free. */
 corot_status csv_numbers(const csv *table, int column, double **number);
 
+/* The same of the column of that name. COROT_EFORMAT: there is none. */
+corot_status csv_column(const csv *table, const char *name, double **number);
+
 #endif

@@ -27,9 +27,7 @@ static void columns_free(columns *c) {
 
 static corot_status columns_begin(const csv *table, columns *c) {
   *c = (columns){.table = table};
-  int t = csv_find(table, "t");
-  if (t < 0) return corot_fail(COROT_EFORMAT, "a table of the run has no column t");
-  return csv_numbers(table, t, &c->t);
+  return csv_column(table, "t", &c->t);
 }
 
 /* Adds a column, if there is such a one, under another name. */
@@ -115,7 +113,6 @@ static corot_status step_chart(const run_folder *run, const step_figure *f, FILE
                            .y_label = f->label,
                            .y_log = f->log,
                            .time = true,
-
                            .whole = f->whole,
                            .nseries = c.n,
                            .series = c.series,

@@ -110,8 +110,8 @@ static corot_status largest_energy(const char *dir, double *largest) {
   csv table;
   double *kinetic = NULL, *elastic = NULL;
   COROT_TRY(csv_read(dir, "energy.csv", &table));
-  corot_status status = csv_numbers(&table, csv_find(&table, "kinetic"), &kinetic);
-  if (status == COROT_OK) status = csv_numbers(&table, csv_find(&table, "elastic"), &elastic);
+  corot_status status = csv_column(&table, "kinetic", &kinetic);
+  if (status == COROT_OK) status = csv_column(&table, "elastic", &elastic);
   *largest = NAN;
   for (int i = 0; status == COROT_OK && i < table.nrow; i++) {
     double energy = kinetic[i] + elastic[i];

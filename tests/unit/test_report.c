@@ -38,6 +38,10 @@ static void tables_are_read_back(void **state) {
   assert_ok(csv_numbers(&t, 1, &x));
   assert_true(x[0] == 1.5 && isnan(x[1]) && isnan(x[2]));
   free(x);
+  assert_ok(csv_column(&t, "t", &x));
+  assert_true(x[1] == 1e-3);
+  free(x);
+  assert_fails(csv_column(&t, "b", &x), COROT_EFORMAT, "no column b");
   csv_free(&t);
 
   assert_ok(csv_read_if_there(dir, "none.csv", &t));
