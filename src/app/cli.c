@@ -78,3 +78,11 @@ bool parse_three(const char *text, double number[3]) {
   memcpy(number, x, sizeof x);
   return true;
 }
+
+bool parse_count(const char *text, int most, int *number) {
+  char *end;
+  long n = strtol(text, &end, 10);
+  if (end == text || *end || n < 1 || n > most || text[0] == ' ' || text[0] == '+') return false;
+  *number = (int)n;
+  return true;
+}

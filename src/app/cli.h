@@ -48,4 +48,7 @@ int failure(corot_status status);
 /* Three numbers separated by commas. */
 bool parse_three(const char *text, double number[3]);
 
+/* A whole number from 1 to `most`. */
+bool parse_count(const char *text, int most, int *number);
+
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "folder.h"
 #include "warnings.h"
 
 static const struct option options[] = {
@@ -13,17 +14,6 @@ static const struct option options[] = {
     {"quiet", no_argument, NULL, 'q'},        {"json", no_argument, NULL, 'j'},
     {"help", no_argument, NULL, 'h'},         {0},
 };
-
-/* "out/NAME" for "some/folder/NAME.yaml"; the caller's to free. */
-static char *default_folder(const char *path) {
-  const char *slash = strrchr(path, '/');
-  const char *name = slash ? slash + 1 : path;
-  const char *dot = strrchr(name, '.');
-  size_t length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
-  char *folder = malloc(length + sizeof "out/");
-  if (folder) snprintf(folder, length + sizeof "out/", "out/%.*s", (int)length, name);
-  return folder;
-}
 
 static void heed_signals(void) {
   struct sigaction action = {.sa_handler = run_interrupt, .sa_flags = SA_RESTART};
@@ -39,7 +29,7 @@ static int read_and_go(scenario_action *go, const char *path, int noverride, cha
     failure(COROT_EFORMAT);
     return EXIT_SCENARIO;
   }
-  char *folder = o->dir ? NULL : default_folder(path);
+  char *folder = o->dir ? NULL : folder_default(path, "");
   if (folder) o->dir = folder;
   int code = EXIT_SYSTEM;
   if (o->dir) {
@@ -47,7 +37,7 @@ static int read_and_go(scenario_action *go, const char *path, int noverride, cha
     if (!o->quiet) warnings_print(s, "warning: ", stderr);
     code = go(s, o);
   } else {
-    fputs("out of memory\n", stderr);
+    failure(COROT_ENOMEM);
   }
   free(folder);
   scenario_destroy(s);

@@ -2,8 +2,7 @@
 #include <string.h>
 
 #include "config.h"
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
+#include "no_memory.h"
 
 /* The value, read with the whole assignment as its place. */
 static corot_status parse_value(config *tree, const char *assignment, config_node **out) {

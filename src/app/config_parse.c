@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "config.h"
+#include "no_memory.h"
 
 enum {
   MAX_SIZE = 16 << 20, /* bytes of a file */
@@ -38,8 +39,6 @@ typedef struct event {
   const char *anchor; /* NULL: none */
   bool quoted;
 } event;
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* --- Events --- */
 

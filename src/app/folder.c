@@ -45,6 +45,20 @@ char *folder_path(const char *dir, const char *name) {
   return path;
 }
 
+char *folder_default(const char *path, const char *suffix) {
+  const char *slash = strrchr(path, '/');
+  const char *name = slash ? slash + 1 : path;
+  const char *dot = strrchr(name, '.');
+  int length = (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name));
+  size_t size = (size_t)length + strlen(suffix) + sizeof "out/";
+  char *folder = malloc(size);
+  if (folder)
+    snprintf(folder, size, "out/%.*s%s", length, name, suffix);
+  else
+    corot_fail(COROT_ENOMEM, "out of memory");
+  return folder;
+}
+
 /* A file that is not there counts as removed. */
 static corot_status remove_file(const char *dir, const char *name) {
   char *path = folder_path(dir, name);

@@ -15,6 +15,10 @@ corot_status folder_clean(const char *dir);
 /* "DIR/NAME", the caller's to free; NULL where memory ran out (the message is set). */
 char *folder_path(const char *dir, const char *name);
 
+/* Where results go if nothing is said: "out/NAMESUFFIX" for "some/folder/NAME.yaml"; the caller's
+   to free, NULL as above. */
+char *folder_default(const char *path, const char *suffix);
+
 /* Opens `path` for writing from its beginning, made or emptied first. Stores a descriptor. */
 corot_status file_create(const char *path, int *fd);
 

@@ -1,5 +1,6 @@
 #include "json_text.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,3 +97,11 @@ void json_text_write(const json_t *value, FILE *out) {
   write_value(value, 0, out);
   fputc('\n', out);
 }
+
+void json_text_quote(const char *s, FILE *out) {
+  json_t *string = json_string(s);
+  json_dumpf(string, out, JSON_ENCODE_ANY);
+  json_decref(string);
+}
+
+json_t *json_text_real(double x) { return isfinite(x) ? json_real(x) : json_null(); }

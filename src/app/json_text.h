@@ -18,6 +18,12 @@ json_t *json_text_with(json_t *object, const char *key, json_t *value);
 /* A string; bytes that are not UTF-8, as file names may have, become '?'. */
 json_t *json_text_string(const char *s);
 
+/* A string in quotes, as JSON, YAML and Python read it. */
+void json_text_quote(const char *s, FILE *out);
+
+/* A number, or null for what is not finite. */
+json_t *json_text_real(double x);
+
 /* Writes a value in lines indented by two; lists of plain values stay on one. Errors are left in
    the stream. */
 void json_text_write(const json_t *value, FILE *out);

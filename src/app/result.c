@@ -18,11 +18,8 @@
 #define COMPILER "unknown"
 #endif
 
-/* JSON has no word for what is not finite. */
-static json_t *real(double x) { return isfinite(x) ? json_real(x) : json_null(); }
-
 /* Zero stands for what was not asked for. */
-static json_t *positive(double x) { return x > 0 ? real(x) : json_null(); }
+static json_t *positive(double x) { return x > 0 ? json_text_real(x) : json_null(); }
 
 static json_t *integer(long i) { return json_integer(i); }
 
@@ -41,7 +38,7 @@ static json_t *text(const char *s) {
 }
 
 static json_t *vector(const double x[3]) {
-  return json_pack("[o, o, o]", real(x[0]), real(x[1]), real(x[2]));
+  return json_pack("[o, o, o]", json_text_real(x[0]), json_text_real(x[1]), json_text_real(x[2]));
 }
 
 static json_t *mesh_part(const scenario *s, const corot_model *model) {
@@ -61,12 +58,12 @@ static json_t *frames_part(const scenario *s, const run_summary *run) {
   json_t *by = json_object();
   for (int i = COROT_FRAMES_KEPT + 1; i < FRAME_REASONS; i++)
     by = json_text_with(by, frame_reason_words[i], integer(run->frames.by[i]));
-  return json_pack("{s:s, s:o, s:o, s:s?, s:o, s:o, s:o, s:o, s:o}", "policy", s->frame_policy,
-                   "interval", positive(p->interval), "max_angle", positive(p->max_angle),
-                   "history", exact ? NULL : history[p->history], "updates",
-                   integer(run->frames.count), "updates_by", by, "angle_max",
-                   real(run->frames.angle_max), "angle_mean", real(run->frames.angle_mean),
-                   "energy", real(run->frames.energy));
+  return json_pack(
+      "{s:s, s:o, s:o, s:s?, s:o, s:o, s:o, s:o, s:o}", "policy", s->frame_policy, "interval",
+      positive(p->interval), "max_angle", positive(p->max_angle), "history",
+      exact ? NULL : history[p->history], "updates", integer(run->frames.count), "updates_by", by,
+      "angle_max", json_text_real(run->frames.angle_max), "angle_mean",
+      json_text_real(run->frames.angle_mean), "energy", json_text_real(run->frames.energy));
 }
 
 static json_t *jacobian_part(const corot_integrator_choice *c) {
@@ -82,11 +79,11 @@ static json_t *integrator_part(const scenario *s, const corot_integrator_choice 
   const corot_integrator_def *d = &s->integrator;
   const char *solution = d->solution == COROT_SOLUTION_LINEAR ? "linear" : "newton";
   return json_pack("{s:s?, s:s?, s:o, s:o, s:o, s:i, s:s?, s:o, s:s?, s:o}", "method", c->method,
-                   "linear_solver", c->linear_solver, "rtol", real(d->rtol), "atol_displacement",
-                   real(c->atol_displacement), "atol_velocity", real(c->atol_velocity), "max_order",
-                   c->max_order, "table", c->table && *c->table ? c->table : NULL, "step",
-                   positive(d->step), "solution", d->step > 0 ? solution : NULL, "jacobian",
-                   jacobian_part(c));
+                   "linear_solver", c->linear_solver, "rtol", json_text_real(d->rtol),
+                   "atol_displacement", json_text_real(c->atol_displacement), "atol_velocity",
+                   json_text_real(c->atol_velocity), "max_order", c->max_order, "table",
+                   c->table && *c->table ? c->table : NULL, "step", positive(d->step), "solution",
+                   d->step > 0 ? solution : NULL, "jacobian", jacobian_part(c));
 }
 
 static json_t *statistics_part(const run_summary *run) {
@@ -95,7 +92,7 @@ static json_t *statistics_part(const run_summary *run) {
       json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:i}", "nst", integer(n->nst), "nfe",
                 integer(n->nfe), "nsetups", integer(n->nsetups), "netf", integer(n->netf), "nni",
                 integer(n->nni), "ncfn", integer(n->ncfn), "nje", integer(n->nje), "nli",
-                integer(n->nli), "hlast", real(n->hlast), "qlast", n->qlast);
+                integer(n->nli), "hlast", json_text_real(n->hlast), "qlast", n->qlast);
   json_t *more = json_pack(
       "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor", integer(n->nfactor), "nsolve",
       integer(n->nsolve), "nfresh", integer(n->nfresh), "nindefinite", integer(n->nindefinite),
@@ -114,11 +111,13 @@ static json_t *timings_part(const run_summary *run) {
   double known = run->setup_s + n->force_s + n->assembly_s + n->combine_s + n->factor_s +
                  n->solve_s + n->work_s + n->integrator_s + run->frames_s + run->output_s;
   return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "setup",
-                   real(run->setup_s), "force", real(n->force_s), "assembly", real(n->assembly_s),
-                   "combine", real(n->combine_s), "factor", real(n->factor_s), "solve",
-                   real(n->solve_s), "work", real(n->work_s), "integrator", real(n->integrator_s),
-                   "frames", real(run->frames_s), "output", real(run->output_s), "other",
-                   real(run->wall_s - known), "wall", real(run->wall_s), "cpu", real(run->cpu_s));
+                   json_text_real(run->setup_s), "force", json_text_real(n->force_s), "assembly",
+                   json_text_real(n->assembly_s), "combine", json_text_real(n->combine_s), "factor",
+                   json_text_real(n->factor_s), "solve", json_text_real(n->solve_s), "work",
+                   json_text_real(n->work_s), "integrator", json_text_real(n->integrator_s),
+                   "frames", json_text_real(run->frames_s), "output", json_text_real(run->output_s),
+                   "other", json_text_real(run->wall_s - known), "wall",
+                   json_text_real(run->wall_s), "cpu", json_text_real(run->cpu_s));
 }
 
 /* Bytes; `peak` is the largest resident set of the process so far. */
@@ -146,10 +145,11 @@ static json_t *probes_part(const outputs *o) {
 
 static json_t *energy_part(const outputs *o) {
   ledger e = outputs_ledger(o);
-  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "t", real(e.t), "kinetic",
-                   real(e.kinetic), "elastic", real(e.elastic), "dissipated", real(e.dissipated),
-                   "external_work", real(e.external_work), "balance", real(e.balance),
-                   "frame_energy", real(e.frame_energy), "momentum", vector(e.momentum),
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "t", json_text_real(e.t),
+                   "kinetic", json_text_real(e.kinetic), "elastic", json_text_real(e.elastic),
+                   "dissipated", json_text_real(e.dissipated), "external_work",
+                   json_text_real(e.external_work), "balance", json_text_real(e.balance),
+                   "frame_energy", json_text_real(e.frame_energy), "momentum", vector(e.momentum),
                    "angular_momentum", vector(e.angular_momentum));
 }
 
@@ -165,9 +165,10 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       "{s:o, s:s, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o,"
       " s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "exit_code",
-      run->exit_code, "t_reached", real(run->t_reached), "t_end", real(s->t_end), "warnings",
-      warnings_list(s), "strain", corot_model_strain(run->model), "mesh", mesh_part(s, run->model),
-      "frames", run->statics ? json_null() : frames_part(s, run), "integrator",
+      run->exit_code, "t_reached", json_text_real(run->t_reached), "t_end",
+      json_text_real(s->t_end), "warnings", warnings_list(s), "strain",
+      corot_model_strain(run->model), "mesh", mesh_part(s, run->model), "frames",
+      run->statics ? json_null() : frames_part(s, run), "integrator",
       run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "config.h"
+#include "no_memory.h"
 #include "scenario.h"
 
 /* boundary and loads */
@@ -23,8 +24,6 @@ corot_status scenario_read_hierarchy(scenario *s);
 
 /* start and statics, after linear_solver */
 corot_status scenario_read_statics(scenario *s);
-
-static inline corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 static inline double number_at(config_node *node, const char *path) {
   return config_find(node, path)->number;

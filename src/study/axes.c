@@ -1,11 +1,10 @@
 /* The axes of a study: each becomes a list of points, whatever way it is written. */
+#include <app/no_memory.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "study.h"
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* The value as one given for a key that is written elsewhere. */
 static corot_status value_for(config *tree, const config_node *key, const char *name,

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <app/json_text.h>
+#include <report/lookup.h>
 
 #include "budget_plan.h"
 #include "errors.h"
@@ -119,7 +120,7 @@ static json_t *probe_distances(const budgeting *b, const errors *e) {
     error_pair of = e->of[ERROR_PROBES + i];
     all = json_text_with(
         all, b->scenario->probe[i].name,
-        json_pack("{s:o, s:o}", "max", json_file_real(of.max), "end", json_file_real(of.end)));
+        json_pack("{s:o, s:o}", "max", json_text_real(of.max), "end", json_text_real(of.end)));
   }
   return all;
 }
@@ -153,10 +154,10 @@ static corot_status part_json(const budgeting *b, int i, json_t **out) {
   corot_status status = measure(b, 0, alone_run(b, i), &alone);
   *out = json_pack(
       "{s:s, s:o, s:o, s:o, s:o, s:o, s:o?, s:o, s:s}", "part", budget_names[part->kind], "pair",
-      settings_text(part), "error", json_file_real(chain.displacement.max), "end",
-      json_file_real(chain.displacement.end), "alone", json_file_real(alone.displacement.max),
-      "alone_end", json_file_real(alone.displacement.end), "probes", chain.probes, "cost",
-      json_file_real(b->cpu[alone_run(b, i)] / b->cpu[0]), "advice", budget_remedies[part->kind]);
+      settings_text(part), "error", json_text_real(chain.displacement.max), "end",
+      json_text_real(chain.displacement.end), "alone", json_text_real(alone.displacement.max),
+      "alone_end", json_text_real(alone.displacement.end), "probes", chain.probes, "cost",
+      json_text_real(b->cpu[alone_run(b, i)] / b->cpu[0]), "advice", budget_remedies[part->kind]);
   json_decref(alone.probes);
   if (status != COROT_OK) {
     json_decref(*out);
@@ -165,28 +166,23 @@ static corot_status part_json(const budgeting *b, int i, json_t **out) {
   return status;
 }
 
-static double number_of(const json_t *object, const char *key) {
-  const json_t *value = json_object_get(object, key);
-  return json_is_number(value) ? json_number_value(value) : NAN;
-}
-
 /* The largest part, and what to do about it. Parts of opposite directions may leave less than the
    largest of them: then to take away one alone can make things worse. */
 static json_t *advice(const json_t *parts, double total) {
   const json_t *part, *largest = NULL;
   size_t i;
   json_array_foreach(parts, i, part) {
-    double error = number_of(part, "error");
-    if (isfinite(error) && (!largest || error > number_of(largest, "error"))) largest = part;
+    double error = lookup_number(part, "error");
+    if (isfinite(error) && (!largest || error > lookup_number(largest, "error"))) largest = part;
   }
   if (!largest) return json_null();
   char cancel[128] = "";
-  if (total < 0.7 * number_of(largest, "error"))
+  if (total < 0.7 * lookup_number(largest, "error"))
     snprintf(cancel, sizeof cancel,
              " Parts cancel one another: together they are %.1e; look at each alone.", total);
   return json_sprintf(
       "The largest part is that of %s, %.1e of the displacement. Change first: %s.%s",
-      json_string_value(json_object_get(largest, "part")), number_of(largest, "error"),
+      json_string_value(json_object_get(largest, "part")), lookup_number(largest, "error"),
       json_string_value(json_object_get(largest, "advice")), cancel);
 }
 
@@ -195,7 +191,7 @@ static json_t *runs_json(const budgeting *b) {
   for (int i = 0; i < b->nrun; i++)
     json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:o}", "run", b->label[i], "id",
                                           b->manifest->run[b->run[i]].id, "status", b->status[i],
-                                          "cpu", json_file_real(b->cpu[i])));
+                                          "cpu", json_text_real(b->cpu[i])));
   return list;
 }
 
@@ -205,7 +201,7 @@ static corot_status totals(const budgeting *b, json_t *parts, json_t **out) {
   double sum = 0;
   for (int i = 0; i < b->plan.npart; i++) {
     if (b->plan.part[i].kind == BUDGET_TIME) ntime = i;
-    sum += number_of(json_array_get(parts, (size_t)i), "error");
+    sum += lookup_number(json_array_get(parts, (size_t)i), "error");
   }
   COROT_TRY(measure(b, 0, chain_run(b->plan.npart - 1), &total));
   corot_status status = COROT_OK;
@@ -214,10 +210,10 @@ static corot_status totals(const budgeting *b, json_t *parts, json_t **out) {
   *out = json_pack("{s:o, s:s, s:s, s:O, s:o, s:o, s:o?, s:o, s:o, s:o, s:o, s:o}", "title",
                    json_text_string(b->scenario->title), "scenario", b->scenario->path, "measure",
                    "displacement in the mass norm, relative to its largest; largest over time",
-                   "parts", parts, "total", json_file_real(total.displacement.max), "total_end",
-                   json_file_real(total.displacement.end), "total_probes", total.probes, "sum",
-                   json_file_real(sum), "interaction", json_file_real(total.displacement.max - sum),
-                   "check", json_file_real(check.displacement.max), "first",
+                   "parts", parts, "total", json_text_real(total.displacement.max), "total_end",
+                   json_text_real(total.displacement.end), "total_probes", total.probes, "sum",
+                   json_text_real(sum), "interaction", json_text_real(total.displacement.max - sum),
+                   "check", json_text_real(check.displacement.max), "first",
                    advice(parts, total.displacement.max), "runs", runs_json(b));
   if (status == COROT_OK && !*out) status = corot_fail(COROT_ENOMEM, "out of memory");
   return status;
@@ -287,10 +283,10 @@ void budget_print(const json_t *budget, FILE *out) {
           "taken away by");
   json_array_foreach(parts, i, part) {
     fprintf(out, "%-18s", json_string_value(json_object_get(part, "part")));
-    print_error(number_of(part, "error"), out);
-    print_error(number_of(part, "end"), out);
-    print_error(number_of(part, "alone"), out);
-    double cost = number_of(part, "cost");
+    print_error(lookup_number(part, "error"), out);
+    print_error(lookup_number(part, "end"), out);
+    print_error(lookup_number(part, "alone"), out);
+    double cost = lookup_number(part, "cost");
     if (isfinite(cost))
       fprintf(out, "  %5.3g", cost);
     else
@@ -298,14 +294,14 @@ void budget_print(const json_t *budget, FILE *out) {
     fprintf(out, "  %s\n", json_string_value(json_object_get(part, "pair")));
   }
   fprintf(out, "%-18s", "total");
-  print_error(number_of(budget, "total"), out);
-  print_error(number_of(budget, "total_end"), out);
+  print_error(lookup_number(budget, "total"), out);
+  print_error(lookup_number(budget, "total_end"), out);
   fprintf(out, "\n%-18s", "sum of the parts");
-  print_error(number_of(budget, "sum"), out);
+  print_error(lookup_number(budget, "sum"), out);
   fprintf(out, "\n%-18s", "interaction");
-  print_error(number_of(budget, "interaction"), out);
+  print_error(lookup_number(budget, "interaction"), out);
   fprintf(out, "\n%-18s", "check of time");
-  print_error(number_of(budget, "check"), out);
+  print_error(lookup_number(budget, "check"), out);
   fputs("\n", out);
   const char *first = json_string_value(json_object_get(budget, "first"));
   if (first) fprintf(out, "%s\n", first);

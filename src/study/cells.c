@@ -1,5 +1,6 @@
 /* From grids to cells: all combinations, less those excluded, in an order that does not depend on
    how the file is written. */
+#include <app/no_memory.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +10,6 @@
 #include "study.h"
 
 enum { MAX_CELLS = 100000, MAX_COLUMNS = 64 };
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* --- Columns --- */
 

@@ -1,5 +1,7 @@
 #include "collect.h"
 
+#include <app/json_text.h>
+#include <app/no_memory.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +9,6 @@
 #include "collect_parts.h"
 #include "flat.h"
 #include "json_file.h"
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 int measure_named(const char *name) {
   for (int i = 0; i < ERROR_PROBES; i++)
@@ -102,8 +102,8 @@ static const char *const state_words[] = {"missing", "done", "failed"};
 static void set_pair(json_t *object, const char *name, const error_pair *e) {
   char end[160];
   snprintf(end, sizeof end, "%s_end", name);
-  json_object_set_new(object, name, json_file_real(e->max));
-  json_object_set_new(object, end, json_file_real(e->end));
+  json_object_set_new(object, name, json_text_real(e->max));
+  json_object_set_new(object, end, json_text_real(e->end));
 }
 
 static void error_name(const yardstick *y, int i, size_t size, char *name) {
@@ -138,7 +138,7 @@ json_t *errors_unrated(const yardstick *y, const errors *e, const errors *floor)
 static json_t *digits(const errors *e, const errors *floor) {
   const error_pair *mixed = &e->of[ERROR_MIXED];
   bool rated = !floor || is_rated(mixed, &floor->of[ERROR_MIXED], true);
-  return rated && mixed->end > 0 ? json_file_real(-log10(mixed->end)) : json_null();
+  return rated && mixed->end > 0 ? json_text_real(-log10(mixed->end)) : json_null();
 }
 
 static json_t *owned(json_t *value) { return value ? json_incref(value) : json_null(); }
@@ -148,11 +148,11 @@ static json_t *cell_json(const table_rows *t, const table_row *r) {
   const table_reference *reference = r->measured ? &t->reference[c->reference] : NULL;
   const errors *floor = reference ? &reference->floor : NULL;
   bool below = floor && !is_rated(&r->error.of[t->measure], &floor->of[t->measure], false);
-  json_t *drifts = json_pack("{s:o, s:o}", "energy", json_file_real(r->drift.energy), "momentum",
-                             json_file_real(r->drift.momentum));
+  json_t *drifts = json_pack("{s:o, s:o}", "energy", json_text_real(r->drift.energy), "momentum",
+                             json_text_real(r->drift.momentum));
   return json_pack("{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:s?}",
                    "id", r->run->id, "series", c->series, "settings", c->settings, "tolerance",
-                   json_file_real(c->tolerance), "tolerance_key", c->tolerance_key, "status",
+                   json_text_real(c->tolerance), "tolerance_key", c->tolerance_key, "status",
                    state_words[r->state], "reason", r->reason, "cost",
                    r->state == RUN_DONE ? costs_json(&r->cost) : json_null(), "error",
                    owned(r->error_json), "digits", floor ? digits(&r->error, floor) : json_null(),
@@ -184,7 +184,7 @@ static json_t *reference_json(const manifest *m, const table_reference *t) {
       m->run[r->run[0]].id, m->run[r->run[1]].id, "methods", r->method[0], r->method[1], "rtol",
       r->rtol, "settings", r->settings, "status", state_words[t->state], "reason", t->reason,
       "agree", t->known ? json_boolean(isnan(t->floor.parting)) : json_null(), "parts_at",
-      t->known ? json_file_real(t->floor.parting) : json_null(), "floor", owned(t->floor_json),
+      t->known ? json_text_real(t->floor.parting) : json_null(), "floor", owned(t->floor_json),
       "digits", t->known ? digits(&t->floor, NULL) : json_null(), "note", text);
 }
 

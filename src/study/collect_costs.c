@@ -1,10 +1,10 @@
 /* What a run has cost. */
+#include <app/json_text.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "collect_parts.h"
-#include "json_file.h"
 
 static const struct {
   const char *name;
@@ -43,7 +43,7 @@ json_t *costs_json(const costs *c) {
     bool count = i >= 6;
     json_object_set_new(
         json, named[i].name,
-        count && isfinite(value) ? json_integer((json_int_t)value) : json_file_real(value));
+        count && isfinite(value) ? json_integer((json_int_t)value) : json_text_real(value));
   }
   json_object_set_new(json, "repeats", json_integer(c->repeats));
   return json;

@@ -1,11 +1,10 @@
 /* Trajectories from the folders of runs, and the model they belong to. */
 #include <app/hash.h>
+#include <app/no_memory.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "collect_parts.h"
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* All that a yardstick depends on: the scenario without what only the solution depends on. */
 static char *yardstick_key(const json_t *result) {

@@ -1,11 +1,11 @@
 /* What is said of whole series: how errors follow tolerances, and which is the cheapest. */
+#include <app/json_text.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "collect_parts.h"
 #include "fit.h"
-#include "json_file.h"
 
 static const error_pair *floor_of(const table_rows *t, const table_row *r) {
   int k = r->cell->reference;
@@ -35,8 +35,8 @@ static json_t *fit_json(const table_row *r, const power_fit *f) {
   const char *key = r->cell->tolerance_key;
   fit_verdict(f, key && strstr(key, "tol"), sizeof words, words);
   return json_pack("{s:s, s:s?, s:o, s:o, s:o, s:i, s:s}", "series", r->cell->series,
-                   "tolerance_key", key, "exponent", json_file_real(f->exponent), "constant",
-                   json_file_real(f->constant), "residual", json_file_real(f->residual), "points",
+                   "tolerance_key", key, "exponent", json_text_real(f->exponent), "constant",
+                   json_text_real(f->constant), "residual", json_text_real(f->residual), "points",
                    f->n, "verdict", words);
 }
 
@@ -106,8 +106,8 @@ static json_t *ranking(const table_rows *t, double target, ranked *best) {
     const study_cell *c = best[i].row->cell;
     json_array_append_new(
         list, json_pack("{s:s, s:s, s:o, s:o, s:s?}", "series", c->series, "id",
-                        best[i].row->run->id, "cost", json_file_real(best[i].cost), "tolerance",
-                        json_file_real(c->tolerance), "tolerance_key", c->tolerance_key));
+                        best[i].row->run->id, "cost", json_text_real(best[i].cost), "tolerance",
+                        json_text_real(c->tolerance), "tolerance_key", c->tolerance_key));
   }
   return json_pack("{s:f, s:o}", "error", target, "best", list);
 }

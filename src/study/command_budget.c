@@ -80,7 +80,7 @@ int command_budget(int argc, char **argv) {
   bool skip[BUDGET_KINDS] = {false};
   const variants_command c = {.program = "corot budget",
                               .help = help,
-                              .suffix = "budget",
+                              .suffix = "-budget",
                               .more = own,
                               .take = take,
                               .go = make_budget,

@@ -188,8 +188,8 @@ static json_t *result_json(const search *s, const limit_result *r) {
   return json_pack("{s:o, s:s, s:s, s:o, s:o, s:i, s:f, s:o, s:o}", "title",
                    json_text_string(s->scenario->title), "scenario", s->scenario->path, "key",
                    s->key, "stable", r->stable > 0 ? json_real(r->stable) : json_null(), "unstable",
-                   json_file_real(r->unstable), "stable_again", r->nreturn, "energy_factor",
-                   s->factor, "energy", json_file_real(s->energy), "trials", trials);
+                   json_text_real(r->unstable), "stable_again", r->nreturn, "energy_factor",
+                   s->factor, "energy", json_text_real(s->energy), "trials", trials);
 }
 
 static void print_result(const search *s, const limit_result *r) {
@@ -253,7 +253,7 @@ int command_find_limit(int argc, char **argv) {
       .def = {.from = NAN, .to = NAN, .nscan = 9, .precision = 0.02}, .factor = 2, .energy = NAN};
   const variants_command c = {.program = "corot find-limit",
                               .help = help,
-                              .suffix = "limit",
+                              .suffix = "-limit",
                               .more = own,
                               .take = take,
                               .ready = ready,

@@ -72,14 +72,6 @@ typedef struct arguments {
   bool dry;
 } arguments;
 
-static bool parse_count(const char *text, int most, int *out) {
-  char *end;
-  long n = strtol(text, &end, 10);
-  if (end == text || *end || n < 1 || n > most || text[0] == ' ' || text[0] == '+') return false;
-  *out = (int)n;
-  return true;
-}
-
 static bool parse_shard(const char *text, int *shard, int *nshard) {
   char first[16];
   size_t length = strcspn(text, "/");
@@ -198,9 +190,7 @@ static int run_study(const char *path, arguments *a) {
 }
 
 static int command_study_run(int argc, char **argv) {
-  long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  arguments a = {.o = {.shard = 1, .nshard = 1, .progress = true}};
-  a.o.njob = processors < 1 ? 1 : processors > POOL_MAX ? POOL_MAX : (int)processors;
+  arguments a = {.o = execute_defaults()};
   int code = -1;
   opterr = 0;
   for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":o:j:qh", options, NULL)) != -1;)

@@ -1,6 +1,7 @@
 #include "execute.h"
 
 #include <app/clock.h>
+#include <app/no_memory.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +12,11 @@
 #include "json_file.h"
 #include "pool.h"
 
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
+execute_options execute_defaults(void) {
+  long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  int njob = processors < 1 ? 1 : processors > POOL_MAX ? POOL_MAX : (int)processors;
+  return (execute_options){.njob = njob, .shard = 1, .nshard = 1, .progress = true};
+}
 
 /* --- What there is to do --- */
 

@@ -14,6 +14,9 @@ typedef struct execute_options {
   bool expects_failures; /* of runs: they are no errors then, and not told */
 } execute_options;
 
+/* All of it, on all processors, with progress. */
+execute_options execute_defaults(void);
+
 typedef struct execute_totals {
   int nrun;    /* in this shard */
   int ndone;   /* of them, at the end */

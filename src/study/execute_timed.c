@@ -1,11 +1,10 @@
 /* Repetitions for the clock: alone on the machine, without output that grows with the mesh. */
+#include <app/no_memory.h>
 #include <stdlib.h>
 
 #include "execute_parts.h"
 #include "json_file.h"
 #include "pool.h"
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* The times of the repetition that has just ended; false: it left none. */
 static corot_status read_times(execution *e, const study_run *run, double *cpu, double *wall,

@@ -1,5 +1,6 @@
 #include "export.h"
 
+#include <app/json_text.h>
 #include <stdlib.h>
 
 /* As one word for a shell. */
@@ -54,13 +55,6 @@ void export_slurm(const manifest *m, const export_target *t, FILE *out) {
   fprintf(out, " --shard \"$SLURM_ARRAY_TASK_ID/%d\"\n", ntask);
 }
 
-/* JSON's strings are Python's. */
-static void write_string(const char *text, FILE *out) {
-  json_t *string = json_string(text);
-  json_dumpf(string, out, JSON_ENCODE_ANY);
-  json_decref(string);
-}
-
 static void write_dictionary(const manifest *m, FILE *out) {
   fputs("RUNS = {\n", out);
   for (int i = 0; i < m->nrun; i++) {
@@ -71,7 +65,7 @@ static void write_dictionary(const manifest *m, FILE *out) {
     write_sets(&m->run[i], sets);
     fclose(sets);
     fprintf(out, "    \"%s\": ", m->run[i].id);
-    write_string(text, out);
+    json_text_quote(text, out);
     fputs(",\n", out);
     free(text);
   }
@@ -81,11 +75,11 @@ static void write_dictionary(const manifest *m, FILE *out) {
 void export_snakemake(const manifest *m, const export_target *t, FILE *out) {
   fprintf(out, "# %s: %d runs. snakemake --snakefile THIS --cores all\n", m->title, m->nrun);
   fputs("PROGRAM = ", out);
-  write_string(t->program, out);
+  json_text_quote(t->program, out);
   fputs("\nBASE = ", out);
-  write_string(m->base, out);
+  json_text_quote(m->base, out);
   fputs("\nDIR = ", out);
-  write_string(t->dir, out);
+  json_text_quote(t->dir, out);
   fputc('\n', out);
   write_dictionary(m, out);
   fputs(

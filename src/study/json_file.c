@@ -3,7 +3,6 @@
 #include <app/folder.h>
 #include <app/json_text.h>
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,5 +53,3 @@ corot_status json_file_write(const char *dir, const char *name, const json_t *va
   free(path);
   return status;
 }
-
-json_t *json_file_real(double x) { return isfinite(x) ? json_real(x) : json_null(); }

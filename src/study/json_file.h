@@ -12,7 +12,4 @@ corot_status json_file_read(const char *path, json_t **out);
 /* Puts DIR/NAME in place as a whole, on the disk when it returns. */
 corot_status json_file_write(const char *dir, const char *name, const json_t *value);
 
-/* A number, or null for what is not finite. */
-json_t *json_file_real(double x);
-
 #endif

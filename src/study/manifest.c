@@ -1,6 +1,7 @@
 #include "manifest.h"
 
 #include <app/folder.h>
+#include <app/no_memory.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +13,6 @@
 static corot_status malformed(const char *where, const char *what) {
   return corot_fail(COROT_EFORMAT, "%s: not the description of a study: %s", where, what);
 }
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 static const char *text_of(const json_t *object, const char *key) {
   return json_string_value(json_object_get(object, key));

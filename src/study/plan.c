@@ -3,6 +3,7 @@
 
 #include <app/hash.h>
 #include <app/json_text.h>
+#include <app/no_memory.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,8 +17,6 @@ typedef struct planner {
   double tightest;                   /* rtol of the cells */
   setting quiet, binary;             /* no fields, but states */
 } planner;
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* --- Settings that stand in no file --- */
 

@@ -1,10 +1,10 @@
 /* Keys of a scenario and values for them, as a study file writes them. */
+#include <app/json_text.h>
+#include <app/no_memory.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "study.h"
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* --- Values --- */
 
@@ -15,16 +15,9 @@ static bool is_plain(const char *text) {
   return length > 0 && strspn(text, safe) == length && text[0] != ' ' && text[length - 1] != ' ';
 }
 
-/* JSON's quotes are YAML's. */
-static void write_quoted(const char *text, FILE *out) {
-  json_t *string = json_string(text);
-  json_dumpf(string, out, JSON_ENCODE_ANY);
-  json_decref(string);
-}
-
 static void write_word(const char *text, bool quoted, FILE *out) {
   if (quoted || !is_plain(text))
-    write_quoted(text, out);
+    json_text_quote(text, out);
   else
     fputs(text, out);
 }

@@ -1,14 +1,13 @@
 #include "store.h"
 
 #include <app/folder.h>
+#include <app/no_memory.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "json_file.h"
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 char *store_path(const char *dir, const study_run *run, const char *name) {
   size_t size = strlen(dir) + strlen(run->id) + strlen(name) + sizeof "/runs//";

@@ -1,9 +1,8 @@
 #include "study.h"
 
+#include <app/no_memory.h>
 #include <stdlib.h>
 #include <string.h>
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* The file's name without folder and ending. */
 static const char *name_of(config *tree, const char *path) {

@@ -1,15 +1,12 @@
-#define _XOPEN_SOURCE 700 /* realpath */
-
 #include "variants.h"
 
+#include <app/no_memory.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "plan.h"
 #include "store.h"
-
-static corot_status no_memory(void) { return corot_fail(COROT_ENOMEM, "out of memory"); }
 
 /* --- As a study --- */
 
@@ -86,11 +83,11 @@ static corot_status add_title(config *tree, const variants *v) {
   return add_text(tree, tree->root, "study", title);
 }
 
-static corot_status fill(config *tree, const variants *v, const char *base) {
+static corot_status fill(config *tree, const variants *v) {
   tree->root = add(tree, NULL, CONFIG_MAP, NULL);
   if (!tree->root) return no_memory();
   COROT_TRY(add_title(tree, v));
-  COROT_TRY(add_text(tree, tree->root, "base", base));
+  COROT_TRY(add_text(tree, tree->root, "base", v->scenario->path));
   COROT_TRY(add_settings(tree, tree->root, v->nset, v->set));
   config_node *axes = add(tree, tree->root, CONFIG_LIST, "axes");
   if (!axes) return no_memory();
@@ -99,12 +96,8 @@ static corot_status fill(config *tree, const variants *v, const char *base) {
 }
 
 static corot_status make_study(const variants *v, study **out) {
-  char *base = realpath(v->scenario->path, NULL);
-  if (!base)
-    return corot_fail(COROT_EIO, "%s: its absolute name cannot be found", v->scenario->path);
   config *tree = calloc(1, sizeof *tree);
-  corot_status status = tree ? fill(tree, v, base) : no_memory();
-  free(base);
+  corot_status status = tree ? fill(tree, v) : no_memory();
   if (status == COROT_OK) return study_from_tree(tree, "runs", out);
   config_destroy(tree);
   return status;

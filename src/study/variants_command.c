@@ -1,10 +1,10 @@
 #include "variants_command.h"
 
 #include <app/cli.h>
+#include <app/folder.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "pool.h"
 
@@ -18,15 +18,6 @@ enum { NCOMMON = sizeof common / sizeof *common, NOPTION = 32 };
 
 /* --- Arguments --- */
 
-static int take_jobs(const variants_command *c, const char *text, int *njob) {
-  char *end;
-  long n = strtol(text, &end, 10);
-  if (end == text || *end || n < 1 || n > POOL_MAX)
-    return usage_error(c->program, "--jobs %s: expected 1 to %d", text, POOL_MAX);
-  *njob = (int)n;
-  return -1;
-}
-
 /* -1, or an exit code. */
 static int take_option(const variants_command *c, int answer, char **argv,
                        const struct option *known, variants_arguments *a) {
@@ -38,7 +29,8 @@ static int take_option(const variants_command *c, int answer, char **argv,
       a->set[a->nset++] = optarg;
       return -1;
     case 'j':
-      return take_jobs(c, optarg, &a->options.njob);
+      if (parse_count(optarg, POOL_MAX, &a->options.njob)) return -1;
+      return usage_error(c->program, "--jobs %s: expected 1 to %d", optarg, POOL_MAX);
     case 'q':
       a->options.quiet = true;
       return -1;
@@ -56,36 +48,21 @@ static int take_option(const variants_command *c, int answer, char **argv,
   }
 }
 
-/* "out/NAME-SUFFIX" for "some/folder/NAME.yaml"; the caller's to free. */
-static char *default_folder(const char *path, const char *suffix) {
-  const char *slash = strrchr(path, '/');
-  const char *name = slash ? slash + 1 : path;
-  const char *dot = strrchr(name, '.');
-  int length = (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name));
-  size_t size = (size_t)length + strlen(suffix) + sizeof "out/-";
-  char *folder = malloc(size);
-  if (folder) snprintf(folder, size, "out/%.*s-%s", length, name, suffix);
-  return folder;
-}
-
 static int go(const variants_command *c, const char *path, variants_arguments *a) {
   scenario *s = NULL;
   corot_status status = scenario_read(path, a->nset, (char *const *)a->set, &s);
   if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
   if (status != COROT_OK) return failure(status);
-  char *folder = a->options.dir ? NULL : default_folder(path, c->suffix);
+  char *folder = a->options.dir ? NULL : folder_default(path, c->suffix);
   if (folder) a->options.dir = folder;
-  int code =
-      a->options.dir ? c->go(c->context, s, a) : failure(corot_fail(COROT_ENOMEM, "out of memory"));
+  int code = a->options.dir ? c->go(c->context, s, a) : failure(COROT_ENOMEM);
   free(folder);
   scenario_destroy(s);
   return code;
 }
 
 int variants_command_run(const variants_command *c, int argc, char **argv) {
-  long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  variants_arguments a = {.options = {.shard = 1, .nshard = 1, .progress = true}};
-  a.options.njob = processors < 1 ? 1 : processors > POOL_MAX ? POOL_MAX : (int)processors;
+  variants_arguments a = {.options = execute_defaults()};
   a.set = calloc((size_t)argc + 1, sizeof *a.set);
   if (!a.set) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
 

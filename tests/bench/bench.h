@@ -41,9 +41,6 @@ int take_bar_option(const char *program, int answer, bar_source *source);
 /* The argument of --repeat, at most `most`. Returns EXIT_OK, or the exit code of a usage error. */
 int take_repeat(const char *program, int most, int *nrun);
 
-/* A whole number from 1 to `most`. */
-bool parse_count(const char *text, int most, int *number);
-
 /* Options of a command that has none but --json. Returns -1 to go on, else the exit code. */
 int only_json(const char *program, const char *help, int argc, char **argv, bool *json);
 

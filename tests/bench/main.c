@@ -28,14 +28,6 @@ static const char help[] =
     "\n"
     "example: corot-bench kernels\n";
 
-bool parse_count(const char *text, int most, int *number) {
-  char *end;
-  long x = strtol(text, &end, 10);
-  if (end == text || *end || x < 1 || x > most) return false;
-  *number = (int)x;
-  return true;
-}
-
 int only_json(const char *program, const char *text, int argc, char **argv, bool *json) {
   static const struct option known[] = {
       {"json", no_argument, NULL, 'j'}, {"help", no_argument, NULL, 'h'}, {0}};
