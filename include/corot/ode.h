@@ -189,6 +189,13 @@ corot_status corot_internal_force(const corot_model *model, corot_state *state, 
                                   const double *u, const char *strain, double lambda_part,
                                   double mu_part, double (*f)[3]);
 
+/* Loads of time t, times `factor`, on all nodes [nnode][3] [N], held components included, of the
+   body displaced by `displacement` [nnode], which says where a pressure acts. What falls on held
+   components is taken up by the supports: at rest, the force of a support on the body is the elastic
+   force less this. COROT_ENOMEM. */
+corot_status corot_load_force(const corot_model *model, double t, double factor,
+                              const double (*displacement)[3], double (*f)[3]);
+
 /* --- The matrices' pattern ------------------------------------------------------------------- */
 
 /* Number of stored 3x3 blocks: the diagonal and the lower triangle over pairs of nodes that share

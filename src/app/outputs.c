@@ -6,6 +6,7 @@
 #include "compare.h"
 #include "folder.h"
 #include "states.h"
+#include "write_groups.h"
 #include "write_vtu.h"
 
 struct outputs {
@@ -71,7 +72,7 @@ static corot_status open_fields(outputs *o, const char *dir) {
   free(material);
   COROT_TRY(status);
   o->value = vtu_arrays(o->fields);
-  return COROT_OK;
+  return groups_write(dir, o->scenario->resolved, mesh);
 }
 
 /* Where no fields are written the probes still need the nodes. */

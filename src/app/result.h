@@ -19,6 +19,7 @@ typedef struct statics_summary {
   double factor;           /* reached */
   double stable, unstable; /* load factors between which stability was lost; NaN: nowhere */
   json_t *steps;           /* a list with an object for each load step */
+  json_t *reactions;       /* by group, at the last equilibrium */
 } statics_summary;
 
 /* What a run has to say when it is over. */

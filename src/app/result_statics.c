@@ -7,12 +7,12 @@ json_t *result_statics(const scenario *s, const statics_summary *statics) {
   json_t *critical = isnan(statics->unstable)
                          ? json_null()
                          : json_pack("[f, f]", statics->stable, statics->unstable);
-  return json_pack("{s:s, s:s, s:f, s:i, s:f, s:f, s:f, s:f, s:o, s:O}", "linear_solver",
+  return json_pack("{s:s, s:s, s:f, s:i, s:f, s:f, s:f, s:f, s:o, s:O, s:O}", "linear_solver",
                    statics->linear_solver, "frames",
                    d->frames == COROT_FRAMES_HELD ? "held" : "exact", "tolerance", d->tolerance,
                    "max_iterations", d->max_iterations, "first_step", d->first_step, "min_step",
                    d->min_step, "max_step", d->max_step, "factor", statics->factor, "critical",
-                   critical, "steps", statics->steps);
+                   critical, "steps", statics->steps, "reactions", statics->reactions);
 }
 
 json_t *result_statics_counts(const corot_statics_counts *n) {

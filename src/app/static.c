@@ -8,6 +8,7 @@
 #include "cli.h"
 #include "clock.h"
 #include "json_text.h"
+#include "reactions.h"
 #include "run_common.h"
 
 typedef struct equilibrium_run {
@@ -19,6 +20,7 @@ typedef struct equilibrium_run {
   corot_state *state; /* for outputs */
   corot_statics *statics;
   outputs *outputs;
+  reactions *reactions;
   double *u, *v;                         /* [n] v is zero */
   double (*nodal)[3];                    /* [5 nnode] room for the following */
   double (*x)[3], (*f)[3];               /* [nnode] displacement and internal force now */
@@ -26,6 +28,7 @@ typedef struct equilibrium_run {
   double (*velocity)[3];                 /* [nnode] not looked at */
   double factor, work;                   /* reached; by loads and supports [J] */
   json_t *steps;
+  json_t *reactions_at_end;
   double wall_at_start, cpu_at_start, setup_s, output_s; /* [s] */
 } equilibrium_run;
 
@@ -64,14 +67,22 @@ static corot_status prepare(equilibrium_run *r) {
   return COROT_OK;
 }
 
+static corot_status open_outputs(equilibrium_run *r) {
+  const scenario *s = r->scenario;
+  COROT_TRY(outputs_open(s, r->model, r->options->dir, &r->outputs));
+  return reactions_create(r->options->dir, s, r->model, &r->reactions);
+}
+
 static void release(equilibrium_run *r) {
   outputs_destroy(r->outputs);
+  reactions_destroy(r->reactions);
   corot_statics_destroy(r->statics);
   corot_state_destroy(r->state);
   corot_model_destroy(r->model);
   corot_refinement_destroy(r->refinement);
   corot_mesh_destroy(r->mesh);
   json_decref(r->steps);
+  json_decref(r->reactions_at_end);
   free(r->u);
   free(r->nodal);
 }
@@ -96,6 +107,9 @@ static corot_status write_equilibrium(equilibrium_run *r, bool last) {
   corot_status status = add_work(r, t);
   instant now = {.t = t, .u = r->u, .v = r->v, .external_work = r->work, .still = true};
   if (status == COROT_OK) status = outputs_write(r->outputs, r->state, &now, last);
+  if (status == COROT_OK)
+    status = reactions_add(r->reactions, r->factor, (const double(*)[3])r->x_before,
+                           (const double(*)[3])r->f_before); /* which are those of now */
   r->output_s += wall_clock() - started;
   return status;
 }
@@ -161,7 +175,9 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .linear_solver = corot_statics_solver(r->statics),
       .factor = r->factor,
       .steps = r->steps,
+      .reactions = r->reactions_at_end,
   };
+  if (!statics->reactions) return corot_fail(COROT_ENOMEM, "reactions: out of memory");
   corot_statics_critical(r->statics, &statics->stable, &statics->unstable);
   *summary = (run_summary){
       .status = code == 0            ? "ok"
@@ -208,7 +224,9 @@ static int conclude(equilibrium_run *r, corot_status status) {
     snprintf(reason, sizeof reason, "%s", corot_error());
   run_forget_signal();
 
-  corot_status late = outputs_close(r->outputs);
+  corot_status late = outputs_close(r->outputs), closed = reactions_close(r->reactions);
+  if (late == COROT_OK) late = closed;
+  r->reactions_at_end = reactions_last(r->reactions);
   if (code == 0 && late != COROT_OK) {
     code = run_exit_code(late);
     snprintf(reason, sizeof reason, "%s", corot_error());
@@ -234,7 +252,7 @@ static int search(const scenario *s, const run_options *options) {
     code = status == COROT_ENOMEM       ? EXIT_SYSTEM
            : status == COROT_EINTEGRATE ? EXIT_INTEGRATOR
                                         : EXIT_SCENARIO;
-  } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
+  } else if ((status = open_outputs(&r)) != COROT_OK) {
     fprintf(stderr, "%s\n", corot_error());
     code = run_exit_code(status);
   } else {

@@ -138,6 +138,19 @@ corot_status compare_open(const char *dir, int nmeasure, const char *const *meas
   return open_with_names(dir, "compare.csv", nmeasure, measure, part, compare);
 }
 
+corot_status reactions_open(const char *dir, int ngroup, const char *const *name,
+                            table **reactions) {
+  static const char *const component[] = {"fx", "fy", "fz"};
+  return open_with_names(dir, "reactions.csv", ngroup, name, component, reactions);
+}
+
+corot_status reactions_row(table *reactions, double t, int ngroup, const double (*force)[3]) {
+  add_number(reactions, t);
+  for (int i = 0; i < ngroup; i++)
+    for (int c = 0; c < 3; c++) add_number(reactions, force[i][c]);
+  return end_row(reactions);
+}
+
 static void add_if_number(table *t, double x) {
   if (x == x)
     add_number(t, x);

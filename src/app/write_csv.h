@@ -100,6 +100,18 @@ corot_status compare_open(const char *dir, int nmeasure, const char *const *meas
 /* error: [nmeasure] */
 corot_status compare_row(table *compare, double t, int nmeasure, const force_error *error);
 
+/* reactions.csv: the forces of the supports on the body, one row an equilibrium of statics
+
+     t           load factor times end time [s]
+     GROUP.fx, GROUP.fy, GROUP.fz   for each group that a support holds: the elastic force on its
+                 nodes less the loads there, summed over the components that are held [N] */
+
+corot_status reactions_open(const char *dir, int ngroup, const char *const *name,
+                            table **reactions);
+
+/* force: [ngroup] */
+corot_status reactions_row(table *reactions, double t, int ngroup, const double (*force)[3]);
+
 /* Reports an error that shows up on closing. Takes NULL; the table is gone either way. */
 corot_status table_close(table *table);
 

@@ -58,25 +58,43 @@ static corot_status add_point_force(const corot_model *m, const corot_load *from
   return COROT_OK;
 }
 
-static corot_status add_gravity(const corot_model *m, const corot_load *from, load *to) {
-  for (int n = 0; n < m->mesh->nnode; n++)
-    for (int c = 0; c < 3; c++) {
-      int i = m->dof[n][c];
-      if (i >= 0) to->force[i] = m->mass[i] * from->value[c];
-    }
+/* Masses in the first column become weights. */
+static void weigh(int nnode, const double gravity[3], double (*f)[3]) {
+  for (int n = 0; n < nnode; n++) {
+    double mass = f[n][0];
+    for (int c = 0; c < 3; c++) f[n][c] = mass * gravity[c];
+  }
+}
+
+/* What of f [nnode] falls on held components. */
+static corot_status keep_held(const corot_model *m, const double (*f)[3], load *to) {
+  int nnode = m->mesh->nnode, n = 0;
+  for (int i = 0; i < 3 * nnode; i++) n += m->dof[i / 3][i % 3] < 0 && f[i / 3][i % 3] != 0;
+  to->held = malloc((n + 1) * sizeof *to->held);
+  if (!to->held) return corot_fail(COROT_ENOMEM, "no memory for the forces on %d supports", n);
+  for (int i = 0; i < 3 * nnode; i++)
+    if (m->dof[i / 3][i % 3] < 0 && f[i / 3][i % 3] != 0)
+      to->held[to->nheld++] = (held_force){i / 3, i % 3, f[i / 3][i % 3]};
   return COROT_OK;
 }
 
-/* A traction or a total force. */
-static corot_status add_surface(const corot_model_def *def, const corot_model *m,
-                                const corot_load *from, load *to) {
+/* Gravity, a traction or a total force. */
+static corot_status add_constant(const corot_model_def *def, const corot_model *m,
+                                 const corot_load *from, load *to) {
   int nnode = m->mesh->nnode;
   double(*f)[3] = calloc(nnode, sizeof *f);
   if (!f) return corot_fail(COROT_ENOMEM, "no memory for the forces on %d nodes", nnode);
-  bool traction = from->kind == COROT_TRACTION;
-  corot_status status = traction ? add_traction(m, from, f) : add_point_force(m, from, f);
+  corot_status status = COROT_OK;
+  if (from->kind == COROT_TRACTION)
+    status = add_traction(m, from, f);
+  else if (from->kind == COROT_FORCE)
+    status = add_point_force(m, from, f);
+  else
+    corot_mass_lump(m, f);
   if (!status) status = corot_levels_own(def, nnode, f);
+  if (!status && from->kind == COROT_GRAVITY) weigh(nnode, from->value, f);
   for (int n = 0; !status && n < nnode; n++) add_force(m, to->force, n, f[n], 1);
+  if (!status) status = keep_held(m, (const double(*)[3])f, to);
   free(f);
   return status;
 }
@@ -126,10 +144,9 @@ static corot_status create(const corot_model_def *def, const corot_model *m, int
   if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
   switch (from->kind) {
     case COROT_GRAVITY:
-      return add_gravity(m, from, to);
     case COROT_TRACTION:
     case COROT_FORCE:
-      return add_surface(def, m, from, to);
+      return add_constant(def, m, from, to);
     default:
       return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
                         (int)from->kind);
@@ -147,6 +164,7 @@ corot_status corot_loads_create(const corot_model_def *def, corot_model *m) {
 void corot_loads_destroy(corot_model *m) {
   for (int k = 0; k < m->nload; k++) {
     free(m->load[k].force);
+    free(m->load[k].held);
     free(m->load[k].tri);
     free(m->load[k].time);
     free(m->load[k].value);
@@ -182,6 +200,39 @@ void corot_loads_force(const corot_model *m, double t, double scale, const doubl
       for (int i = 0; i < 3; i++) add_force(m, f, l->tri[j][i], area, -factor * l->pressure / 3);
     }
   }
+}
+
+static void add_to_node(double (*f)[3], int node, const double value[3], double factor) {
+  for (int c = 0; c < 3; c++) f[node][c] += factor * value[c];
+}
+
+static void add_nodal_load(const corot_model *m, const load *l, double factor, const double (*u)[4],
+                           double (*f)[3]) {
+  for (int i = 0; l->force && i < 3 * m->mesh->nnode; i++)
+    if (m->dof[i / 3][i % 3] >= 0) f[i / 3][i % 3] += factor * l->force[m->dof[i / 3][i % 3]];
+  for (int i = 0; i < l->nheld; i++)
+    f[l->held[i].node][l->held[i].component] += factor * l->held[i].force;
+  for (int j = 0; j < l->ntri; j++) {
+    double a[3], b[3], area[3];
+    edges(m, u, l->tri[j], a, b);
+    area_vector(a, b, area);
+    for (int i = 0; i < 3; i++) add_to_node(f, l->tri[j][i], area, -factor * l->pressure / 3);
+  }
+}
+
+corot_status corot_load_force(const corot_model *m, double t, double factor,
+                              const double (*displacement)[3], double (*f)[3]) {
+  int nnode = m->mesh->nnode;
+  double(*u)[4] = calloc(nnode, sizeof *u);
+  if (!u) return corot_fail(COROT_ENOMEM, "no memory for the displacement of %d nodes", nnode);
+  for (int n = 0; n < nnode; n++) memcpy(u[n], displacement[n], 3 * sizeof **u);
+  memset(f, 0, nnode * sizeof *f);
+  for (int k = 0; k < m->nload; k++) {
+    const load *l = &m->load[k];
+    add_nodal_load(m, l, factor * amplitude_at(l, t), (const double(*)[4])u, f);
+  }
+  free(u);
+  return COROT_OK;
 }
 
 void corot_loads_derivative(const corot_model *m, double t, double scale, const double (*u)[4],

@@ -339,7 +339,7 @@ size_t corot_model_bytes(const corot_model *m) {
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
     bytes += sizeof *l + 2 * l->n * sizeof *l->time + l->ntri * sizeof *l->tri;
-    if (l->force) bytes += m->ndof * sizeof *l->force;
+    if (l->force) bytes += m->ndof * sizeof *l->force + l->nheld * sizeof *l->held;
   }
   for (int k = 0; k < m->nmotion; k++)
     bytes += sizeof *m->motion + m->motion[k].nnode * sizeof *m->motion[k].node +

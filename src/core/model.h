@@ -13,9 +13,17 @@ typedef struct material {
   double own_share;    /* and as a part of it; 1 where lambda is zero */
 } material;
 
+/* What of a force acts on a component that is held. */
+typedef struct held_force {
+  int node, component;
+  double force; /* [N] */
+} held_force;
+
 /* A constant force, or a pressure on faces of the deformed body, times amplitude(t). */
 typedef struct load {
   double *force; /* [ndof] at amplitude one [N]; NULL: a pressure */
+  int nheld;
+  held_force *held; /* [nheld] the same of held components, where it is not zero */
   int ntri;
   int (*tri)[3];
   double pressure; /* at amplitude one [Pa] */
@@ -98,6 +106,10 @@ void corot_model_spread(const corot_model *m, const double *values, double *noda
 
 /* Mass and mass damping, once degrees of freedom, motions and pattern are known. */
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m);
+
+/* nodal [nnode] += the lumped mass [kg] and the mass damping [kg/s] of every node, held ones
+   included, and nothing. */
+void corot_mass_lump(const corot_model *m, double (*nodal)[3]);
 
 /* f -= C v for the matrix C of the mass damping; nothing if there is none. */
 void corot_mass_damp(const corot_model *m, const double *v, double *f);
