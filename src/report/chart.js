@@ -202,7 +202,7 @@ class Chart {
           svgElement('path', { class: 'spread', d: `M${this.across(s.low[i])} ${y}H${this.across(s.high[i])}` }, group);
         if (s.style === 'points' || s.style === 'marked')
           svgElement('path', { class: 'mark', d: MARKS[s.k % 8], transform: `translate(${x} ${y})` }, group);
-      } else skipped++;
+      } else if (!isNaN(s.y[i])) skipped++;
       joined = drawn;
     }
     if (s.style !== 'points')
