@@ -153,7 +153,7 @@ class Body {
     const bar = element('div', { class: 'player' }, this.figure);
     this.button = element('button', { type: 'button', id: 'play' }, bar, '▶ play');
     this.button.onclick = () => this.play(!this.playing);
-    this.button.hidden = this.name !== 't';
+    this.button.hidden = this.name !== 't' || this.t.length < 2;
     this.slider = element('input', { type: 'range', id: 'frame', min: 0, max: this.t.length - 1, value: 0,
                                      'aria-label': 'frame' }, bar);
     this.slider.hidden = this.t.length < (this.name === 't' ? 2 : 3); /* of one load step */

@@ -21,9 +21,9 @@ static void write_outcome(const run_folder *run, FILE *out) {
   markup_text(out, ok ? "finished" : status);
   fputs("</b> ", out);
   if (!ok && run_folder_is_static(run))
-    fprintf(out, "at load factor %.6g ", t / run_folder_unit(run));
+    fprintf(out, "at load factor %.6g: ", t / run_folder_unit(run));
   else if (!ok)
-    fprintf(out, "at t = %.6g s of %.6g s ", t, end);
+    fprintf(out, "at t = %.6g s of %.6g s: ", t, end);
   markup_text(out, reason);
   fputs("</p>\n", out);
 }
@@ -32,10 +32,11 @@ static void write_sentence(const run_folder *run, FILE *out) {
   const json_t *r = run->result;
   double tets = lookup_number(r, "mesh.tets"), dofs = lookup_number(r, "mesh.dofs");
   if (run_folder_is_static(run)) {
+    double nstep = lookup_number(r, "statistics.nstep");
     page_element(out, "p class=\"lead\"",
                  "Equilibrium of %.0f tets (%.0f degrees of freedom) with %s strain, in %.0f load "
-                 "steps and %.3g s of CPU time.",
-                 tets, dofs, lookup_text(r, "strain"), lookup_number(r, "statistics.nstep"),
+                 "step%s and %.3g s of CPU time.",
+                 tets, dofs, lookup_text(r, "strain"), nstep, nstep == 1 ? "" : "s",
                  lookup_number(r, "timings.cpu"));
     return;
   }
@@ -94,7 +95,8 @@ static void write_method(const json_t *r, FILE *out) {
   fact_number(r, "relative tolerance", "integrator.rtol", "", out);
   fact_number(r, "absolute, displacement", "integrator.atol_displacement", " m", out);
   fact_number(r, "absolute, velocity", "integrator.atol_velocity", " m/s", out);
-  fact_number(r, "highest order", "integrator.max_order", "", out);
+  if (lookup_number(r, "integrator.max_order") > 0)
+    fact_number(r, "highest order", "integrator.max_order", "", out);
   fact_number(r, "step", "integrator.step", " s", out);
   fact_text(r, "linear solver", "integrator.linear_solver", out);
   fact_text(r, "linear solver", "statics.linear_solver", out);
@@ -174,8 +176,13 @@ static void write_reactions(const json_t *r, FILE *out) {
   const char *name;
   json_t *force;
   json_object_foreach(reactions, name, force) {
-    double f[3];
-    for (size_t i = 0; i < 3; i++) f[i] = json_number_value(json_array_get(force, i));
+    double f[3], size = 0;
+    for (size_t i = 0; i < 3; i++) {
+      f[i] = json_number_value(json_array_get(force, i));
+      size = fmax(size, fabs(f[i]));
+    }
+    for (int i = 0; i < 3; i++) /* sums of forces that cancel leave their rounding */
+      if (fabs(f[i]) < 1e-10 * size) f[i] = 0;
     page_fact(out, name, "%.5g, %.5g, %.5g N", f[0], f[1], f[2]);
   }
   end_card(out);
