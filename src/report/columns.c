@@ -46,6 +46,13 @@ int columns_find_triple(const csv *table, const char *ending, int from) {
   return -1;
 }
 
-const char *columns_over(const run_folder *run) {
-  return run_folder_is_static(run) ? "load factor" : "t [s]";
+corot_status columns_write(const run_folder *run, figure f, const columns *c, corot_status status,
+                           FILE *out) {
+  if (status != COROT_OK || c->n == 0) return status;
+  if (!f.x_label) f.x_label = run_folder_is_static(run) ? "load factor" : "t [s]";
+  f.nseries = c->n;
+  f.series = c->series;
+  f.floor = NAN;
+  figure_write(&f, out);
+  return COROT_OK;
 }

@@ -27,8 +27,10 @@ void columns_drop_if_zero(columns *c);
    behind it; -1: there is none. */
 int columns_find_triple(const csv *table, const char *ending, int from);
 
-/* The label of that axis. */
-const char *columns_over(const run_folder *run);
+/* Writes `f` with these series, if reading them went well, as `status` says, and there are any;
+   hands on the status. Over t, unless f has a label of x. */
+corot_status columns_write(const run_folder *run, figure f, const columns *c, corot_status status,
+                           FILE *out);
 
 void columns_free(columns *c);
 

@@ -1,6 +1,5 @@
 #include "run_figures.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -18,16 +17,8 @@ static corot_status probe(const run_folder *run, const csv *table, int column, i
   corot_status status = columns_begin(run, table, &c);
   for (int k = 0; k < 3 && status == COROT_OK; k++)
     status = columns_add(&c, column + k, component[k], FIGURE_LINE);
-  if (status == COROT_OK)
-    figure_write(&(figure){.id = id,
-                           .title = name,
-                           .x_label = columns_over(run),
-                           .y_label = "u [m]",
-                           .time = true,
-                           .nseries = c.n,
-                           .series = c.series,
-                           .floor = NAN},
-                 out);
+  const figure f = {.id = id, .title = name, .y_label = "u [m]", .time = true};
+  status = columns_write(run, f, &c, status, out);
   columns_free(&c);
   return status;
 }
@@ -55,19 +46,14 @@ static corot_status step_chart(const run_folder *run, const step_figure *f, FILE
   if (status == COROT_OK)
     status = columns_add(&c, csv_find(&run->steps, f->column), f->title, f->style);
   if (status == COROT_OK) columns_drop_if_zero(&c);
-  if (status == COROT_OK && c.n > 0)
-    figure_write(&(figure){.id = f->id,
-                           .title = f->title,
-                           .caption = f->caption,
-                           .x_label = columns_over(run),
-                           .y_label = f->label,
-                           .y_log = f->log,
-                           .time = true,
-                           .whole = f->whole,
-                           .nseries = c.n,
-                           .series = c.series,
-                           .floor = NAN},
-                 out);
+  const figure chart = {.id = f->id,
+                        .title = f->title,
+                        .caption = f->caption,
+                        .y_label = f->label,
+                        .y_log = f->log,
+                        .time = true,
+                        .whole = f->whole};
+  status = columns_write(run, chart, &c, status, out);
   columns_free(&c);
   return status;
 }
@@ -89,20 +75,18 @@ corot_status run_figures_steps(const run_folder *run, FILE *out) {
   return COROT_OK;
 }
 
-/* Some columns of energy.csv; the first is shown in any case. */
-static corot_status ledger(const run_folder *run, figure *f, int n, const char *const *column,
+/* Some columns of the energies; the first is shown in any case. */
+static corot_status ledger(const run_folder *run, figure f, int n, const char *const *column,
                            const char *const *name, FILE *out) {
   columns c;
   const csv *table = run_folder_finest(run, &run->energy, column[0]);
   corot_status status = columns_begin(run, table, &c);
   for (int k = 0; k < n && status == COROT_OK; k++) {
+    int before = c.n;
     status = columns_add(&c, csv_find(table, column[k]), name[k], FIGURE_LINE);
-    if (k > 0) columns_drop_if_zero(&c);
+    if (k > 0 && c.n > before) columns_drop_if_zero(&c);
   }
-  f->x_label = columns_over(run);
-  f->nseries = c.n;
-  f->series = c.series;
-  if (status == COROT_OK && c.n > 0) figure_write(f, out);
+  status = columns_write(run, f, &c, status, out);
   columns_free(&c);
   return status;
 }
@@ -114,19 +98,17 @@ corot_status run_figures_energy(const run_folder *run, FILE *out) {
   static const char *const errors[] = {"balance", "frame_energy"};
   static const char *const error_names[] = {"balance", "put in by frame updates"};
   if (run->energy.nrow == 0) return COROT_OK;
-  figure all = {
-      .id = "energies", .title = "Energies", .y_label = "energy [J]", .time = true, .floor = NAN};
-  figure off = {.id = "balance",
-                .title = "Energy balance",
-                .y_label = "energy [J]",
-                .time = true,
-                .floor = NAN,
-                .caption =
-                    "What is there and was dissipated, less what was put in: the error of "
-                    "the integration in energy."};
-  COROT_TRY(ledger(run, &all, 4, energies, names, out));
+  const figure all = {.id = "energies", .title = "Energies", .y_label = "energy [J]", .time = true};
+  const figure off = {.id = "balance",
+                      .title = "Energy balance",
+                      .y_label = "energy [J]",
+                      .time = true,
+                      .caption =
+                          "What is there and was dissipated, less what was put in: the error of "
+                          "the integration in energy."};
+  COROT_TRY(ledger(run, all, 4, energies, names, out));
   if (run_folder_is_static(run)) return COROT_OK; /* a load step is no step in time */
-  return ledger(run, &off, 2, errors, error_names, out);
+  return ledger(run, off, 2, errors, error_names, out);
 }
 
 corot_status run_figures_compare(const run_folder *run, FILE *out) {
@@ -135,18 +117,13 @@ corot_status run_figures_compare(const run_folder *run, FILE *out) {
   corot_status status = columns_begin(run, &run->compare, &c);
   for (int column = 1; column < run->compare.ncolumn && status == COROT_OK; column += 3)
     status = columns_add(&c, column, run->compare.name[column], FIGURE_LINE);
-  if (status == COROT_OK)
-    figure_write(&(figure){.id = "compare",
-                           .title = "Internal forces against those of green",
-                           .caption = "Of other strain measures in the same motion.",
-                           .x_label = columns_over(run),
-                           .y_label = "relative difference",
-                           .y_log = true,
-                           .time = true,
-                           .nseries = c.n,
-                           .series = c.series,
-                           .floor = NAN},
-                 out);
+  const figure f = {.id = "compare",
+                    .title = "Internal forces against those of green",
+                    .caption = "Of other strain measures in the same motion.",
+                    .y_label = "relative difference",
+                    .y_log = true,
+                    .time = true};
+  status = columns_write(run, f, &c, status, out);
   columns_free(&c);
   return status;
 }

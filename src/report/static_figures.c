@@ -35,15 +35,8 @@ static corot_status probe(const run_folder *run, const csv *table, int column, i
   columns c;
   corot_status status = take_triple(run, table, column, component, &c);
   for (int k = 0; k < c.n; k++) c.series[k].x = c.y[k], c.series[k].y = c.t;
-  if (status == COROT_OK)
-    figure_write(&(figure){.id = id,
-                           .title = name,
-                           .x_label = "u [m]",
-                           .y_label = "load factor",
-                           .nseries = c.n,
-                           .series = c.series,
-                           .floor = NAN},
-                 out);
+  const figure f = {.id = id, .title = name, .x_label = "u [m]", .y_label = "load factor"};
+  status = columns_write(run, f, &c, status, out);
   columns_free(&c);
   return status;
 }
@@ -63,17 +56,12 @@ static corot_status reaction(const run_folder *run, int column, int number, FILE
   snprintf(id, sizeof id, "reaction-%d", number);
   columns c;
   corot_status status = take_triple(run, &run->reactions, column, component, &c);
-  if (status == COROT_OK)
-    figure_write(&(figure){.id = id,
-                           .title = name,
-                           .caption = "The force of the supports on the body.",
-                           .x_label = columns_over(run),
-                           .y_label = "force [N]",
-                           .time = true,
-                           .nseries = c.n,
-                           .series = c.series,
-                           .floor = NAN},
-                 out);
+  const figure f = {.id = id,
+                    .title = name,
+                    .caption = "The force of the supports on the body.",
+                    .y_label = "force [N]",
+                    .time = true};
+  status = columns_write(run, f, &c, status, out);
   columns_free(&c);
   return status;
 }
@@ -161,21 +149,18 @@ static corot_status write_residuals(const run_folder *run, const json_t *steps, 
 
 /* Every load step as a point at the factor it reached. */
 static corot_status write_steps(const run_folder *run, FILE *out) {
+  if (run->steps.nrow < 2) return COROT_OK;
   columns c;
   corot_status status = columns_begin(run, &run->steps, &c);
   if (status == COROT_OK)
     status = columns_add(&c, csv_find(&run->steps, "newton"), "Newton iterations", FIGURE_MARKED);
-  if (status == COROT_OK && c.n > 0 && run->steps.nrow > 1)
-    figure_write(&(figure){.id = "newton",
-                           .title = "Newton iterations of each load step",
-                           .x_label = "load factor reached",
-                           .y_label = "iterations a step",
-                           .time = true,
-                           .whole = true,
-                           .nseries = c.n,
-                           .series = c.series,
-                           .floor = NAN},
-                 out);
+  const figure f = {.id = "newton",
+                    .title = "Newton iterations of each load step",
+                    .x_label = "load factor reached",
+                    .y_label = "iterations a step",
+                    .time = true,
+                    .whole = true};
+  status = columns_write(run, f, &c, status, out);
   columns_free(&c);
   return status;
 }
