@@ -16,10 +16,6 @@ int measure_named(const char *name) {
   return -1;
 }
 
-bool is_rated(const error_pair *error, const error_pair *floor, bool end) {
-  return end ? error->end >= 10 * floor->end : error->max >= 10 * floor->max;
-}
-
 static corot_status copy_text(const char *text, char **out) {
   char *copy = malloc(strlen(text) + 1);
   if (!copy) return no_memory();

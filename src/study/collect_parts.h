@@ -54,9 +54,6 @@ json_t *costs_json(const costs *c);
 /* The measure of that name; -1: there is none. */
 int measure_named(const char *name);
 
-/* An error is rated if it is ten times what is known of the reference. */
-bool is_rated(const error_pair *error, const error_pair *floor, bool end);
-
 /* Fits and rankings of rows [n], as lists. NULL: no memory. */
 typedef struct table_rows {
   int n;
