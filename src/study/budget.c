@@ -46,14 +46,14 @@ static json_t *signed_change(const budgeting *b, const trajectory *before, const
   return list;
 }
 
-static json_t *probes_json(const budgeting *b, const budget_claim *c, const errors *bare,
+static json_t *probes_json(const budgeting *b, const claim *c, const errors *bare,
                            const trajectory *after) {
   json_t *all = json_object();
   for (int i = 0; i < b->scenario->nprobe && c->error.n > 0; i++) {
     error_pair of = c->error.of[ERROR_PROBES + i];
     json_t *probe =
         json_pack("{s:o, s:o}", "max", json_text_real(of.max), "end", json_text_real(of.end));
-    set_bound(probe, "", budget_claim_bound(c, ERROR_PROBES + i, false));
+    set_bound(probe, "", claim_bounds(c, ERROR_PROBES + i, false));
     if (bare->n > 0) {
       set_real(probe, "", "difference", bare->of[ERROR_PROBES + i].max);
       set_real(probe, "", "difference_end", bare->of[ERROR_PROBES + i].end);
@@ -98,7 +98,7 @@ static const char *alone_bound(const budgeting *b, const budget_claims *all, int
 /* The part's product with the total, and the total's with itself, at the end. */
 static corot_status share_of(const budgeting *b, const budget_claims *all, const trajectory *before,
                              const trajectory *after, double *share) {
-  const budget_claim *total = &all->total;
+  const claim *total = &all->total;
   int n = total->before ? total->before->n : 0;
   *share = NAN;
   if (!before || !after || total->after != &total->made) return COROT_OK;
@@ -126,11 +126,11 @@ static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, co
                          const errors *alone, const trajectory *after, double share) {
   int run;
   const budget_part *part = settings_of(b, i, &run);
-  const budget_claim *c = &all->part[i];
+  const claim *c = &all->part[i];
   error_pair error = displacement_of(&c->error), single = displacement_of(alone),
              difference = displacement_of(bare);
   char verdict[512];
-  budget_part_verdict(c, b->left_out, sizeof verdict, verdict);
+  claim_verdict(c, b->left_out, sizeof verdict, verdict);
   json_t *json = json_pack(
       "{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s}", "part", budget_names[part->kind], "pair",
       settings_text(part), "error", json_text_real(error.max), "end", json_text_real(error.end),
@@ -138,8 +138,8 @@ static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, co
       probes_json(b, c, bare, after), "cost", json_text_real(b->run[run].cpu / b->run[0].cpu),
       "advice", budget_remedies[part->kind]);
   if (!json) return NULL;
-  set_bound(json, "", budget_claim_bound(c, ERROR_DISPLACEMENT, false));
-  set_bound(json, "end_", budget_claim_bound(c, ERROR_DISPLACEMENT, true));
+  set_bound(json, "", claim_bounds(c, ERROR_DISPLACEMENT, false));
+  set_bound(json, "end_", claim_bounds(c, ERROR_DISPLACEMENT, true));
   set_real(json, "", "difference", difference.max);
   set_real(json, "", "difference_end", difference.end);
   set_real(json, "", "share", share);
@@ -151,7 +151,7 @@ static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, co
 }
 
 /* `after` at the places of the scenario's own mesh. */
-static corot_status restrict_to(const budget_claim *c, trajectory *own, const trajectory **after) {
+static corot_status restrict_to(const claim *c, trajectory *own, const trajectory **after) {
   static const double one = 1;
   *after = c->before && c->after ? c->after : NULL;
   if (!*after || c->after->n == c->before->n) return COROT_OK;
@@ -206,12 +206,12 @@ static json_t *missing_json(const json_t *parts) {
 
 /* The total is as uncertain as all parts together. */
 static claim_bound total_bound(const budgeting *b, const budget_claims *all) {
-  claim_bound total = budget_claim_bound(&all->total, ERROR_DISPLACEMENT, false);
+  claim_bound total = claim_bounds(&all->total, ERROR_DISPLACEMENT, false);
   if (total.kind == CLAIM_MISSING || total.kind == CLAIM_AT_MOST) return total;
   bool open = false;
   total.low = total.high = total.value;
   for (int i = 0; i < b->plan.npart; i++) {
-    claim_bound part = budget_claim_bound(&all->part[i], ERROR_DISPLACEMENT, false);
+    claim_bound part = claim_bounds(&all->part[i], ERROR_DISPLACEMENT, false);
     open |= part.kind == CLAIM_AT_LEAST || part.kind == CLAIM_MISSING;
     if (part.kind == CLAIM_ABOUT) total.low -= part.value - part.low;
     total.high += part.high - part.value;
@@ -259,7 +259,7 @@ static corot_status totals(const budgeting *b, const budget_claims *all, json_t 
       verdict, "runs", runs_json(b));
   if (!json) return no_memory();
   set_bound(json, "total_", total_bound(b, all));
-  set_bound(json, "total_end_", budget_claim_bound(&all->total, ERROR_DISPLACEMENT, true));
+  set_bound(json, "total_end_", claim_bounds(&all->total, ERROR_DISPLACEMENT, true));
   *out = json;
   return COROT_OK;
 }

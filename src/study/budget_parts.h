@@ -3,8 +3,7 @@
 #define COROT_STUDY_BUDGET_PARTS_H
 
 #include "budget.h"
-#include "convergence.h"
-#include "errors.h"
+#include "claim.h"
 
 /* Runs: as given; the chain, one more approximation gone in each; each gone alone; the checks;
    finer references of time with a check each; the third level of the mesh. */
@@ -64,39 +63,8 @@ corot_status budget_distance(const budgeting *b, const trajectory *run, const tr
 
 /* --- Claims (budget_claims.c) --- */
 
-typedef enum claim_kind {
-  CLAIM_MISSING,   /* a run failed */
-  CLAIM_UNCHECKED, /* nobody knows how good the reference is */
-  CLAIM_ABOUT,
-  CLAIM_AT_LEAST,
-  CLAIM_AT_MOST, /* below the floor */
-  CLAIM_KINDS,
-} claim_kind;
-
-extern const char *const claim_words[CLAIM_KINDS];
-
-/* One number that is claimed, and between which it is; NaN: not known. */
-typedef struct claim_bound {
-  claim_kind kind;
-  double value, low, high, floor;
-} claim_bound;
-
-/* What is claimed of a part, or of the total. */
-typedef struct budget_claim {
-  const trajectory *before, *after; /* NULL: not known */
-  errors error;                     /* n = 0: not known */
-  errors shown;                     /* of space: what the levels have shown; else n = 0 */
-  errors known;                     /* what the reference is known by; n = 0: nobody knows */
-  bool is_space;
-  bool is_open; /* nobody knows how much larger it is: a mesh that is not asymptotic, a part missing
-                 */
-  int nlevel;   /* of space */
-  convergence convergence; /* of space with three levels */
-  trajectory made;         /* `after`, where it is extrapolated */
-} budget_claim;
-
 typedef struct budget_claims {
-  budget_claim part[BUDGET_KINDS], total;
+  claim part[BUDGET_KINDS], total;
   errors check; /* of time: two methods at the finest tolerance; n = 0: none */
   errors chain; /* what the runs after time are known by; n = 0: nobody knows */
 } budget_claims;
@@ -104,14 +72,7 @@ typedef struct budget_claims {
 corot_status budget_claims_make(const budgeting *b, budget_claims *out);
 void budget_claims_free(budget_claims *c);
 
-/* Of error measure i (errors.h), over time or at the end. */
-claim_bound budget_claim_bound(const budget_claim *c, int i, bool end);
-
 /* --- In words (budget_text.c) --- */
-
-/* What is to be said of a part beside its number, such as "not asymptotic: at least 0.27": into
-   `text`. left_out: why there is no third level. */
-void budget_part_verdict(const budget_claim *c, const char *left_out, size_t size, char *text);
 
 /* The largest part and what to do about it, or that it is not known. parts: as in budget.json. The
    caller's; NULL: no memory. */

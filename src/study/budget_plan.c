@@ -155,6 +155,12 @@ void budget_plan_refine(const scenario *s, int octasections, budget_part *part) 
   add(part, "mesh.refine=%d", s->refine + octasections);
 }
 
+/* Statics factor their matrix in every iteration, and are dearer by the tet: 5e4 tets and
+   iterations a second were measured, and 5e5 tets and steps of cvode. */
+bool budget_plan_affords(bool still, double work, double tets) {
+  return work <= (still ? 2e6 : 3e7) && tets <= 2e5;
+}
+
 void budget_plan_skip(budget_plan *plan, budget_kind kind) {
   int n = 0;
   for (int i = 0; i < plan->npart; i++)

@@ -59,6 +59,10 @@ double budget_plan_tighten(const scenario *s, int attempt, budget_part *referenc
 /* The settings of mesh.refine so many octasections on. */
 void budget_plan_refine(const scenario *s, int octasections, budget_part *part);
 
+/* Whether a run is made unasked: `work` is its steps, of an equilibrium Newton iterations, times tets;
+   some minutes on one processor are. NaN is not. */
+bool budget_plan_affords(bool still, double work, double tets);
+
 /* Takes a kind of part out of the plan, if it is there. */
 void budget_plan_skip(budget_plan *plan, budget_kind kind);
 

@@ -132,9 +132,7 @@ static corot_status carry_out(budgeting *b, int nset, const char *const *set,
 
 corot_status budget_distance(const budgeting *b, const trajectory *run, const trajectory *reference,
                              errors *out) {
-  *out = (errors){0};
-  if (!run || !reference) return COROT_OK;
-  return errors_measure(b->yardstick, run, reference, out);
+  return claim_distance(b->yardstick, run, reference, out);
 }
 
 /* The displacement's alone. */
@@ -183,11 +181,6 @@ static corot_status tighten_time(budgeting *b, int nset, const char *const *set,
 
 /* --- The third level of the mesh --- */
 
-/* Work that is done unasked: some minutes on one processor. Statics factor their matrix in every
-   iteration, and are dearer by the tet. */
-static double affordable_work(const budgeting *b) { return b->options->still ? 2e6 : 3e7; }
-enum { AFFORDABLE_TETS = 200000 };
-
 /* Whether steps as they are given do for the third level: their error in time is small beside the
    difference of the first two levels. */
 static corot_status may_be_loose(const budgeting *b, int space, bool *loose) {
@@ -208,7 +201,7 @@ static void weigh_third(budgeting *b, int space, bool loose) {
   int zero = loose ? 0 : budget_before_run(b, space);
   double work = b->run[one].work * b->run[one].work / b->run[zero].work;
   double tets = 64 * b->run[0].tets;
-  if (b->options->levels == 3 || (work <= affordable_work(b) && tets <= AFFORDABLE_TETS)) return;
+  if (b->options->levels == 3 || budget_plan_affords(b->options->still, work, tets)) return;
   if (isnan(work) || isnan(tets))
     snprintf(b->left_out, sizeof b->left_out, "its coarser levels failed");
   else

@@ -7,36 +7,6 @@
 
 /* --- Verdicts --- */
 
-static void verdict_of_space(const budget_claim *c, claim_bound b, const char *left_out,
-                             size_t size, char *text) {
-  if (b.kind == CLAIM_UNCHECKED)
-    snprintf(text, size, "%.1e by three levels of observed order %.2f, which nobody has checked",
-             b.value, c->convergence.order);
-  else if (b.kind == CLAIM_ABOUT)
-    snprintf(text, size, "three levels, observed order %.2f: between %.1e and %.1e",
-             c->convergence.order, b.low, b.high);
-  else if (c->nlevel == 3)
-    snprintf(text, size, "not asymptotic: at least %.1e; %s", b.low, c->convergence.why);
-  else
-    snprintf(text, size, "at least %.1e: two levels show no order; the third was left out (%s)",
-             b.low, left_out);
-}
-
-void budget_part_verdict(const budget_claim *c, const char *left_out, size_t size, char *text) {
-  claim_bound b = budget_claim_bound(c, ERROR_DISPLACEMENT, false);
-  if (b.kind == CLAIM_MISSING)
-    snprintf(text, size, "not known, as a run failed");
-  else if (b.kind == CLAIM_AT_MOST)
-    snprintf(text, size, "below its floor: at most %.1e, as its reference is known to %.1e only",
-             b.high, b.floor / ERROR_FLOOR);
-  else if (c->is_space)
-    verdict_of_space(c, b, left_out, size, text);
-  else if (b.kind == CLAIM_UNCHECKED)
-    snprintf(text, size, "%.1e, against a reference that nobody has checked", b.value);
-  else
-    snprintf(text, size, "known to %.1e", b.floor / ERROR_FLOOR);
-}
-
 static bool has_bound(const json_t *part, claim_kind kind) {
   return strcmp(lookup_text(part, "bound"), claim_words[kind]) == 0;
 }

@@ -12,7 +12,6 @@ static const char *doubt(const convergence *c, double d1, double d2, double cosi
   if (c->order < CONVERGENCE_LOWEST)
     return "the second difference of the levels is hardly smaller than the first";
   if (c->order > CONVERGENCE_HIGHEST) return "the levels converge faster than linear tets do";
-  if (cosine < 0.5) return "the differences of the levels point in different directions";
   return NULL;
 }
 

@@ -30,8 +30,9 @@ typedef struct convergence {
   const char *why; /* not, in words; static */
 } convergence;
 
-/* d1, d2 >= 0; cosine: of the angle between the two differences, -1 to 1; known: what each is
-   uncertain by. */
+/* d1, d2 >= 0; cosine: of the angle between the two differences: below 0 they alternate; known: what
+   each is uncertain by. Where they point in different directions, but not against one another, the
+   remainder holds for its size. */
 convergence convergence_observe(double d1, double d2, double cosine, double known);
 
 #endif

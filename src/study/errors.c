@@ -213,6 +213,15 @@ corot_status errors_measure(yardstick *y, const trajectory *run, const trajector
   return status;
 }
 
+corot_status errors_copy(const errors *e, errors *out) {
+  errors copy = *e;
+  copy.of = malloc(((size_t)e->n + 1) * sizeof *copy.of);
+  if (!copy.of) return corot_fail(COROT_ENOMEM, "out of memory");
+  if (e->n > 0) memcpy(copy.of, e->of, (size_t)e->n * sizeof *copy.of);
+  *out = copy;
+  return COROT_OK;
+}
+
 void errors_free(errors *e) {
   free(e->of);
   *e = (errors){0};

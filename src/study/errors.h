@@ -65,6 +65,7 @@ void yardstick_destroy(yardstick *y);
    COROT_EINVAL: they do not fit together. */
 corot_status errors_measure(yardstick *y, const trajectory *run, const trajectory *reference,
                             errors *out);
+corot_status errors_copy(const errors *e, errors *out);
 void errors_free(errors *e);
 
 /* x' M z, each [n]. */
