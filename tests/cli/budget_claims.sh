@@ -59,7 +59,7 @@ claim bar "part('space')['bound'] == 'at least' and part('space')['levels'] == 3
   "part('space')['order'] < 0.5 and d['total_bound'] == 'at least'" \
   "0.15 < part('space')['probes']['corner']['low'] < 0.25" "d['static'] and d['check'] is None" \
   "[p['part'] for p in d['parts']] == ['algebraic solver', 'load steps', 'space']"
-[ -s bar/report.html ] || complain "no page"
+grep -q "≥ " bar/report.html || complain "a page that shows no bound"
 expect 0 budget bar.yaml --static --quiet --set strain=green --skip space
 [ -s out/bar-static-budget/budget.json ] || complain "another default folder of statics"
 
@@ -105,6 +105,21 @@ expect 0 budget pull.yaml --static -o cancel --quiet --set strain=polar
 sound cancel
 claim cancel "part('strain measure')['probes']['corner']['signed'][2] < 0 < part('space')['probes']['corner']['signed'][2]"
 out "corner.uz at the end changes by -"; out "by strain measure, +"
+# and on the page: bars of the total's length and sign, numbers with theirs
+python3 - <<'PY' || complain "the page's bars and signs"
+import json, re
+d = json.load(open('cancel/budget.json'))
+page = open('cancel/report.html').read()
+bars = [(float(w), int(s)) for w, s in re.findall(r'width:([0-9.]+)%"[^>]*></div>([+-][0-9]+) %', page)]
+shares = [p['share'] for p in d['parts']] + [1]
+assert len(bars) == len(shares), bars
+wide = max(shares + [1]) - min(shares + [0])
+for (width, percent), share in zip(bars, shares):
+    assert abs(width - 100 * abs(share) / wide) < 0.06 and abs(percent - 100 * share) < 0.51, (bars, shares)
+for p in d['parts']:
+    for x in p['probes']['corner']['signed']:
+        assert '%+.3e' % x in page, x
+PY
 
 # A constant step so short that its error is less than that of a run at rtol 1e-6: the reference is
 # tightened until it is better than what it judges. The truth is a run of another method at 1e-11.
