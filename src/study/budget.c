@@ -136,7 +136,7 @@ static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, co
       settings_text(part), "error", json_text_real(error.max), "end", json_text_real(error.end),
       "alone", json_text_real(single.max), "alone_end", json_text_real(single.end), "probes",
       probes_json(b, c, bare, after), "cost", json_text_real(b->run[run].cpu / b->run[0].cpu),
-      "advice", budget_remedies[part->kind]);
+      "advice", budget_remedy(part->kind, b->options->still));
   if (!json) return NULL;
   set_bound(json, "", claim_bounds(c, ERROR_DISPLACEMENT, false));
   set_bound(json, "end_", claim_bounds(c, ERROR_DISPLACEMENT, true));

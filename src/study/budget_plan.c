@@ -13,7 +13,7 @@ const char *const budget_names[BUDGET_KINDS] = {
     [BUDGET_STRAIN] = "strain measure",    [BUDGET_SPACE] = "space",
 };
 
-const char *const budget_remedies[BUDGET_KINDS] = {
+static const char *const remedies[BUDGET_KINDS] = {
     [BUDGET_ALGEBRA] = "integrator.jacobian.convergence or integrator.newton.tolerance smaller",
     [BUDGET_TIME] = "integrator.rtol or integrator.step smaller",
     [BUDGET_LOAD_STEPS] = "statics.max_step smaller",
@@ -23,6 +23,10 @@ const char *const budget_remedies[BUDGET_KINDS] = {
     [BUDGET_STRAIN] = "strain green",
     [BUDGET_SPACE] = "mesh.refine one more",
 };
+
+const char *budget_remedy(budget_kind kind, bool still) {
+  return still && kind == BUDGET_ALGEBRA ? "statics.tolerance smaller" : remedies[kind];
+}
 
 static void __attribute__((format(printf, 2, 3))) add(budget_part *part, const char *format, ...) {
   va_list values;

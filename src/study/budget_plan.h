@@ -39,8 +39,10 @@ typedef struct budget_plan {
   budget_part algebra_check; /* the same of part ALGEBRA: tolerances ten times those of the part */
 } budget_plan;
 
-extern const char *const budget_names[BUDGET_KINDS];    /* "time integration" */
-extern const char *const budget_remedies[BUDGET_KINDS]; /* what to change if that part is largest */
+extern const char *const budget_names[BUDGET_KINDS]; /* "time integration" */
+
+/* What to change if that part is the largest, of a run or of an equilibrium. */
+const char *budget_remedy(budget_kind kind, bool still);
 
 /* Relative tolerance that stands for no error of time, against that of the scenario. */
 double budget_tight_rtol(const scenario *s);
@@ -59,8 +61,8 @@ double budget_plan_tighten(const scenario *s, int attempt, budget_part *referenc
 /* The settings of mesh.refine so many octasections on. */
 void budget_plan_refine(const scenario *s, int octasections, budget_part *part);
 
-/* Whether a run is made unasked: `work` is its steps, of an equilibrium Newton iterations, times tets;
-   some minutes on one processor are. NaN is not. */
+/* Whether a run is made unasked: `work` is its steps, of an equilibrium Newton iterations, times
+   tets; some minutes on one processor are. NaN is not. */
 bool budget_plan_affords(bool still, double work, double tets);
 
 /* Takes a kind of part out of the plan, if it is there. */

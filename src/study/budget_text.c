@@ -22,14 +22,13 @@ static const json_t *find_largest(const json_t *parts) {
   return largest;
 }
 
-/* "A, B": the parts of that kind; what is open may be larger than another of a known size. */
-static size_t name_parts(const json_t *parts, claim_kind kind, const json_t *except, size_t size,
-                         char *text) {
+/* "A, B": the parts of that kind. */
+static size_t name_parts(const json_t *parts, claim_kind kind, size_t size, char *text) {
   size_t count = 0, used = 0;
   text[0] = '\0';
   for (size_t i = 0; i < json_array_size(parts) && used < size; i++) {
     const json_t *part = json_array_get(parts, i);
-    if (part == except || !has_bound(part, kind)) continue;
+    if (!has_bound(part, kind)) continue;
     used += (size_t)snprintf(text + used, size - used, "%s%s", count++ ? ", " : "",
                              lookup_text(part, "part"));
   }
@@ -62,28 +61,30 @@ static json_t *verdict_below_floors(const json_t *parts) {
 }
 
 json_t *budget_verdict(const json_t *parts, double total) {
-  char missing[256], rivals[512], cancel[128] = "";
+  char missing[256], unchecked[256], rivals[512], cancel[128] = "", doubt[320] = "";
   const json_t *largest = find_largest(parts);
-  size_t nmissing = name_parts(parts, CLAIM_MISSING, NULL, sizeof missing, missing);
+  size_t nmissing = name_parts(parts, CLAIM_MISSING, sizeof missing, missing);
   if (!largest && nmissing == 0) return verdict_below_floors(parts);
   if (!largest)
     return json_sprintf(
         "Parts are missing, as runs failed: %s. None of the others is above its floor.", missing);
+  if (name_parts(parts, CLAIM_UNCHECKED, sizeof unchecked, unchecked) > 0)
+    snprintf(doubt, sizeof doubt, " No run has checked the references of: %s.", unchecked);
   double error = lookup_number(largest, "error");
   const char *least = has_bound(largest, CLAIM_AT_LEAST) ? "at least " : "";
   const char *part = lookup_text(largest, "part");
   if (nmissing > 0)
     return json_sprintf(
         "Parts are missing, as runs failed: %s. So it is not known which part is the largest; of "
-        "those that are known it is %s, %s%.1e of the displacement.",
-        missing, part, least, error);
+        "those that are known it is %s, %s%.1e of the displacement.%s",
+        missing, part, least, error, doubt);
   if (total < 0.7 * error)
     snprintf(cancel, sizeof cancel,
              " Parts cancel one another: together they are %.1e; look at each alone.", total);
   name_rivals(parts, largest, sizeof rivals, rivals);
   return json_sprintf(
-      "The largest part is that of %s, %s%.1e of the displacement. Change first: %s.%s%s", part,
-      least, error, lookup_text(largest, "advice"), rivals, cancel);
+      "The largest part is that of %s, %s%.1e of the displacement. Change first: %s.%s%s%s", part,
+      least, error, lookup_text(largest, "advice"), rivals, cancel, doubt);
 }
 
 /* --- The table --- */

@@ -152,6 +152,7 @@ most=$(python3 steps.py)
 expect 1 budget model.yaml -o missing --quiet --skip "time integration" --skip "algebraic solver" \
   --set strain=polar --set integrator.max_steps=$most
 out "Parts are missing, as runs failed: space. So it is not known which part is the largest"
+out "No run has checked the references of: strain measure."
 grep -q "The largest part is" stdout && complain "a part is called the largest"
 grep -q "^strain measure  *(*[0-9]" stdout || complain "the part that is known"
 claim missing "not d['complete'] and d['missing'] == ['space'] and d['sum'] is None" \
