@@ -57,22 +57,25 @@ static void end_name(const char *verdict, FILE *out) {
   fputs("</td>", out);
 }
 
-/* A number with its bound: what is below the floor by what it is at most. */
+/* A number with its bound: what is below the floor by what it is at most, what is doubtful in
+   parentheses. */
 static void error_cell(const json_t *object, const char *key, const char *prefix, FILE *out) {
   char name[32];
   snprintf(name, sizeof name, "%sbound", prefix);
   const char *bound = lookup_text(object, name);
   bool below = strcmp(bound, "at most") == 0;
+  bool doubtful = strcmp(bound, "doubtful") == 0 || strcmp(bound, "unchecked") == 0;
   snprintf(name, sizeof name, "%shigh", prefix);
   double error = lookup_number(object, below ? name : key);
   if (!isfinite(error))
     fputs("<td class=\"number\">not known</td>", out);
   else
-    fprintf(out, "<td class=\"number\">%s%.2e</td>",
+    fprintf(out, "<td class=\"number\">%s%.2e%s</td>",
             below                            ? "≤ "
+            : doubtful                       ? "("
             : strcmp(bound, "at least") == 0 ? "≥ "
                                              : "",
-            error);
+            error, doubtful ? ")" : "");
 }
 
 static void bar_cell(double share, const bars *b, FILE *out) {
@@ -92,7 +95,7 @@ static void write_part(const json_t *part, const bars *b, FILE *out) {
   error_cell(part, "error", "", out);
   bar_cell(share_of(part, b), b, out);
   error_cell(part, "end", "end_", out);
-  page_number(out, lookup_number(part, "alone"), 3);
+  error_cell(part, "alone", "alone_", out);
   page_number(out, lookup_number(part, "cost"), 3);
   fputs("</tr>\n", out);
 }
