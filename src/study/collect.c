@@ -16,10 +16,6 @@ int measure_named(const char *name) {
   return -1;
 }
 
-bool is_rated(const error_pair *error, const error_pair *floor, bool end) {
-  return end ? error->end >= 10 * floor->end : error->max >= 10 * floor->max;
-}
-
 static corot_status copy_text(const char *text, char **out) {
   char *copy = malloc(strlen(text) + 1);
   if (!copy) return no_memory();
@@ -48,6 +44,7 @@ static corot_status look_reference(measuring *g, int index, table_reference *t) 
     if (record[i].reason && !t->reason) status = copy_text(record[i].reason, &t->reason);
   }
   if (status == COROT_OK && t->state == RUN_DONE) {
+    t->approximations = approximations_of(record[0].result);
     drift ignored;
     corot_status measured =
         measure_run(g, &g->m->run[r->run[1]], record[1].result, index, &t->floor, &ignored);
@@ -68,6 +65,7 @@ static corot_status measure_cell(measuring *g, const table_reference *references
   const study_cell *c = t->cell;
   const table_reference *r = c->reference >= 0 ? &references[c->reference] : NULL;
   bool known = r && r->known;
+  t->approximations = approximations_of(result);
   COROT_TRY(costs_read(g->dir, t->run, result, &t->cost));
   corot_status status =
       measure_run(g, t->run, result, known ? c->reference : -1, &t->error, &t->drift);
@@ -150,14 +148,16 @@ static json_t *cell_json(const table_rows *t, const table_row *r) {
   bool below = floor && !is_rated(&r->error.of[t->measure], &floor->of[t->measure], false);
   json_t *drifts = json_pack("{s:o, s:o}", "energy", json_text_real(r->drift.energy), "momentum",
                              json_text_real(r->drift.momentum));
-  return json_pack("{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:s?}",
-                   "id", r->run->id, "series", c->series, "settings", c->settings, "tolerance",
-                   json_text_real(c->tolerance), "tolerance_key", c->tolerance_key, "status",
-                   state_words[r->state], "reason", r->reason, "cost",
-                   r->state == RUN_DONE ? costs_json(&r->cost) : json_null(), "error",
-                   owned(r->error_json), "digits", floor ? digits(&r->error, floor) : json_null(),
-                   "below_floor", below, "unrated", owned(r->unrated), "drift", drifts, "reference",
-                   c->reference >= 0 ? json_integer(c->reference) : json_null(), "note", r->note);
+  return json_pack(
+      "{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:s?, s:o}", "id",
+      r->run->id, "series", c->series, "settings", c->settings, "tolerance",
+      json_text_real(c->tolerance), "tolerance_key", c->tolerance_key, "status",
+      state_words[r->state], "reason", r->reason, "cost",
+      r->state == RUN_DONE ? costs_json(&r->cost) : json_null(), "error", owned(r->error_json),
+      "digits", floor ? digits(&r->error, floor) : json_null(), "below_floor", below, "unrated",
+      owned(r->unrated), "drift", drifts, "reference",
+      c->reference >= 0 ? json_integer(c->reference) : json_null(), "note", r->note, "shared",
+      cell_shared(t, r));
 }
 
 /* How far two references agree, in words. */
@@ -202,18 +202,19 @@ static json_t *columns_json(const manifest *m) {
   return list;
 }
 
-static corot_status make_table(const manifest *m, const table_rows *t, json_t **out) {
+static corot_status make_table(const manifest *m, const table_rows *t, json_t *space,
+                               json_t **out) {
   json_t *cells = json_array(), *references = json_array();
   for (int i = 0; i < t->n; i++) json_array_append_new(cells, cell_json(t, &t->row[i]));
   for (int i = 0; i < m->nreference; i++)
     json_array_append_new(references, reference_json(m, &t->reference[i]));
   bool whole =
       (int)json_array_size(cells) == t->n && (int)json_array_size(references) == m->nreference;
-  json_t *table =
-      json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "title", m->title, "cost",
-                m->cost, "measure", m->measure, "corot", m->version, "columns", columns_json(m),
-                "series", series_json(t), "references", references, "fits", collect_fits(t),
-                "rankings", collect_rankings(t), "cells", cells);
+  json_t *table = json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}", "title",
+                            m->title, "cost", m->cost, "measure", m->measure, "corot", m->version,
+                            "columns", columns_json(m), "series", series_json(t), "shared",
+                            table_shared(t), "references", references, "fits", collect_fits(t),
+                            "rankings", collect_rankings(t), "cells", cells, "space", space);
   if (!whole || !table) {
     json_decref(table);
     return no_memory();
@@ -236,7 +237,11 @@ static corot_status collect(measuring *g, table_reference *references, table_row
                   .cost = m->cost};
   if (t.measure < 0 || !is_cost(t.cost))
     return corot_fail(COROT_EFORMAT, "%s/study.json: unknown measure or cost", g->dir);
-  return make_table(m, &t, out);
+  json_t *space;
+  COROT_TRY(collect_space(g, references, &space));
+  corot_status status = make_table(m, &t, space, out);
+  json_decref(space);
+  return status;
 }
 
 static void free_rows(int n, table_row *row) {
@@ -246,6 +251,7 @@ static void free_rows(int n, table_row *row) {
     errors_free(&row[i].error);
     json_decref(row[i].error_json);
     json_decref(row[i].unrated);
+    json_decref(row[i].approximations);
   }
   free(row);
 }
@@ -256,6 +262,7 @@ static void free_references(int n, table_reference *reference) {
     free(reference[i].note);
     errors_free(&reference[i].floor);
     json_decref(reference[i].floor_json);
+    json_decref(reference[i].approximations);
   }
   free(reference);
 }
