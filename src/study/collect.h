@@ -17,6 +17,7 @@
        drift       energy, momentum
        reference   number in the list of references
        note        why there are no errors, though the run is done
+       warnings    the codes of what the run warns of, each once: a list (app/warnings.h)
      references  {runs: [two ids], methods, rtol, settings, status, reason, agree, parts_at [s],
                   floor: error of the one against the other, digits, note}
      fits        {series, tolerance_key, exponent, constant, residual, points, verdict} of the
@@ -33,8 +34,8 @@
 /* The caller's to json_decref. */
 corot_status collect_table(const manifest *m, const char *dir, json_t **table);
 
-/* Collects, and writes all three files. To `warnings` (or NULL): references that part ways or are
-   not known, and how many cells are not rated. */
-corot_status collect_study(const manifest *m, const char *dir, FILE *warnings);
+/* Collects, and writes all three files. To `remarks` (or NULL): references that part ways or are
+   not known, how many cells are not rated, and which cells carry which warnings. */
+corot_status collect_study(const manifest *m, const char *dir, FILE *remarks);
 
 #endif
