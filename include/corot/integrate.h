@@ -94,6 +94,12 @@ corot_status corot_integrator_at(corot_integrator *integrator, double t, double 
 corot_status corot_integrator_work(corot_integrator *integrator, double t, double *dissipated,
                                    double *external);
 
+/* Energies and powers at the end of the last step, with the frames of that step if it is asked
+   before they are updated; `u` and `v` [n] are those of corot_integrator_at there. cvode, ida and the
+   methods of constant step have them from the step; with the others it is one corot_energy. */
+corot_status corot_integrator_energy(corot_integrator *integrator, const double *u, const double *v,
+                                     corot_energies *energies);
+
 /* What to do with the history of the solution when r has jumped between steps. */
 typedef enum corot_history {
   COROT_HISTORY_AUTO,    /* restart if the jump is felt at the tolerance (see multistep.c) */

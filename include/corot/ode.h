@@ -177,6 +177,37 @@ typedef struct corot_element_fields {
 corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
                             const corot_element_fields *fields);
 
+/* How far a displacement is from small strains and turns. What is below the limits is not counted,
+   so that a body hardly deformed costs little. */
+typedef struct corot_deformation {
+  double strained; /* part of the volume where a principal stretch is off one by more than the
+                      limit */
+  double stretch_min, stretch_max; /* of the principal stretches there; 1 if there is none */
+  double turned;   /* part of the volume turned by more than the limit */
+  double turn_max; /* largest turn there, the angle of the polar factor [rad]; 0 if there is none */
+  double det_min;  /* the smallest det F of all tets, and whose it is */
+  int det_tet;
+  int ninverted;   /* tets with det F <= 0, which the rest leaves out */
+} corot_deformation;
+
+/* Of the displacement at t alone, whatever the strain measure; with a hierarchy, of the finest
+   level. strain_limit: 0 to 1; turn_limit [rad]: INFINITY, if turns do not matter. */
+void corot_deformation_measure(const corot_model *model, corot_state *state, double t,
+                               const double *u, double strain_limit, double turn_limit,
+                               corot_deformation *deformation);
+
+/* How much the stress, which is constant in each tet, jumps between tets: an indicator of what the
+   mesh leaves out. With the stress S in material axes, and S* its continuous recovery, linear between
+   averages around the nodes (each material has its own),
+
+     *share = e / sqrt(|S|^2 + e^2),  e = |S* - S|
+
+   in the norm of the strain energy (Zienkiewicz & Zhu 1987, whose estimator of the relative error
+   this is). Where dilatations are averaged, of the deviator alone. 0 for a body without stress.
+   COROT_ENOMEM. */
+corot_status corot_stress_jumps(const corot_model *model, corot_state *state, double t,
+                                const double *u, double *share);
+
 /* Elastic force of the model on all nodes [nnode][3] [N], held ones included, with exact frames.
    COROT_RETRY as for corot_residual. */
 corot_status corot_elastic_force(const corot_model *model, corot_state *state, double t,

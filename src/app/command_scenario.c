@@ -7,7 +7,6 @@
 
 #include "cli.h"
 #include "folder.h"
-#include "warnings.h"
 
 static const struct option options[] = {
     {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
@@ -34,7 +33,6 @@ static int read_and_go(scenario_action *go, const char *path, int noverride, cha
   int code = EXIT_SYSTEM;
   if (o->dir) {
     heed_signals();
-    if (!o->quiet) warnings_print(s, "warning: ", stderr);
     code = go(s, o);
   } else {
     failure(COROT_ENOMEM);

@@ -6,7 +6,6 @@
 
 #include "config.h"
 #include "json_text.h"
-#include "warnings.h"
 
 /* --- Finding --- */
 
@@ -61,6 +60,7 @@ corot_status facts_find(const scenario *s, facts *f) {
   corot_state *state = NULL;
   COROT_TRY(scenario_build(s, &f->mesh, &f->refinement, &f->model));
   f->quality = corot_mesh_measure(f->mesh);
+  COROT_TRY(warnings_before(s, f->model, &f->warnings));
   f->mass = total_mass(s, f);
   COROT_TRY(corot_state_create(f->model, &state));
   f->bytes = corot_model_bytes(f->model) + corot_state_bytes(state);
@@ -71,6 +71,7 @@ corot_status facts_find(const scenario *s, facts *f) {
 }
 
 void facts_free(facts *f) {
+  warnings_free(&f->warnings);
   corot_model_destroy(f->model);
   corot_refinement_destroy(f->refinement);
   corot_mesh_destroy(f->mesh);
@@ -203,7 +204,7 @@ void facts_print(const scenario *s, const facts *f, FILE *out) {
   print_mesh(s, f, out);
   print_model(s, f, out);
   print_run(s, f, out);
-  warnings_print(s, "warning        ", out);
+  warnings_print(&f->warnings, 0, "warning        ", out);
 }
 
 /* --- JSON --- */
@@ -268,5 +269,5 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
   j = json_text_with(j, "probes", probes_json(s, f->mesh));
-  return json_text_with(j, "warnings", warnings_list(s));
+  return json_text_with(j, "warnings", warnings_json(&f->warnings));
 }

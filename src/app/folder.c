@@ -93,6 +93,7 @@ corot_status folder_clean(const char *dir) {
   COROT_TRY(remove_file(dir, "compare.csv"));
   COROT_TRY(remove_file(dir, "reactions.csv"));
   COROT_TRY(remove_file(dir, "groups.json"));
+  COROT_TRY(remove_file(dir, "history.csv"));
   COROT_TRY(remove_file(dir, "states.bin"));
   COROT_TRY(remove_file(dir, "fields.pvd"));
   COROT_TRY(remove_file(dir, "report.html"));

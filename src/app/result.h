@@ -4,6 +4,7 @@
 
 #include "hash.h"
 #include "outputs.h"
+#include "warnings.h"
 
 /* All updates of held or extrapolated frames. */
 typedef struct frame_totals {
@@ -37,6 +38,8 @@ typedef struct run_summary {
                                      and `frames` nothing */
   double setup_s, frames_s, output_s, wall_s, cpu_s; /* [s] */
   hashes hashes;
+  const warnings *warnings;
+  const observed *seen;
 } run_summary;
 
 /* The caller's to json_decref. */

@@ -30,6 +30,8 @@ typedef struct run {
   double t;      /* reached [s]; at a constant step, it may pass the end */
   double shown;  /* time of the last row of the tables [s]; -1: there is none */
   frame_totals frames;
+  warnings warnings;
+  observed seen;                                                   /* in the end */
   double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
 } run;
 
@@ -55,6 +57,7 @@ static corot_status start_integrator(run *r) {
 
 static corot_status prepare(run *r) {
   COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(run_warn_before(r->scenario, r->model, r->options, &r->warnings));
   COROT_TRY(start_integrator(r));
   r->setup_s = wall_clock() - r->wall_at_start;
   return COROT_OK;
@@ -69,6 +72,7 @@ static void release(run *r) {
   corot_model_destroy(r->model);
   corot_refinement_destroy(r->refinement);
   corot_mesh_destroy(r->mesh);
+  warnings_free(&r->warnings);
   free(r->u);
   free(r->v);
 }
@@ -87,6 +91,22 @@ static corot_status write_moment(run *r, double t, bool last) {
   if (status > 0) return corot_fail(status, "output at t = %g s: %s", t, corot_error());
   if (status == COROT_OK) r->shown = t;
   return status;
+}
+
+/* Adds the end of the step to the history, with the frames as they were during it; a step that
+   passes the end of the run, there. A state that cannot be evaluated there is left out: output
+   times may tell more. */
+static corot_status record_step(run *r) {
+  double started = wall_clock(), t = fmin(r->t, r->scenario->t_end);
+  instant now = {.t = t, .u = r->u, .v = r->v, .frame_energy = r->frames.energy};
+  corot_energies e;
+  COROT_TRY(corot_integrator_at(r->integrator, t, r->u, r->v));
+  COROT_TRY(corot_integrator_work(r->integrator, t, &now.dissipated, &now.external_work));
+  corot_status status = t == r->t ? corot_integrator_energy(r->integrator, r->u, r->v, &e)
+                                  : corot_energy(r->model, r->state, t, r->u, r->v, &e);
+  if (status == COROT_OK) status = outputs_history(r->outputs, &now, &e);
+  r->output_s += wall_clock() - started;
+  return status > 0 ? COROT_OK : status;
 }
 
 /* Writes the output times up to t, with the frames as they were during the step. */
@@ -176,6 +196,7 @@ static corot_status integrate(run *r) {
     prepare_step(r);
     COROT_TRY(corot_integrator_step(r->integrator, stop, &step));
     r->t = step.t;
+    COROT_TRY(record_step(r));
     COROT_TRY(write_outputs(r, step.t));
 
     step_row row = {
@@ -212,6 +233,8 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
       .output_s = r->output_s,
       .wall_s = wall_clock() - r->wall_at_start,
       .cpu_s = cpu_clock() - r->cpu_at_start,
+      .warnings = &r->warnings,
+      .seen = &r->seen,
   };
   return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
 }
@@ -250,11 +273,19 @@ static int conclude(run *r, corot_status status) {
   }
 
   run_summary summary;
-  late = summarize(r, reason, code, &summary);
+  late = run_warn_after(r->scenario, r->model, r->state, r->outputs, false, r->options,
+                        &r->warnings, &r->seen);
+  corot_status summed = summarize(r, reason, code, &summary);
+  if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) fprintf(stderr, "%s\n", corot_error());
   tell(r, &summary);
   return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
+}
+
+static corot_status open_outputs(run *r) {
+  COROT_TRY(outputs_open(r->scenario, r->model, r->options->dir, &r->outputs));
+  return outputs_open_history(r->outputs, r->options->dir);
 }
 
 static int integrate_scenario(const scenario *s, const run_options *options) {
@@ -270,7 +301,7 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
     code = lost ? EXIT_INTEGRATOR : status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
     if (lost && run_stop_signal()) code = EXIT_SIGNAL + run_stop_signal();
     run_forget_signal();
-  } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
+  } else if ((status = open_outputs(&r)) != COROT_OK) {
     fprintf(stderr, "%s\n", corot_error());
     code = run_exit_code(status);
   } else {

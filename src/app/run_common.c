@@ -39,6 +39,26 @@ int run_exit_code(corot_status status) {
   return EXIT_INTEGRATOR;
 }
 
+static const char head[] = "warning: ";
+
+corot_status run_warn_before(const scenario *s, const corot_model *model,
+                             const run_options *options, warnings *w) {
+  corot_status status = warnings_before(s, model, w);
+  if (!options->quiet) warnings_print(w, 0, head, stderr);
+  return status;
+}
+
+corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,
+                            const outputs *o, bool statics, const run_options *options, warnings *w,
+                            observed *seen) {
+  int before = w->n;
+  COROT_TRY(outputs_observed(o, state, seen));
+  corot_status status = COROT_OK;
+  if (seen->history.count > 0) status = warnings_after(s, model, seen, statics, w);
+  if (!options->quiet) warnings_print(w, before, head, stderr);
+  return status;
+}
+
 corot_status run_write_result(const scenario *s, const outputs *o, const run_summary *summary,
                               const run_options *options) {
   json_t *result = NULL;

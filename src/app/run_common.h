@@ -17,6 +17,16 @@ void run_forget_signal(void);
 /* The words and the exit code of a run that heeded it. */
 int run_interrupted(size_t size, char *reason);
 
+/* The warnings of what there is before the first step, told on stderr unless the options ask for
+   quiet. */
+corot_status run_warn_before(const scenario *s, const corot_model *model,
+                             const run_options *options, warnings *w);
+
+/* The same of what came of it, after the last moment was written; `seen` is what was looked at. */
+corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,
+                            const outputs *o, bool statics, const run_options *options, warnings *w,
+                            observed *seen);
+
 /* result.json, to the folder and, if the options say so, to stdout. */
 corot_status run_write_result(const scenario *s, const outputs *o, const run_summary *summary,
                               const run_options *options);

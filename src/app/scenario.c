@@ -183,6 +183,7 @@ static void read_output(scenario *s) {
   config_node *root = s->source->root;
   s->title = text_at(root, "title");
   s->write_fields = text_is(root, "output.fields", "vtu");
+  s->write_history = text_is(root, "output.history", "true");
   s->write_states = text_is(root, "output.states", "binary");
   s->field_every = (int)number_at(root, "output.every");
 }

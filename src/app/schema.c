@@ -146,6 +146,7 @@ static const schema_key keys[] = {
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},
   {"output.every",            INTEGER,         OPTIONAL, POSITIVE,     "",        "1", 0, "fields at every so many output times"},
+  {"output.history",          CHOICE,          OPTIONAL, ANY,          "",        "true", "true|false", "history.csv: probes and energies at the end of every step, not at output times alone"},
   {"output.states",           CHOICE,          OPTIONAL, ANY,          "",        "none", "binary|none", "states.bin: displacement and velocity of all degrees of freedom at the output times, to the last bit"},
 };
 /* clang-format on */

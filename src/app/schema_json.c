@@ -79,6 +79,7 @@ static json_t *value_schema(const schema_key *key) {
     case SCHEMA_TEXT:
       return of_type("string");
     case SCHEMA_CHOICE:
+      if (strcmp(key->words, "true|false") == 0) return of_type("boolean");
       return json_pack("{s:o}", "enum", words_list(key->words));
     case SCHEMA_NUMBER:
       return scalar_schema("number", key);

@@ -70,8 +70,11 @@ static json_t *resolve_value(const config_node *node, const schema_key *key) {
     case SCHEMA_LIST:
     case SCHEMA_MAPS:
       return node->kind == CONFIG_LIST ? maps(node, inside) : resolve_map(node, inside);
-    case SCHEMA_TEXT:
     case SCHEMA_CHOICE:
+      if (strcmp(key->words, "true|false") == 0)
+        return json_boolean(strcmp(node->text, "true") == 0);
+      return json_string(node->text);
+    case SCHEMA_TEXT:
       return json_string(node->text);
     case SCHEMA_WORDS:
       return texts(node);

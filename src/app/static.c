@@ -29,6 +29,8 @@ typedef struct equilibrium_run {
   double factor, work;                   /* reached; by loads and supports [J] */
   json_t *steps;
   json_t *reactions_at_end;
+  warnings warnings;
+  observed seen;                                         /* in the end */
   double wall_at_start, cpu_at_start, setup_s, output_s; /* [s] */
 } equilibrium_run;
 
@@ -58,6 +60,7 @@ static corot_status prepare(equilibrium_run *r) {
   corot_statics_def def = s->statics;
   def.stop = is_stopped;
   COROT_TRY(scenario_build(s, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(run_warn_before(s, r->model, r->options, &r->warnings));
   def.linear.refinement = r->refinement;
   COROT_TRY(allocate(r));
   corot_status status = corot_statics_create(&def, r->model, s->t_end, NULL, &r->statics);
@@ -83,6 +86,7 @@ static void release(equilibrium_run *r) {
   corot_mesh_destroy(r->mesh);
   json_decref(r->steps);
   json_decref(r->reactions_at_end);
+  warnings_free(&r->warnings);
   free(r->u);
   free(r->nodal);
 }
@@ -198,6 +202,8 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .output_s = r->output_s,
       .wall_s = wall_clock() - r->wall_at_start,
       .cpu_s = cpu_clock() - r->cpu_at_start,
+      .warnings = &r->warnings,
+      .seen = &r->seen,
   };
   return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
 }
@@ -233,7 +239,10 @@ static int conclude(equilibrium_run *r, corot_status status) {
   }
   run_summary summary;
   statics_summary statics;
-  late = summarize(r, reason, code, &statics, &summary);
+  late = run_warn_after(r->scenario, r->model, r->state, r->outputs, true, r->options, &r->warnings,
+                        &r->seen);
+  corot_status summed = summarize(r, reason, code, &statics, &summary);
+  if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) fprintf(stderr, "%s\n", corot_error());
   tell(r, reason, &summary);

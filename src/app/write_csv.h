@@ -1,9 +1,9 @@
 /* The tables of a run. Commas, a point for decimals, one header line, numbers with 17 significant
    digits (they read back to the same bits), an empty cell where there is nothing to say.
 
-   Each row is handed to the system as a whole as soon as it is made, so that a program that is
-   killed leaves whole rows (but for the very last, which the system may cut at a page). A row that did not fit on the disk is taken back.
-   `dir` is the run's folder. */
+   Each row (of history.csv, a few dozen) is handed to the system as a whole as soon as it is made,
+   so that a program that is killed leaves whole rows (but for the very last, which the system may
+   cut at a page). A row that did not fit on the disk is taken back. `dir` is the run's folder. */
 #ifndef COROT_APP_WRITE_CSV_H
 #define COROT_APP_WRITE_CSV_H
 
@@ -44,6 +44,12 @@ typedef struct ledger {
 
 corot_status energy_open(const char *dir, table **energy);
 corot_status energy_row(table *energy, const ledger *row);
+
+/* history.csv (history.h): both, at the end of every step. */
+corot_status history_table_open(const char *dir, int nprobe, const char *const *name,
+                                table **history);
+corot_status history_row(table *history, const ledger *row, int nprobe, const int *node,
+                         const double (*displacement)[3]);
 
 /* steps.csv: one row a step of the integrator, so that the h add up to the last t
 

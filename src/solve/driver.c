@@ -63,11 +63,12 @@ int corot_driver_work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_
   corot_integrator *self = ((driver *)user_data)->self;
   double start = clock_wall();
   const double *u = N_VGetArrayPointer(y);
-  corot_energies e;
-  int status = corot_energy(self->model, self->state, t, u, u + corot_model_ndof(self->model), &e);
+  corot_energies *e = &self->energies;
+  int status = corot_energy(self->model, self->state, t, u, u + corot_model_ndof(self->model), e);
+  self->t_energies = status ? NAN : t;
   if (!status) {
-    N_VGetArrayPointer(rate)[0] = e.power_dissipated;
-    N_VGetArrayPointer(rate)[1] = e.power_external;
+    N_VGetArrayPointer(rate)[0] = e->power_dissipated;
+    N_VGetArrayPointer(rate)[1] = e->power_external;
   }
   self->work_s += clock_wall() - start;
   return status;

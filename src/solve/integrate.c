@@ -135,8 +135,13 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
   COROT_TRY(check_start(t, corot_model_ndof(model), u, v));
   corot_integrator *self = calloc(1, sizeof *self);
   if (!self) return corot_fail(COROT_ENOMEM, "no memory for an integrator");
-  *self = (corot_integrator){
-      .ops = ops, .model = model, .state = state, .def = *def, .t = t, .before = t};
+  *self = (corot_integrator){.ops = ops,
+                             .model = model,
+                             .state = state,
+                             .def = *def,
+                             .t = t,
+                             .before = t,
+                             .t_energies = NAN};
   choose(self);
 
   corot_status status = corot_mass_solver_create(model, &self->mass);
@@ -219,6 +224,16 @@ corot_status corot_integrator_work(corot_integrator *self, double t, double *dis
                                    double *external) {
   COROT_TRY(check_within(self, t));
   return self->ops->work(self, t, dissipated, external);
+}
+
+corot_status corot_integrator_energy(corot_integrator *self, const double *u, const double *v,
+                                     corot_energies *energies) {
+  double near = 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
+  if (fabs(self->t_energies - self->t) <= near) {
+    *energies = self->energies;
+    return COROT_OK;
+  }
+  return corot_energy(self->model, self->state, self->t, u, v, energies);
 }
 
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {

@@ -41,6 +41,8 @@ struct corot_integrator {
   double step_s;            /* wall time of all steps [s] */
   void *method;             /* the method's own part */
   const char *table;        /* the Butcher table in use; NULL: none */
+  corot_energies energies;  /* where the work integrands were last evaluated */
+  double t_energies;        /* when that was; NaN: nowhere yet */
 };
 
 /* Defaults of the BDF methods for what is left open. */

@@ -2,6 +2,7 @@
 
 #include <app/json_text.h>
 #include <app/no_memory.h>
+#include <app/warnings.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -78,6 +79,30 @@ static corot_status measure_cell(measuring *g, const table_reference *references
   return COROT_OK;
 }
 
+static bool has_text(const json_t *list, const char *text) {
+  for (size_t i = 0; i < json_array_size(list); i++)
+    if (strcmp(json_string_value(json_array_get(list, i)), text) == 0) return true;
+  return false;
+}
+
+/* The codes in a run's result, each once, in the order they were given in. */
+static corot_status read_warnings(const json_t *result, json_t **out) {
+  const json_t *given = json_object_get(result, "warnings");
+  json_t *list = json_array();
+  bool complete = list != NULL;
+  for (size_t i = 0; complete && i < json_array_size(given); i++) {
+    const char *code = json_string_value(json_object_get(json_array_get(given, i), "code"));
+    if (code && !has_text(list, code))
+      complete = json_array_append_new(list, json_string(code)) == 0;
+  }
+  if (complete) {
+    *out = list;
+    return COROT_OK;
+  }
+  json_decref(list);
+  return no_memory();
+}
+
 static corot_status look_cell(measuring *g, const table_reference *references, int index,
                               table_row *t) {
   const study_cell *c = &g->m->cell[index];
@@ -88,7 +113,9 @@ static corot_status look_cell(measuring *g, const table_reference *references, i
   t->reason = record.reason;
   record.reason = NULL;
   corot_status status = COROT_OK;
-  if (record.state == RUN_DONE) status = measure_cell(g, references, record.result, t);
+  if (record.state == RUN_DONE) status = read_warnings(record.result, &t->warnings);
+  if (record.state == RUN_DONE && status == COROT_OK)
+    status = measure_cell(g, references, record.result, t);
   run_record_free(&record);
   return status;
 }
@@ -149,15 +176,15 @@ static json_t *cell_json(const table_rows *t, const table_row *r) {
   json_t *drifts = json_pack("{s:o, s:o}", "energy", json_text_real(r->drift.energy), "momentum",
                              json_text_real(r->drift.momentum));
   return json_pack(
-      "{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:s?, s:o}", "id",
-      r->run->id, "series", c->series, "settings", c->settings, "tolerance",
+      "{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:s?, s:o, s:o}",
+      "id", r->run->id, "series", c->series, "settings", c->settings, "tolerance",
       json_text_real(c->tolerance), "tolerance_key", c->tolerance_key, "status",
       state_words[r->state], "reason", r->reason, "cost",
       r->state == RUN_DONE ? costs_json(&r->cost) : json_null(), "error", owned(r->error_json),
       "digits", floor ? digits(&r->error, floor) : json_null(), "below_floor", below, "unrated",
       owned(r->unrated), "drift", drifts, "reference",
       c->reference >= 0 ? json_integer(c->reference) : json_null(), "note", r->note, "shared",
-      cell_shared(t, r));
+      cell_shared(t, r), "warnings", owned(r->warnings));
 }
 
 /* How far two references agree, in words. */
@@ -252,6 +279,7 @@ static void free_rows(int n, table_row *row) {
     json_decref(row[i].error_json);
     json_decref(row[i].unrated);
     json_decref(row[i].approximations);
+    json_decref(row[i].warnings);
   }
   free(row);
 }
@@ -278,6 +306,23 @@ corot_status collect_table(const manifest *m, const char *dir, json_t **table) {
   return status;
 }
 
+/* "warning: bending: 2 of 8 cells: ID ID", all too many left out. */
+static void tell_code(const json_t *cells, const char *code, FILE *out) {
+  enum { MOST = 8 };
+  size_t count = 0, told = 0;
+  for (size_t i = 0; i < json_array_size(cells); i++)
+    count += has_text(json_object_get(json_array_get(cells, i), "warnings"), code);
+  if (count == 0) return;
+  fprintf(out, "warning: %s: %zu of %zu cells:", code, count, json_array_size(cells));
+  for (size_t i = 0; i < json_array_size(cells) && told < MOST; i++) {
+    const json_t *c = json_array_get(cells, i);
+    if (!has_text(json_object_get(c, "warnings"), code)) continue;
+    fprintf(out, " %s", json_string_value(json_object_get(c, "id")));
+    told++;
+  }
+  fputs(count > MOST ? " ...\n" : "\n", out);
+}
+
 static void warn(const json_t *table, FILE *out) {
   const json_t *references = json_object_get(table, "references");
   const json_t *cells = json_object_get(table, "cells");
@@ -292,15 +337,16 @@ static void warn(const json_t *table, FILE *out) {
   if (nbelow > 0)
     fprintf(out, "%d of %zu cells are not rated: less than ten times what the references know\n",
             nbelow, json_array_size(cells));
+  for (int code = 0; code < WARNING_CODES; code++) tell_code(cells, warning_kinds[code].word, out);
 }
 
-corot_status collect_study(const manifest *m, const char *dir, FILE *warnings) {
+corot_status collect_study(const manifest *m, const char *dir, FILE *remarks) {
   json_t *table = NULL;
   COROT_TRY(collect_table(m, dir, &table));
   corot_status status = json_file_write(dir, "table.json", table);
   if (status == COROT_OK) status = table_write_csv(table, dir);
   if (status == COROT_OK) status = table_write_sqlite(table, dir);
-  if (status == COROT_OK && warnings) warn(table, warnings);
+  if (status == COROT_OK && remarks) warn(table, remarks);
   json_decref(table);
   return status;
 }

@@ -25,6 +25,7 @@ typedef struct table_row {
   drift drift;
   json_t *error_json, *unrated; /* of what is measured, by name */
   json_t *approximations;       /* that the run makes; NULL: it is not done */
+  json_t *warnings;             /* the codes of the run's own, each once: a list */
 } table_row;
 
 typedef struct table_reference {
