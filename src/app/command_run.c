@@ -4,9 +4,10 @@
 static const char help[] =
     "usage: corot run MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--quiet] [--json]\n"
     "\n"
-    "Integrates a scenario (YAML, or JSON) and writes probes.csv, energy.csv, steps.csv,\n"
-    "compare.csv and states.bin (if the scenario asks for them), fields for ParaView (fields.pvd)\n"
-    "and result.json to a folder.\n"
+    "Integrates a scenario (YAML, or JSON) and writes probes.csv and energy.csv (output times),\n"
+    "history.csv (both at every step), steps.csv, compare.csv and states.bin (if the scenario asks\n"
+    "for them), fields for ParaView (fields.pvd) and result.json to a folder. What whoever uses the\n"
+    "answer should know it says in warnings, on stderr and in result.json.\n"
     "\n"
     "  -o, --output DIR     the folder, made if need be; default: out/MODEL in this folder\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"

@@ -128,6 +128,7 @@ corot_status outputs_open(const scenario *s, const corot_model *model, const cha
   if (!o) return corot_fail(COROT_ENOMEM, "%s: out of memory", dir);
   o->scenario = s;
   o->model = model;
+  o->seen.strained.det_tet = -1;
   corot_status status = open_all(o, dir);
   if (status != COROT_OK) {
     outputs_destroy(o);
@@ -183,22 +184,24 @@ static bool is_more_strained(const corot_deformation *a, const corot_deformation
 }
 
 /* Keeps the worst of the deformations so far. */
-static void observe(outputs *o, corot_state *state, const instant *now) {
-  observed *s = &o->seen;
-  bool first = o->count == 1, turns = strcmp(o->scenario->strain, "cauchy") == 0;
+static void observe_deformation(const outputs *o, corot_state *state, double t, const double *u,
+                                observed *s) {
+  bool first = s->strained.det_tet < 0, turns = strcmp(o->scenario->strain, "cauchy") == 0;
   corot_deformation d;
-  corot_deformation_measure(o->model, state, now->t, now->u, STRAIN_LIMIT,
-                            turns ? TURN_LIMIT : INFINITY, &d);
-  if (first || is_more_strained(&d, &s->strained)) s->strained = d, s->t_strained = now->t;
-  if (first || d.turn_max > s->turned.turn_max) s->turned = d, s->t_turned = now->t;
-  if (first || d.det_min < s->inverted.det_min) s->inverted = d, s->t_inverted = now->t;
+  corot_deformation_measure(o->model, state, t, u, STRAIN_LIMIT, turns ? TURN_LIMIT : INFINITY, &d);
+  if (first || is_more_strained(&d, &s->strained)) s->strained = d, s->t_strained = t;
+  if (first || d.turn_max > s->turned.turn_max) s->turned = d, s->t_turned = t;
+  if (first || d.det_min < s->inverted.det_min) s->inverted = d, s->t_inverted = t;
+}
 
+static void observe(outputs *o, corot_state *state, const instant *now) {
   double largest = 0;
+  observe_deformation(o, state, now->t, now->u, &o->seen);
   for (int n = 0; n < corot_model_mesh(o->model)->nnode; n++) {
     const double *u = o->value.displacement[n];
     largest = fmax(largest, u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
   }
-  s->displacement = fmax(s->displacement, sqrt(largest));
+  o->seen.displacement = fmax(o->seen.displacement, sqrt(largest));
 }
 
 static corot_status take_fields(outputs *o, corot_state *state, const instant *now) {
@@ -246,6 +249,7 @@ corot_status outputs_observed(const outputs *o, corot_state *state, observed *ou
   *out = (observed){0};
   if (o->count == 0) return COROT_OK;
   seen.history = history_known(o->history);
+  observe_deformation(o, state, seen.history.t_elastic, seen.history.u, &seen);
   COROT_TRY(
       corot_stress_jumps(o->model, state, seen.history.t_elastic, seen.history.u, &seen.jumps));
   *out = seen;

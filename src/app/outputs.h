@@ -61,9 +61,9 @@ typedef struct observed observed;
 struct observed {
   history_facts history;
   double displacement;        /* the largest of a node at the moments written [m] */
-  corot_deformation strained; /* of the moments written, the one most strained, */
-  corot_deformation turned;   /* the one most turned (of cauchy, else there are no turns), */
-  corot_deformation inverted; /* and the one with the smallest det F */
+  corot_deformation strained; /* of these and the one of most elastic energy, the most strained, */
+  corot_deformation turned;   /* the most turned (of cauchy, else there are no turns), */
+  corot_deformation inverted; /* and that with the smallest det F */
   double t_strained, t_turned, t_inverted; /* [s] */
   double jumps; /* of the stress when the elastic energy was largest: corot_stress_jumps */
 };

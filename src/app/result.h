@@ -1,4 +1,16 @@
-/* result.json: everything about a run that is one number or one word. */
+/* result.json: everything about a run that is one number or one word. Some of it:
+
+     warnings  [{code, text}, ...], see warnings.h
+     extremes  {NAME: {min: {value, t}, max: {value, t}}, ...} over all steps (of statics, over the
+               load steps): PROBE.ux, uy, uz [m], PROBE.u, its length, and the energies under their
+               names in energy.csv [J]
+     observed  what the outcome's warnings are made from, warning or not:
+       displacement  the largest of a node at an output time [m]
+       period        of the motion, see history.h [s]; null: it does not swing
+       energy_error  the largest balance over the largest energy; null: statics
+       strained      the part of the volume strained beyond STRAIN_LIMIT, when that was largest
+       turned        the part turned beyond TURN_LIMIT, when the turn was largest; of cauchy
+       stress_jumps  corot_stress_jumps when the elastic energy was largest */
 #ifndef COROT_APP_RESULT_H
 #define COROT_APP_RESULT_H
 

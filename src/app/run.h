@@ -11,7 +11,7 @@ typedef struct run_options {
   bool json;       /* result.json on stdout, too */
 } run_options;
 
-/* Runs the scenario and writes its files: probes.csv, energy.csv, steps.csv, compare.csv
+/* Runs the scenario and writes its files: probes.csv, energy.csv, history.csv, steps.csv, compare.csv
    (write_csv.h), states.bin (states.h), fields (write_vtu.h) and result.json. Messages go to
    stderr. A run that fails or is interrupted writes what it had, up to the time it reached.
 

@@ -49,47 +49,50 @@ static corot_status find_energy(const scenario *s, const history_facts *h, warni
    enough: it takes more of the body than that to count. */
 #define MOST_STRAINED 0.01
 
-/* What the measure makes of strains beyond the limit. */
+/* What the measure makes of strains beyond the limit: between uniaxial stresses of laws with the
+   same E and nu there are terms of second order in the strain. */
 static const char *about_measure(const scenario *s) {
   if (strcmp(s->strain, "green") == 0)
-    return "green's solid then gets softer in compression, has nothing to set against more of it "
-           "at "
-           "a stretch of 0.577, and is too stiff in tension";
-  if (strcmp(s->strain, "cauchy") == 0) return "cauchy is meant for small ones";
-  return "its stress is proportional to strain, from which real materials, and other laws of the "
-         "same E and nu, are as far by then as the strain is large";
+    return "green's law (St. Venant-Kirchhoff) gets stiffer in tension, and softer in compression "
+           "until it gives way at a stretch of 0.577";
+  if (strcmp(s->strain, "cauchy") == 0) return "cauchy is linear, which holds for small strains";
+  return "the law is linear in the strain, and others with the same E and nu differ from it by "
+         "then "
+         "by about as many per cent";
 }
+
+#define LOOKED "(looked at: output times, and the step of most elastic energy)"
 
 static corot_status find_strains(const scenario *s, const observed *o, warnings *w) {
   const corot_deformation *d = &o->strained;
   if (d->strained > MOST_STRAINED)
-    COROT_TRY(warnings_add(w, WARNING_STRAIN,
-                           "at t = %.4g s %.3g %% of the body is strained by more than %g %% "
-                           "(principal stretches from %.3g to %.3g; output times are looked at): "
-                           "%s; see whether the answer depends on the law by comparing it with "
-                           "another strain",
-                           o->t_strained, 100 * d->strained, 100 * STRAIN_LIMIT, d->stretch_min,
-                           d->stretch_max, about_measure(s)));
+    COROT_TRY(
+        warnings_add(w, WARNING_STRAIN,
+                     "at t = %.4g s %.3g %% of the body is strained by more than %g %%, with "
+                     "principal stretches from %.3g to %.3g: %s; another strain measure shows "
+                     "whether the answer depends on the law " LOOKED,
+                     o->t_strained, 100 * d->strained, 100 * STRAIN_LIMIT, d->stretch_min,
+                     d->stretch_max, about_measure(s)));
   d = &o->turned;
   if (d->turned > MOST_STRAINED)
-    COROT_TRY(warnings_add(
-        w, WARNING_STRAIN,
-        "at t = %.4g s %.3g %% of the body is turned by more than %g rad, at most "
-        "by %.3g rad (output times are looked at), and cauchy takes a turn for a "
-        "strain of half its square, here %.2g %%; strain: polar is the remedy",
-        o->t_turned, 100 * d->turned, TURN_LIMIT, d->turn_max, 100 * (1 - cos(d->turn_max))));
+    COROT_TRY(warnings_add(w, WARNING_STRAIN,
+                           "at t = %.4g s %.3g %% of the body is turned by more than %g rad, at "
+                           "most by %.3g rad: cauchy takes such a turn for a strain of %.2g %%; "
+                           "take strain: polar " LOOKED,
+                           o->t_turned, 100 * d->turned, TURN_LIMIT, d->turn_max,
+                           100 * (1 - cos(d->turn_max))));
   return COROT_OK;
 }
 
 static corot_status find_inverted(const scenario *s, const observed *o, warnings *w) {
   const corot_deformation *d = &o->inverted;
   if (d->ninverted == 0 || strcmp(s->strain, "cauchy") != 0) return COROT_OK;
-  return warnings_add(
-      w, WARNING_INVERTED,
-      "at t = %.4g s %d tet%s turned inside out, tet %d the furthest (det F = %.3g; "
-      "output times are looked at): cauchy, which is linear, goes on, but no body "
-      "does; strain: polar ends such a run",
-      o->t_inverted, d->ninverted, d->ninverted == 1 ? " is" : "s are", d->det_tet, d->det_min);
+  return warnings_add(w, WARNING_INVERTED,
+                      "at t = %.4g s %d tet%s turned inside out, tet %d the furthest (det F = "
+                      "%.3g): no body does that, but cauchy, which is linear, does not notice; "
+                      "strain: polar ends such a run " LOOKED,
+                      o->t_inverted, d->ninverted, d->ninverted == 1 ? " is" : "s are", d->det_tet,
+                      d->det_min);
 }
 
 /* --- The mesh --- */

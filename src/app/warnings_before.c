@@ -95,10 +95,9 @@ static double edge_at(const corot_mesh *mesh, int node) {
   return longest;
 }
 
-/* Within a tet no point is further from the nearest node than 0.61 of a regular tet's edge, and
-   half the longest edge is as near as one comes between nodes of a box: what is further off lies
-   outside the body, or stands for a node it was not meant to be. */
-#define MOST_EDGES 0.5
+/* Inside the body a point is at most half the longest edge from a node of a box's cell, and 0.61 of
+   the edge in a regular tet: what is further off lies outside the body, or among flat tets. */
+#define MOST_EDGES 0.65
 
 static corot_status find_probes(const scenario *s, const corot_mesh *mesh, warnings *w) {
   for (int i = 0; i < s->nprobe; i++) {

@@ -96,6 +96,7 @@ out "it can move along x, y and z and turn about x, y and z"
 
 has probe check pull.yaml --set 'probes.corner.point=[0.1, 0.1, 0.6]'
 lacks probe check pull.yaml --set 'probes.corner.point=[0.1, 0.1, 0.42]'
+lacks probe check pull.yaml --set 'probes.corner.point=[0.05, 0.05, 0.35]' # the middle of a cell
 lacks probe check pull.yaml --set 'probes.corner={node: 3}'
 
 has rtol check pull.yaml --set integrator.rtol=1e-15
