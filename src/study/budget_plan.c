@@ -90,14 +90,21 @@ static void plan_time_and_frame_age(const scenario *s, bool hierarchy, budget_pl
   if (by_step) plan_time(s, plan);
 }
 
+/* The viscous law stays as it is under warp and a hierarchy, where by default another one would
+   take its place: it is no approximation. */
+static void add_with_its_damping(budget_part *part, const char *set) {
+  add(part, "%s", set);
+  add(part, "viscosity=corotated");
+}
+
 void budget_plan_make(const scenario *s, budget_plan *plan) {
   *plan = (budget_plan){0};
   bool hierarchy = s->coarse_strain && s->refine > 0;
 
   if (!is(s->integrator.method, "erk")) tighten_algebra(s, begin(plan, BUDGET_ALGEBRA));
   plan_time_and_frame_age(s, hierarchy, plan);
-  if (is(s->strain, "warp")) add(begin(plan, BUDGET_FRAME_RULE), "strain=polar");
-  if (hierarchy) add(begin(plan, BUDGET_HIERARCHY), "hierarchy=null");
+  if (is(s->strain, "warp")) add_with_its_damping(begin(plan, BUDGET_FRAME_RULE), "strain=polar");
+  if (hierarchy) add_with_its_damping(begin(plan, BUDGET_HIERARCHY), "hierarchy=null");
   if (!is(s->strain, "green")) {
     budget_part *part = begin(plan, BUDGET_STRAIN);
     add(part, "strain=green");
