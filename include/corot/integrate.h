@@ -13,8 +13,9 @@ extern "C" {
 /* How a step of a fixed-step method is solved. */
 typedef enum corot_solution {
   COROT_SOLUTION_NEWTON, /* with backtracking, to a tolerance */
-  COROT_SOLUTION_LINEAR, /* one solve: exact while the frames are held and both bases are R, else
-                            Newton's first iteration, with a matrix of its own each step */
+  COROT_SOLUTION_LINEAR, /* one solve: exact, with one matrix, while the frames are held if
+                            corot_model_matrices_by_frames, else Newton's first iteration, with a
+                            matrix of its own each step */
 } corot_solution;
 
 /* How to integrate. Zero means "choose" wherever the comment says so. Methods:

@@ -25,9 +25,17 @@ typedef struct corot_material {
 } corot_material;
 
 /* Viscous law of terms on a frame basis. COROTATED, the paper's: strain rate sym(R' dF/dt), which
-   a spinning deformed body feels a little. OBJECTIVE: the rate dS/dt of the stretch of F = R S
-   itself, which is exactly zero in any rigid motion; polar and hybrid only. */
-typedef enum corot_viscosity { COROT_COROTATED, COROT_OBJECTIVE } corot_viscosity;
+   a spinning deformed body feels a little; it has a moment, by which a body in equilibrium under
+   equal pressure begins to spin. OBJECTIVE: the rate dS/dt of the stretch of F = R S itself, which
+   is exactly zero in any rigid motion; polar and hybrid only. Its matrix depends on the deformation
+   too, COROTATED's on the frames alone; and it needs frames that lag by less than a right angle,
+   for it divides by s_j + s_k, sums of two eigenvalues of sym(R'F), which are positive in exact
+   frames. AUTO: OBJECTIVE with polar and hybrid unless there is a hierarchy, else COROTATED. */
+typedef enum corot_viscosity {
+  COROT_COROTATED,
+  COROT_OBJECTIVE,
+  COROT_VISCOSITY_AUTO,
+} corot_viscosity;
 
 /* A factor piecewise linear in time, constant beyond its ends. n = 0: one at all times. */
 typedef struct corot_amplitude {
@@ -181,8 +189,8 @@ typedef struct corot_model_def {
   corot_mass mass;
   const corot_hierarchy_def *hierarchy; /* NULL: `strain` everywhere. Else `strain` is that of the
                                            finest level, which must be linear in a given frame:
-                                           cauchy, warp or polar; viscosity COROTATED,
-                                           dilatation LOCAL */
+                                           cauchy, warp or polar; viscosity COROTATED
+                                           or AUTO,                                           dilatation LOCAL */
   corot_dilatation dilatation;
   double dilatation_local; /* NODAL: so many mu of lambda are left to each tet's own dilatation, for
                               the patterns of swelling and shrinking that averages do not see; a
@@ -190,7 +198,7 @@ typedef struct corot_model_def {
                               fraction of lambda would lock again. >= 0 */
 } corot_model_def;
 
-/* Strain polar, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
+/* Strain polar, viscosity AUTO, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
 corot_model_def corot_model_defaults(void);
 
 typedef struct corot_model corot_model;
@@ -208,8 +216,11 @@ const corot_mesh *corot_model_mesh(const corot_model *model);
 /* The name of the strain measure; with a hierarchy both, as "green+polar". */
 const char *corot_model_strain(const corot_model *model);
 
+/* The viscous law in use: COROTATED or OBJECTIVE. */
+corot_viscosity corot_model_viscosity(const corot_model *model);
+
 /* Whether the stiffness and damping matrices depend on the frames alone, and stay while these are
-   held: with polar, warp and cauchy, and under a hierarchy with coupling MEAN of these on the finest
+   held: with polar, warp and cauchy, unless there is damping by the objective law; and under a hierarchy with coupling MEAN of these on the finest
    level, whatever the coarse measure. */
 bool corot_model_matrices_by_frames(const corot_model *model);
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "box_split.h"
 #include "cli.h"
 #include "facts.h"
 #include "json_text.h"
@@ -25,22 +26,35 @@ int command_mesh(int argc, char **argv) {
 /* --- mesh box --- */
 
 static const char box_help[] =
-    "usage: corot mesh box --size X,Y,Z --cells I,J,K [--origin X,Y,Z] -o FILE.msh\n"
+    "usage: corot mesh box --size X,Y,Z --cells I,J,K [--origin X,Y,Z] [--split NAME]\n"
+    "                       -o FILE.msh\n"
     "\n"
-    "Writes a box of I*J*K cells, six tets each (Kuhn's split), as gmsh 2.2 ASCII. Its sides are\n"
-    "groups xmin xmax ymin ymax zmin zmax.\n"
+    "Writes a box of I*J*K cells, six tets each, as gmsh 2.2 ASCII. Its sides are groups xmin "
+    "xmax\n"
+    "ymin ymax zmin zmax.\n"
     "\n"
     "      --size X,Y,Z     lengths of the edges [m]\n"
     "      --cells I,J,K    cells along each axis\n"
     "      --origin X,Y,Z   the corner with the smallest coordinates [m]; default: 0,0,0\n"
+    "      --split NAME     symmetric: cells are mirrored from one to the next, and the middle one "
+    "of\n"
+    "                       an odd number is cut in halves, so that nothing drifts sideways;\n"
+    "                       alternating: mirrored only, which drifts a little where a number is "
+    "odd;\n"
+    "                       kuhn: all cells the same, which drifts by up to a third of the\n"
+    "                       deflection; default: symmetric\n"
     "  -o, --output FILE    the file to write\n"
     "\n"
     "example: corot mesh box --size 0.1,0.1,0.6 --cells 2,2,12 -o bar.msh\n";
 
 static const struct option box_options[] = {
-    {"size", required_argument, NULL, 's'},   {"cells", required_argument, NULL, 'c'},
-    {"origin", required_argument, NULL, 'g'}, {"output", required_argument, NULL, 'o'},
-    {"help", no_argument, NULL, 'h'},         {0},
+    {"size", required_argument, NULL, 's'},
+    {"cells", required_argument, NULL, 'c'},
+    {"origin", required_argument, NULL, 'g'},
+    {"split", required_argument, NULL, 'p'},
+    {"output", required_argument, NULL, 'o'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
 
 typedef struct box_arguments {
@@ -67,6 +81,9 @@ static int box_option(box_arguments *a, int answer, char **argv) {
     case 'g':
       if (parse_three(optarg, a->box.origin)) return EXIT_OK;
       return usage_error(program, "--origin %s: expected X,Y,Z", optarg);
+    case 'p':
+      if (box_split_find(optarg, &a->box.split)) return EXIT_OK;
+      return usage_error(program, "--split %s: expected symmetric, alternating or kuhn", optarg);
     case 'o':
       a->file = optarg;
       return EXIT_OK;
@@ -87,7 +104,7 @@ static int write_box(const box_arguments *a) {
 }
 
 int command_mesh_box(int argc, char **argv) {
-  box_arguments a = {0};
+  box_arguments a = {.box = corot_box_defaults()};
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":o:h", box_options, NULL)) != -1;) {
     if (answer == 'h') {

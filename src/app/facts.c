@@ -113,9 +113,21 @@ static void print_uses(const scenario *s, const char *group, FILE *out) {
     if (is_named(s->material[i].group, group)) fputs("; material", out);
 }
 
+/* A symmetric split cuts the middle one of an odd number of cells in halves. */
+static void print_box(const corot_box *box, FILE *out) {
+  const char *before = ", middle cells halved along ";
+  fputs("box", out);
+  for (int k = 0; k < 3 && box->split == COROT_BOX_SYMMETRIC; k++)
+    if (box->cells[k] % 2 == 1) {
+      fprintf(out, "%s%c", before, "xyz"[k]);
+      before = " ";
+    }
+}
+
 static void print_mesh(const scenario *s, const facts *f, FILE *out) {
   const corot_mesh_quality *q = &f->quality;
-  fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "box");
+  fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "");
+  if (!s->mesh_file) print_box(&s->box, out);
   if (s->refine > 0) fprintf(out, ", refine %d", s->refine);
   fprintf(out, ": %d nodes, %d tets, %.6g m^3\n", f->mesh->nnode, f->mesh->ntet, q->volume);
   fprintf(out, "extent         [%g, %g] x [%g, %g] x [%g, %g] m\n", q->min[0], q->max[0], q->min[1],
@@ -139,6 +151,17 @@ static void print_frames(const scenario *s, FILE *out) {
   fputc('\n', out);
 }
 
+static const char *viscosity_name(const facts *f) {
+  return corot_model_viscosity(f->model) == COROT_OBJECTIVE ? "objective" : "corotated";
+}
+
+static void print_viscosity(const scenario *s, const facts *f, FILE *out) {
+  bool viscous = false;
+  for (int i = 0; i < s->nmaterial; i++)
+    viscous |= s->material[i].damping_lambda > 0 || s->material[i].damping_mu > 0;
+  if (viscous) fprintf(out, "viscosity      %s\n", viscosity_name(f));
+}
+
 static void print_dilatation(const scenario *s, FILE *out) {
   if (s->dilatation == COROT_DILATATION_NODAL)
     fprintf(out, "dilatation     averaged at the nodes, but for %g mu of lambda\n",
@@ -160,6 +183,7 @@ static void print_model(const scenario *s, const facts *f, FILE *out) {
           ndof == all ? ": a free body" : "");
   fprintf(out, "loads          %d\n", s->nload);
   print_frames(s, out);
+  print_viscosity(s, f, out);
   print_dilatation(s, out);
   fprintf(out, "memory         %.3g MB, %.0f bytes a tet\n", 1e-6 * (double)f->bytes,
           (double)f->bytes / f->mesh->ntet);
@@ -264,6 +288,7 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "strain", json_string(s->strain));
   j = json_text_with(j, "dilatation",
                      json_string(s->dilatation == COROT_DILATATION_NODAL ? "nodal" : "local"));
+  j = json_text_with(j, "viscosity", json_string(viscosity_name(f)));
   j = json_text_with(j, "frames", json_string(s->frame_policy));
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 
 corot_model_def corot_model_defaults(void) {
-  return (corot_model_def){.strain = "polar", .dilatation_local = 1};
+  return (corot_model_def){
+      .viscosity = COROT_VISCOSITY_AUTO, .strain = "polar", .dilatation_local = 1};
 }
 
 corot_hierarchy_def corot_hierarchy_defaults(void) {
@@ -215,8 +216,12 @@ static corot_status choose_strain(const corot_model_def *def, corot_model *m) {
                       "hierarchy: dilatations averaged at nodes are not provided for");
   const char *name = h && h->refinement->nlevel == 0 ? h->coarse_strain : def->strain;
   COROT_TRY(corot_model_find_strain(name, &m->strain));
+  bool polar = strain_measures[m->strain].frame == FRAME_POLAR;
+  if ((unsigned)def->viscosity > COROT_VISCOSITY_AUTO)
+    return corot_fail(COROT_EINVAL, "there is no viscous law %d", (int)def->viscosity);
   m->objective = def->viscosity == COROT_OBJECTIVE;
-  if (m->objective && strain_measures[m->strain].frame != FRAME_POLAR)
+  if (def->viscosity == COROT_VISCOSITY_AUTO) m->objective = polar && !h;
+  if (m->objective && !polar)
     return corot_fail(COROT_EINVAL, "the objective viscous law needs a polar frame, not strain %s",
                       name);
   return COROT_OK;
@@ -311,7 +316,13 @@ const char *corot_model_strain(const corot_model *m) {
 bool corot_model_matrices_by_frames(const corot_model *m) {
   const strain_measure *measure = &strain_measures[m->strain];
   bool parts_in_them = m->levels && m->levels->place;
-  return measure->pressure == BY_FRAME && measure->shear == BY_FRAME && !parts_in_them;
+  bool rates_in_them = m->objective && m->damped;
+  return measure->pressure == BY_FRAME && measure->shear == BY_FRAME && !parts_in_them &&
+         !rates_in_them;
+}
+
+corot_viscosity corot_model_viscosity(const corot_model *m) {
+  return m->objective ? COROT_OBJECTIVE : COROT_COROTATED;
 }
 
 int corot_model_ndof(const corot_model *m) { return m->ndof; }

@@ -108,11 +108,18 @@ static void plan_time_and_frame_age(const scenario *s, bool hierarchy, budget_pl
 
 static bool has_hierarchy(const scenario *s) { return s->coarse_strain && s->refine > 0; }
 
+/* The viscous law stays as it is under warp and a hierarchy, where by default another one would
+   take its place: it is no approximation. */
+static void add_with_its_damping(budget_part *part, const char *set) {
+  add(part, "%s", set);
+  add(part, "viscosity=corotated");
+}
+
 /* What the model itself leaves out, in the order of budget_kind. */
 static void plan_model(const scenario *s, budget_plan *plan) {
   bool hierarchy = has_hierarchy(s);
-  if (is(s->strain, "warp")) add(begin(plan, BUDGET_FRAME_RULE), "strain=polar");
-  if (hierarchy) add(begin(plan, BUDGET_HIERARCHY), "hierarchy=null");
+  if (is(s->strain, "warp")) add_with_its_damping(begin(plan, BUDGET_FRAME_RULE), "strain=polar");
+  if (hierarchy) add_with_its_damping(begin(plan, BUDGET_HIERARCHY), "hierarchy=null");
   if (!is(s->strain, "green")) {
     budget_part *part = begin(plan, BUDGET_STRAIN);
     add(part, "strain=green");

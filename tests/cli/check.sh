@@ -47,13 +47,13 @@ printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 0.5 3 0\n3 1
   '$EndNodes' >tet.msh
 printf '$Elements\n1\n1 4 2 1 1 1 3 2 4\n$EndElements\n' >>tet.msh
 sed -n 's/^mesh:.*/mesh: {file: tet.msh, refine: 1}/p; /^material:/p; /^time:/p' model.yaml >tet.yaml
-expect 0 check tet.yaml --json; json 'd["mesh"]["shape"]["min"] < 0.1'
-expect 0 check tet.yaml --json --set mesh.diagonal=shortest
-json 'd["mesh"]["shape"]["min"] > 0.4'
+expect 0 check tet.yaml --json --set mesh.diagonal=consistent
+json 'd["mesh"]["shape"]["min"] < 0.1'
+expect 0 check tet.yaml --json; json 'd["mesh"]["shape"]["min"] > 0.4'
 
 # A mesh lies beside its scenario, wherever the tool is called from.
 mkdir sub
-expect 0 mesh box --size 0.1,0.1,0.2 --cells 1,1,2 -o sub/block.msh
+expect 0 mesh box --size 0.1,0.1,0.2 --cells 1,1,2 --split kuhn -o sub/block.msh
 sed 's/^mesh:.*/mesh: {file: block.msh}/' model.yaml >sub/model.yaml
 expect 0 check sub/model.yaml; out "sub/block.msh: 12 nodes"
 

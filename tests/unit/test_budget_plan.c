@@ -95,6 +95,29 @@ static void settings_make_scenarios(void **state) {
   }
 }
 
+/* What replaces warp's frames, or a hierarchy, brings another viscous law by default. The part is
+   to be of the frames or the hierarchy alone. */
+static void the_viscous_law_is_no_part(void **state) {
+  (void)state;
+  static const char *const texts[] = {
+      MINIMAL "strain: warp\n",
+      "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 1}\n" MATERIAL TIME
+      "hierarchy: {}\n",
+  };
+  for (int k = 0; k < 2; k++) {
+    budget_plan plan = plan_of(texts[k]);
+    bool found = false;
+    for (int i = 0; i < plan.npart; i++) {
+      const budget_part *part = &plan.part[i];
+      if (part->kind != BUDGET_FRAME_RULE && part->kind != BUDGET_HIERARCHY) continue;
+      found = true;
+      assert_int_equal(part->nset, 2);
+      assert_string_equal(part->set[1], "viscosity=corotated");
+    }
+    assert_true(found);
+  }
+}
+
 static void no_error_of_time_is_three_digits_less(void **state) {
   (void)state;
   static const struct {
@@ -189,6 +212,7 @@ int main(void) {
       cmocka_unit_test(parts_are_the_approximations_made),
       cmocka_unit_test(frames_as_old_as_steps_come_before_time),
       cmocka_unit_test(settings_make_scenarios),
+      cmocka_unit_test(the_viscous_law_is_no_part),
       cmocka_unit_test(no_error_of_time_is_three_digits_less),
       cmocka_unit_test(equilibria_have_no_time),
       cmocka_unit_test(references_are_tightened_to_an_end),

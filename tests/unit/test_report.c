@@ -87,7 +87,7 @@ static void data_are_encoded_for_scripts(void **state) {
 static void a_surface_is_what_one_tet_has(void **state) {
   (void)state;
   corot_mesh *mesh;
-  assert_ok(corot_mesh_box(&(corot_box){{1, 2, 3}, {2, 2, 2}, {5, 5, 5}}, &mesh));
+  assert_ok(corot_mesh_box(&(corot_box){{1, 2, 3}, {2, 2, 2}, {5, 5, 5}, COROT_BOX_KUHN}, &mesh));
   surface s;
   assert_ok(surface_create(mesh->nnode, mesh->ntet, (const int(*)[4])mesh->tet, &s));
   assert_int_equal(s.ntri, 6 * 4 * 2);
@@ -115,7 +115,7 @@ static void a_surface_is_what_one_tet_has(void **state) {
 static void write_fields(const char *dir) {
   corot_mesh *mesh;
   vtu *w;
-  assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {1, 1, 1}, {0}}, &mesh));
+  assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {1, 1, 1}, {0}, COROT_BOX_KUHN}, &mesh));
   int material[6] = {0};
   assert_ok(vtu_create(dir, mesh, material, &w));
   vtu_fields v = vtu_arrays(w);

@@ -9,7 +9,7 @@
 
 static const char bar[] =
     "title: a bar\n"
-    "mesh: {box: {size: [0.1, 0.1, 0.4], cells: [1, 1, 4]}}\n"
+    "mesh: {box: {size: [0.1, 0.1, 0.4], cells: [1, 1, 4], split: kuhn}}\n"
     "groups:\n"
     "  base: {plane: {axis: z, at: 0.0}}\n"
     "  top: {plane: {axis: z, at: 0.4}}\n"
