@@ -39,8 +39,8 @@ static int configure(multistep *c) {
   void *m = c->memory;
   /* a step of 0 leaves it to SUNDIALS */
   return CVodeSetUserData(m, c) || CVodeWFtolerances(m, corot_driver_weights) ||
-         CVodeSetMaxNumSteps(m, -1) || CVodeSetMaxOrd(m, d->max_order) ||
-         CVodeSetStabLimDet(m, d->max_order > 2) ||
+         CVodeSetMaxNumSteps(m, -1) || CVodeSetMaxErrTestFails(m, DRIVER_MOST_FAILURES) ||
+         CVodeSetMaxOrd(m, d->max_order) || CVodeSetStabLimDet(m, d->max_order > 2) ||
          CVodeSetLinearSolver(m, c->driver.LS, c->driver.A) ||
          CVodeSetLinSysFn(m, corot_sun_linsys) || CVodeSetLSetupFrequency(m, d->refactorisation) ||
          CVodeSetJacEvalFrequency(m, d->reassembly) ||

@@ -80,11 +80,12 @@ static int configure(multistep *c) {
   void *m = c->memory;
   /* a step of 0 leaves it to SUNDIALS */
   return IDASetUserData(m, c) || IDAWFtolerances(m, corot_driver_weights) ||
-         IDASetMaxNumSteps(m, -1) || IDASetMaxOrd(m, d->max_order) ||
-         IDASetLinearSolver(m, c->driver.LS, c->driver.A) || IDASetJacFn(m, jacobian) ||
-         IDASetDeltaCjLSetup(m, d->gamma_change) || IDASetNonlinConvCoef(m, d->convergence) ||
-         IDAQuadInit(m, work_rate, c->work) || IDASetInitStep(m, d->first_step) ||
-         IDASetMinStep(m, d->min_step) || IDASetMaxStep(m, d->max_step);
+         IDASetMaxNumSteps(m, -1) || IDASetMaxErrTestFails(m, DRIVER_MOST_FAILURES) ||
+         IDASetMaxOrd(m, d->max_order) || IDASetLinearSolver(m, c->driver.LS, c->driver.A) ||
+         IDASetJacFn(m, jacobian) || IDASetDeltaCjLSetup(m, d->gamma_change) ||
+         IDASetNonlinConvCoef(m, d->convergence) || IDAQuadInit(m, work_rate, c->work) ||
+         IDASetInitStep(m, d->first_step) || IDASetMinStep(m, d->min_step) ||
+         IDASetMaxStep(m, d->max_step);
 }
 
 /* There is no rule by the number of steps: the linear solver is set up when c changes. */
