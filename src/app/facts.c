@@ -95,6 +95,13 @@ static bool is_named(const char *name, const char *group) {
   return name && strcmp(name, group) == 0;
 }
 
+static const char *const motion_words[] = {
+    [COROT_ROTATE] = "rotated",
+    [COROT_TRANSLATE] = "translated",
+    [COROT_TURN] = "turned by an amplitude",
+    [COROT_MOVE] = "moved by an amplitude",
+};
+
 static void print_uses(const scenario *s, const char *group, FILE *out) {
   for (int i = 0; i < s->nfix; i++) {
     if (!is_named(s->fix[i].group, group)) continue;
@@ -103,8 +110,7 @@ static void print_uses(const scenario *s, const char *group, FILE *out) {
       if (s->fix[i].component[k]) fprintf(out, " %c", "xyz"[k]);
   }
   for (int i = 0; i < s->nmotion; i++)
-    if (is_named(s->motion[i].group, group))
-      fputs(s->motion[i].kind == COROT_ROTATE ? "; rotated" : "; translated", out);
+    if (is_named(s->motion[i].group, group)) fprintf(out, "; %s", motion_words[s->motion[i].kind]);
   for (int i = 0; i < s->nload; i++)
     if (is_named(s->load[i].group, group))
       fprintf(out, "; %s", scenario_load_words[s->load[i].kind]);

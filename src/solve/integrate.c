@@ -175,10 +175,18 @@ static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {
   self->t = t_stop;
 }
 
+/* A step that goes past what an amplitude does has not seen it: the error is then not controlled.
+ */
+static double within_sight(const corot_integrator *self, double t_stop) {
+  if (!corot_integrator_controls_error(self->ops->name)) return t_stop;
+  return fmin(t_stop, corot_model_horizon(self->model, self->t));
+}
+
 corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_step *step) {
   if (!(t_stop > self->t) || !isfinite(t_stop))
     return corot_fail(COROT_EINVAL, "integrator: cannot stop at t = %.17g, being at %.17g", t_stop,
                       self->t);
+  t_stop = within_sight(self, t_stop);
   if (within_rounding(self, t_stop)) {
     settle_at(self, t_stop, step);
     return COROT_OK;
