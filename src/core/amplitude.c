@@ -270,7 +270,8 @@ int corot_amplitude_nkink(const amplitude *a) { return a->slope ? 0 : a->n; }
 const double *corot_amplitude_kinks(const amplitude *a) { return a->time; }
 
 /* Half of the run that t is in, but not past the first half of one that follows: if it is shorter
-   than what is left of the step, the step ends where it begins. */
+   than what is left of the step, the step ends where it begins. So does one that comes from a rest,
+   unless that is shorter than half of the run, as between the way up and the way down. */
 static double spline_horizon(const amplitude *a, double t) {
   int i = 0, last = a->nrun;
   while (i < last) { /* the first run that ends after t */
@@ -281,8 +282,9 @@ static double spline_horizon(const amplitude *a, double t) {
       i = middle + 1;
   }
   if (i == a->nrun) return INFINITY;
-  if (t < a->run[i].begin) return a->run[i].begin;
-  double stop = t + 0.5 * (a->run[i].end - a->run[i].begin);
+  double half = 0.5 * (a->run[i].end - a->run[i].begin), begin = a->run[i].begin;
+  if (begin - t > half) return begin;
+  double stop = fmax(t, begin) + half;
   for (i++; i < a->nrun && a->run[i].begin < stop; i++)
     if (0.5 * (a->run[i].begin + a->run[i].end) < stop) return a->run[i].begin;
   return stop;

@@ -169,24 +169,25 @@ static bool within_rounding(const corot_integrator *self, double t_stop) {
   return t_stop - self->t <= 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
 }
 
+/* A clock that is late by rounding has passed a horizon that is no further away. A stop that the
+   step does not need is not set: SUNDIALS would shorten a later step to it, when there is another.
+ */
+double corot_integrator_sight(const corot_integrator *self, double h, double t_stop) {
+  double late = 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
+  double horizon = corot_model_horizon(self->model, self->t + late);
+  return h > 0 && self->t + h <= horizon ? t_stop : fmin(t_stop, horizon);
+}
+
 static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {
   *step = (corot_step){.t = t_stop, .h = t_stop - self->t, .order = self->qlast};
   if (self->before == self->t) self->before = t_stop;
   self->t = t_stop;
 }
 
-/* A step that goes past what an amplitude does has not seen it: the error is then not controlled.
- */
-static double within_sight(const corot_integrator *self, double t_stop) {
-  if (!corot_integrator_controls_error(self->ops->name)) return t_stop;
-  return fmin(t_stop, corot_model_horizon(self->model, self->t));
-}
-
 corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_step *step) {
   if (!(t_stop > self->t) || !isfinite(t_stop))
     return corot_fail(COROT_EINVAL, "integrator: cannot stop at t = %.17g, being at %.17g", t_stop,
                       self->t);
-  t_stop = within_sight(self, t_stop);
   if (within_rounding(self, t_stop)) {
     settle_at(self, t_stop, step);
     return COROT_OK;

@@ -35,6 +35,9 @@ void corot_multistep_close(multistep *m) {
 
 static corot_status advance(multistep *m, double t_stop, double *t) {
   driver *d = &m->driver;
+  double h = 0; /* not known after a start */
+  if (d->self->before < d->self->t) m->api->next_step(m->memory, &h);
+  t_stop = corot_integrator_sight(d->self, h, t_stop);
   if (t_stop != m->t_stop && m->api->set_stop_time(m->memory, t_stop))
     return corot_driver_refuse(d, "stop time");
   m->t_stop = t_stop;

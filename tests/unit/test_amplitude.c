@@ -258,7 +258,7 @@ static void a_state_knows_which_side_of_a_jump_is_meant(void **state) {
   double kink[8];
   assert_int_equal(corot_model_kinks(b.model, -1, 9, 8, kink), 3);
   for (int k = 0; k < 3; k++) assert_true(kink[k] == k);
-  assert_close(corot_model_horizon(b.model, 0), 0.25, 0, 0.02); /* the spline sets out */
+  assert_close(corot_model_horizon(b.model, 0), 0.5, 0, 0.02);  /* on the spline's way up */
   assert_close(corot_model_horizon(b.model, 5), 7.5, 1e-15, 0); /* a quarter of 10 s */
   drop_body(&b);
 }
