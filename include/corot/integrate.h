@@ -81,8 +81,8 @@ typedef struct corot_step {
 } corot_step;
 
 /* Advances by one step. With error control it does not go past t_stop and lands on it if it comes
-   near; where t_stop is t up to rounding it is reached without a step. A fixed-step method keeps to
-   its own grid, whatever t_stop.
+   near; where t_stop is t up to rounding it is reached without a step. Nor does it go past
+   corot_model_horizon(). A fixed-step method keeps to its own grid, whatever t_stop.
    COROT_EINTEGRATE: the integrator gave up; the message names its reason and the element, if one
    was inverted. The state last reached remains readable. */
 corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, corot_step *step);

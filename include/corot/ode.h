@@ -61,10 +61,11 @@ size_t corot_state_bytes(const corot_state *state);
 void corot_state_use(corot_state *state, corot_frames frames);
 corot_frames corot_state_frames(const corot_state *state);
 
-/* From now on, evaluations belong to the time after t and before the next kink of a motion: at a
-   kink itself the velocity of a support has two values, and this says which is meant. To be called
-   at each kink by who stops there; until the first call, and after t = NaN, which lets a step
-   cross a kink, the later value is taken. */
+/* From now on, evaluations belong to the time after t and before the next kink of a load or a motion:
+   at a kink itself the velocity of a support, and at a jump a load, has two values, and this says
+   which is meant; beyond it the law goes on as it was, so that r is smooth for a step that ends
+   there. Call this at each kink (corot_model_kinks) where a step ends; until the first call, and
+   after t = NaN, which lets a step cross a kink, each time has its own law, at a kink the later. */
 void corot_state_enter(corot_state *state, double t);
 
 /* From now on evaluations are for statics: the loads are `factor` times those of time t; the time

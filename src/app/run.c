@@ -46,6 +46,7 @@ static corot_status start_integrator(run *r) {
 
   COROT_TRY(corot_state_create(r->model, &r->state));
   if (s->start_at_equilibrium) COROT_TRY(static_start(s, r->refinement, r->model, r->u));
+  scenario_start(s, r->model, r->u, r->v);
   corot_state_enter(r->state, 0);
   COROT_TRY(schedule_create(r->model, s->t_end, s->output_step, &r->schedule));
   corot_integrator_def def = s->integrator;
@@ -135,15 +136,32 @@ static void prepare_step(run *r) {
     corot_state_enter(r->state, NAN);
 }
 
-/* Whether the velocity of a support jumps at a kink. */
+static int by_time(const void *a, const void *b) {
+  double d = *(const double *)a - *(const double *)b;
+  return (d > 0) - (d < 0);
+}
+
+/* How many points of a piecewise linear amplitude stand at t: two are a jump. */
+static int points_at(const corot_amplitude *a, double t) {
+  if (a->curve != COROT_CURVE_LINEAR || a->n == 0) return 0;
+  const double *p = bsearch(&t, a->time, (size_t)a->n, sizeof t, by_time);
+  if (!p) return 0;
+  return 1 + (p > a->time && p[-1] == t) + (p + 1 < a->time + a->n && p[1] == t);
+}
+
+/* Whether a load, or the velocity of a support, jumps at a kink. */
 static bool is_jump(const scenario *s, double kink) {
-  for (int i = 0; i < s->nmotion; i++)
-    if (s->motion[i].from == kink || s->motion[i].to == kink) return true;
+  for (int i = 0; i < s->nmotion; i++) {
+    const corot_motion *m = &s->motion[i];
+    if (m->from == kink || m->to == kink || points_at(&m->amplitude, kink)) return true;
+  }
+  for (int i = 0; i < s->nload; i++)
+    if (points_at(&s->load[i].amplitude, kink) > 1) return true;
   return false;
 }
 
-/* Kinks of the loads are mild: the integrator has stopped there, and keeps its history. At constant
-   step it keeps it in any case, with its factor, in which no velocity stands. */
+/* Other kinks of the loads are mild: the integrator has stopped there, and keeps its history. At
+   constant step it keeps it in any case, with its factor, in which no velocity stands. */
 static corot_status pass_kinks(run *r, step_row *row) {
   long before = corot_integrator_statistics(r->integrator).nrestart;
   for (double kink; schedule_take_kink(r->schedule, row->t, &kink);) {

@@ -226,6 +226,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_method(s));
   COROT_TRY(scenario_read_hierarchy(s));
   COROT_TRY(scenario_read_statics(s));
+  COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));
   COROT_TRY(read_probes(s));
   read_output(s);

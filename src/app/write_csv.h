@@ -22,7 +22,8 @@ corot_status probes_open(const char *dir, int nprobe, const char *const *name, t
 corot_status probes_row(table *probes, double t, int nprobe, const int *node,
                         const double (*displacement)[3]);
 
-/* energy.csv: where the energy went, one row an output time
+/* energy.csv: where the energy went, one row an output time. At a time where a load jumps, rows of
+   this table and of the others are those of just before; nothing in them jumps with it.
 
      t              [s]
      kinetic        at t [J]
@@ -58,7 +59,7 @@ corot_status history_row(table *history, const ledger *row, int nprobe, const in
      error          estimated local error over the tolerance
      newton         nonlinear iterations
      event          what happened at t, after the step: nothing (empty), or words joined by '+':
-                      kink      an amplitude has a corner there, or a motion begins or stops
+                      kink      an amplitude has a corner or jumps there, or a motion begins or stops
                                 (there, or within a step of constant length)
                       frames    the held or extrapolated frames were updated
                       restart   the integrator dropped its history

@@ -1,4 +1,5 @@
 /* Loads: constant forces and pressures that follow the surface, each with an amplitude in time. */
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/levels.h"
@@ -115,30 +116,14 @@ static corot_status add_pressure(const corot_model *m, const corot_load *from, l
   return COROT_OK;
 }
 
-static corot_status copy_amplitude(const corot_amplitude *a, int k, load *to) {
-  for (int i = 0; i < a->n; i++) {
-    if (!isfinite(a->time[i]) || !isfinite(a->value[i]))
-      return corot_fail(COROT_EINVAL, "load %d: point %d of the amplitude is not finite", k, i);
-    if (i > 0 && !(a->time[i] > a->time[i - 1]))
-      return corot_fail(COROT_EINVAL, "load %d: the amplitude's times do not increase at point %d",
-                        k, i);
-  }
-  if (a->n <= 0) return COROT_OK;
-  to->time = malloc(a->n * sizeof *to->time);
-  to->value = malloc(a->n * sizeof *to->value);
-  if (!to->time || !to->value) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
-  memcpy(to->time, a->time, a->n * sizeof *to->time);
-  memcpy(to->value, a->value, a->n * sizeof *to->value);
-  to->n = a->n;
-  return COROT_OK;
-}
-
 static corot_status create(const corot_model_def *def, const corot_model *m, int k, load *to) {
   const corot_load *from = &def->load[k];
   for (int c = 0; c < 3; c++)
     if (!isfinite(from->value[c]))
       return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);
-  COROT_TRY(copy_amplitude(&from->amplitude, k, to));
+  char user[32];
+  snprintf(user, sizeof user, "load %d: ", k);
+  COROT_TRY(corot_amplitude_create(&from->amplitude, user, &to->amplitude));
   if (from->kind == COROT_PRESSURE) return add_pressure(m, from, to);
   to->force = calloc(m->ndof, sizeof *to->force);
   if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
@@ -166,30 +151,21 @@ void corot_loads_destroy(corot_model *m) {
     free(m->load[k].force);
     free(m->load[k].held);
     free(m->load[k].tri);
-    free(m->load[k].time);
-    free(m->load[k].value);
+    corot_amplitude_clear(&m->load[k].amplitude);
   }
   free(m->load);
 }
 
-static double amplitude_at(const load *l, double t) {
-  int n = l->n;
-  const double *time = l->time, *value = l->value;
-  if (n == 0) return 1;
-  if (!(t > time[0])) return value[0];
-  if (t >= time[n - 1]) return value[n - 1];
-  int k = 1;
-  while (time[k] < t) k++;
-  double s = (t - time[k - 1]) / (time[k] - time[k - 1]);
-  return (1 - s) * value[k - 1] + s * value[k];
+static double factor_of(const load *l, const load_clock *now) {
+  return now->scale * corot_amplitude_at(&l->amplitude, now->phase, now->t);
 }
 
-void corot_loads_force(const corot_model *m, double t, double scale, const double (*u)[4],
+void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
                        double *f) {
   memset(f, 0, m->ndof * sizeof *f);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = scale * amplitude_at(l, t);
+    double factor = factor_of(l, now);
     if (factor == 0) continue;
     if (l->force)
       for (int i = 0; i < m->ndof; i++) f[i] += factor * l->force[i];
@@ -227,19 +203,20 @@ corot_status corot_load_force(const corot_model *m, double t, double factor,
   if (!u) return corot_fail(COROT_ENOMEM, "no memory for the displacement of %d nodes", nnode);
   for (int n = 0; n < nnode; n++) memcpy(u[n], displacement[n], 3 * sizeof **u);
   memset(f, 0, nnode * sizeof *f);
+  const load_clock now = {NAN, t, factor}; /* just after t, as in statics */
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    add_nodal_load(m, l, factor * amplitude_at(l, t), (const double(*)[4])u, f);
+    add_nodal_load(m, l, factor_of(l, &now), (const double(*)[4])u, f);
   }
   free(u);
   return COROT_OK;
 }
 
-void corot_loads_derivative(const corot_model *m, double t, double scale, const double (*u)[4],
+void corot_loads_derivative(const corot_model *m, const load_clock *now, const double (*u)[4],
                             const double (*du)[4], double *f) {
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = scale * amplitude_at(l, t);
+    double factor = factor_of(l, now);
     for (int j = 0; j < l->ntri; j++) { /* d(a x b) = da x b + a x db */
       const int *n = l->tri[j];
       double a[3], b[3], da[3], db[3], first[3], second[3];

@@ -174,6 +174,15 @@ static bool within_rounding(const corot_integrator *self, double t_stop) {
   return t_stop - self->t <= 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
 }
 
+/* A clock that is late by rounding has passed a horizon that is no further away. A stop that the
+   step does not need is not set: SUNDIALS would shorten a later step to it, when there is another.
+ */
+double corot_integrator_sight(const corot_integrator *self, double h, double t_stop) {
+  double late = 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
+  double horizon = corot_model_horizon(self->model, self->t + late);
+  return h > 0 && self->t + h <= horizon ? t_stop : fmin(t_stop, horizon);
+}
+
 static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {
   *step = (corot_step){.t = t_stop, .h = t_stop - self->t, .order = self->qlast};
   if (self->before == self->t) self->before = t_stop;

@@ -33,8 +33,51 @@ void corot_multistep_close(multistep *m) {
   free(m);
 }
 
+/* Counts since the last start are added to `s`. */
+static void add_counts(const multistep *m, corot_statistics *s) {
+  const struct {
+    multistep_count *get;
+    long *sum;
+  } counts[] = {{m->api->nfe, &s->nfe}, {m->api->nsetups, &s->nsetups}, {m->api->netf, &s->netf},
+                {m->api->nni, &s->nni}, {m->api->ncfn, &s->ncfn},       {m->api->nfeQ, &s->nfeQ}};
+  for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+    long count = 0;
+    counts[k].get(m->memory, &count);
+    *counts[k].sum += count;
+  }
+}
+
+/* Begins again at order 1, with a first step of h; 0: as SUNDIALS chooses. */
+static corot_status restart(multistep *m, double h) {
+  corot_integrator *self = m->driver.self;
+  add_counts(m, &m->before);
+  m->before.nrestart++;
+  m->nni = 0;
+  m->t_stop = NAN;
+  m->driver.collapsed = false;
+  self->before = self->t;
+  if (m->api->restart(m) || m->api->restart_work(m->memory, m->work) ||
+      m->api->set_first_step(m->memory, h))
+    return corot_driver_refuse(&m->driver, "restart");
+  return COROT_OK;
+}
+
+/* Sets *t_stop to where the next step must stop. Where an amplitude has rested and now sets out, a
+   step must be many times shorter than the last, and the history is of no use: IDA's estimate of
+   the error even falls with the ratio of the steps. */
+static corot_status look_ahead(multistep *m, double *t_stop) {
+  const corot_integrator *self = m->driver.self;
+  double h = 0; /* not known after a start */
+  if (self->before < self->t) m->api->next_step(m->memory, &h);
+  double sight = corot_integrator_sight(self, h, *t_stop);
+  bool sets_out = sight < *t_stop && h > 100 * (sight - self->t);
+  *t_stop = sight;
+  return sets_out ? restart(m, self->def.first_step) : COROT_OK;
+}
+
 static corot_status advance(multistep *m, double t_stop, double *t) {
   driver *d = &m->driver;
+  COROT_TRY(look_ahead(m, &t_stop));
   if (t_stop != m->t_stop && m->api->set_stop_time(m->memory, t_stop))
     return corot_driver_refuse(d, "stop time");
   m->t_stop = t_stop;
@@ -101,20 +144,6 @@ corot_status corot_multistep_work(corot_integrator *self, double t, double *diss
   return COROT_OK;
 }
 
-/* Counts since the last start are added to `s`. */
-static void add_counts(const multistep *m, corot_statistics *s) {
-  const struct {
-    multistep_count *get;
-    long *sum;
-  } counts[] = {{m->api->nfe, &s->nfe}, {m->api->nsetups, &s->nsetups}, {m->api->netf, &s->netf},
-                {m->api->nni, &s->nni}, {m->api->ncfn, &s->ncfn},       {m->api->nfeQ, &s->nfeQ}};
-  for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
-    long count = 0;
-    counts[k].get(m->memory, &count);
-    *counts[k].sum += count;
-  }
-}
-
 /* How fast the solution leaves its history, in units of the tolerance per second: the jump of the
    derivative from the interpolant's to the new right-hand side's, weighted. */
 static corot_status derivative_jump(multistep *m, double *jump) {
@@ -146,16 +175,7 @@ corot_status corot_multistep_changed(corot_integrator *self, corot_history histo
     if (h_next * jump < 0.5) return COROT_OK;
     h = fmax(fmin(h_last, 0.5 / jump), 100 * DBL_EPSILON * fabs(self->t));
   }
-  add_counts(m, &m->before);
-  m->before.nrestart++;
-  m->nni = 0;
-  m->t_stop = NAN;
-  m->driver.collapsed = false;
-  self->before = self->t;
-  if (m->api->restart(m) || m->api->restart_work(m->memory, m->work) ||
-      m->api->set_first_step(m->memory, h))
-    return corot_driver_refuse(&m->driver, "restart");
-  return COROT_OK;
+  return restart(m, h);
 }
 
 void corot_multistep_statistics(const corot_integrator *self, corot_statistics *s) {

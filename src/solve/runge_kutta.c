@@ -325,6 +325,9 @@ corot_status corot_rk_work(corot_integrator *self, double t, double *dissipated,
 /* From m->start to m->end. */
 static corot_status cross(runge_kutta *m, double t_stop) {
   driver *d = &m->driver;
+  double h = m->first_step; /* not known before the first step */
+  if (h == 0 && d->self->nst > 0) m->api->next_step(m->memory, &h);
+  t_stop = corot_integrator_sight(d->self, h, t_stop);
   if (m->stale) COROT_TRY(begin_afresh(m));
   COROT_TRY(find_rate(m, &m->start, false));
   COROT_TRY(advance(m, t_stop, &m->end.t));

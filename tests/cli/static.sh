@@ -30,6 +30,11 @@ head -n 1 f/reactions.csv | grep -qx 't,base.fx,base.fy,base.fz' || complain "he
 [ "$(wc -l <f/reactions.csv)" = "$(wc -l <f/probes.csv)" ] || complain "rows of reactions.csv"
 expect 0 run model.yaml -o f --quiet
 [ ! -e f/reactions.csv ] || complain "reactions of an earlier equilibrium"
+# A support that an amplitude has turned and brought back a half: the body goes with it, unstrained.
+expect 0 static model.yaml -o m --quiet --json --set loads=[] --set 'boundary.0={group: base,
+  move: {rotate: {axis: [0, 0, 1], angle: 2}, amplitude: [[0, 0], [0.02, 1], [0.05, 0.5]]}}'
+json 'abs(d["probes"]["corner"]["u"][0] - (0.1 * (0.5403023058681398 - 0.8414709848078965) - 0.1)) < 1e-12'
+json 'd["energy"]["elastic"] < 1e-20'
 
 # What is refused.
 expect 3 static model.yaml -o c --set boundary=[]; no_out

@@ -126,7 +126,7 @@ static void every_tet_has_one_material(void **state) {
 static void refuses_a_load_without_sense(void **state) {
   (void)state;
   corot_mesh *mesh = bar();
-  double time[] = {0, 1, 1}, value[] = {0, 1, 2};
+  double time[] = {0, 1, 0.5}, value[] = {0, 1, 2};
   corot_load load = {COROT_TRACTION, "zmax", {1, 0, 0}, {0, NULL, NULL}};
   corot_model_def def = plain(mesh);
   def.nload = 1, def.load = &load;

@@ -47,11 +47,12 @@ static inline void restore(FILE *stream, int before) {
   close(before);
 }
 
-/* Runs the bar with overrides, ending with NULL, into DIR/out. */
-static inline answer run_with(const char *dir, run_options options, const char *const *set) {
+/* Runs a scenario with overrides, ending with NULL, into DIR/out. */
+static inline answer run_text(const char *dir, const char *text, run_options options,
+                              const char *const *set) {
   int n = 0;
   while (set && set[n]) n++;
-  put_file(in(dir, "bar.yaml"), bar);
+  put_file(in(dir, "bar.yaml"), text);
   scenario *s = NULL;
   assert_ok(scenario_read(in(dir, "bar.yaml"), n, (char *const *)set, &s));
   if (!options.dir) options.dir = in(dir, "out");
@@ -63,6 +64,11 @@ static inline answer run_with(const char *dir, run_options options, const char *
   a.err = slurp(in(dir, "stderr"), NULL);
   scenario_destroy(s);
   return a;
+}
+
+/* The same of the bar. */
+static inline answer run_with(const char *dir, run_options options, const char *const *set) {
+  return run_text(dir, bar, options, set);
 }
 
 #define SET(...) ((const char *const[]){__VA_ARGS__, NULL})
