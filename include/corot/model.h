@@ -109,7 +109,8 @@ typedef enum corot_motion_kind {
    rest until `from`, then at constant rate, at rest again from `to`. TURN and MOVE: where the
    amplitude puts them, with its derivative as velocity; it may have kinks, at which the velocity
    jumps, but no jumps. Where it is not zero at the start of a run, the support stands displaced
-   there, and stretches a body that is not.
+   there, and stretches a body that is not; where its derivative is not zero, as of a sine of phase
+   zero, it sets out with a jolt.
 
    Several motions of one group add up, be they turns about one and the same axis or translations;
    two of constant rate at times that do not overlap. */

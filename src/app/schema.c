@@ -100,7 +100,7 @@ static const schema_key keys[] = {
   {"boundary[].move.rotate.axis", VECTOR,      REQUIRED, ANY,          "",        0, 0, "direction of the axis, of any length but 0; right-handed"},
   {"boundary[].move.rotate.center", VECTOR,    OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, "a point of the axis"},
   {"boundary[].move.rotate.angle", NUMBER,     REQUIRED, ANY,          "rad",     0, 0, "where the amplitude is 1"},
-  {"boundary[].move.amplitude", SCHEMA_CURVE,  REQUIRED, ANY,          "s, 1",    0, 0, "factor in time, as of loads, without jumps; 0 at t = 0, or start: equilibrium"},
+  {"boundary[].move.amplitude", SCHEMA_CURVE,  REQUIRED, ANY,          "s, 1",    0, 0, "factor in time, as of loads, without jumps; 0 at t = 0, or start: equilibrium; a sine of phase 0 sets out with a jolt, of phase -1.5707963267948966 and offset 1 without"},
   AMPLITUDE("boundary[].move.amplitude"),
 
   {"loads",                   SCHEMA_LIST,     OPTIONAL, ANY,          "",        "[]", 0, "external forces"},

@@ -59,7 +59,7 @@ corot_status history_row(table *history, const ledger *row, int nprobe, const in
      error          estimated local error over the tolerance
      newton         nonlinear iterations
      event          what happened at t, after the step: nothing (empty), or words joined by '+':
-                      kink      an amplitude has a corner or jumps there, or a motion begins or stops
+                      kink      an amplitude bends or jumps there, or a motion begins or stops
                                 (there, or within a step of constant length)
                       frames    the held or extrapolated frames were updated
                       restart   the integrator dropped its history
