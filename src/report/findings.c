@@ -70,6 +70,7 @@ void findings_extremes(const run_folder *run, FILE *out) {
   const char *name;
   json_t *extreme;
   json_object_foreach(extremes, name, extreme) {
+    if (run_folder_is_static(run) && strcmp(name, "kinetic") == 0) continue; /* nothing moves */
     const char *unit = unit_of(name);
     fputs("<tr><th scope=\"row\">", out);
     markup_text(out, name);
