@@ -2,6 +2,7 @@
 #include "findings.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "lookup.h"
@@ -35,15 +36,24 @@ void findings_warnings(const run_folder *run, FILE *out) {
   fputs("</ul></div>\n", out);
 }
 
-/* Of a quantity "PROBE.ux" or "kinetic". */
-static const char *unit_of(const char *name) {
-  static const char *const unit[][2] = {
-      {".u", "m"},      {".ux", "m"},     {".uy", "m"},        {".uz", "m"},
-      {"kinetic", "J"}, {"elastic", "J"}, {"dissipated", "J"}, {"external_work", "J"}};
+/* What is known of a quantity "PROBE.ux" or "kinetic". */
+typedef struct quantity {
+  const char *name, *unit;
+  bool moving; /* of a motion only, not of an equilibrium */
+} quantity;
+
+static const quantity *find_quantity(const char *name) {
+  static const quantity known[] = {
+      {".u", "m", false},          {".ux", "m", false},       {".uy", "m", false},
+      {".uz", "m", false},         {"elastic", "J", false},   {"external_work", "J", false},
+      {"kinetic", "J", true},      {"dissipated", "J", true}, {"balance", "J", true},
+      {"frame_energy", "J", true},
+  };
+  static const quantity other = {"", "", false};
   const char *dot = strrchr(name, '.');
-  for (size_t i = 0; i < sizeof unit / sizeof *unit; i++)
-    if (strcmp(dot ? dot : name, unit[i][0]) == 0) return unit[i][1];
-  return "";
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (strcmp(dot ? dot : name, known[i].name) == 0) return &known[i];
+  return &other;
 }
 
 /* Two cells: a value, and when, which a click shows. */
@@ -70,10 +80,11 @@ void findings_extremes(const run_folder *run, FILE *out) {
   const char *name;
   json_t *extreme;
   json_object_foreach(extremes, name, extreme) {
-    const char *unit = unit_of(name);
+    const quantity *is = find_quantity(name);
+    if (is->moving && run_folder_is_static(run)) continue;
     fputs("<tr><th scope=\"row\">", out);
     markup_text(out, name);
-    if (*unit) fprintf(out, " [%s]", unit);
+    if (*is->unit) fprintf(out, " [%s]", is->unit);
     fputs("</th>", out);
     write_extreme(run, lookup(extreme, "min"), out);
     write_extreme(run, lookup(extreme, "max"), out);

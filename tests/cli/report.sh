@@ -12,7 +12,7 @@ expect 0 report run; out run/report.html; no_err
 expect 0 report run -o other.html; out other.html
 cmp -s run/report.html other.html || complain "two reports of one run differ"
 python3 - <<'PY' || complain "the page"
-import html.parser, re
+import html.parser, json, re
 class Page(html.parser.HTMLParser):
     found = []
     def handle_starttag(self, tag, attributes):
@@ -26,6 +26,8 @@ for tag, attributes in page.found:  # nothing is fetched
 assert not set(re.findall(r"https?://[^\s'\"<]*", text)) - {"http://www.w3.org/2000/svg"}
 assert [a["id"] for t, a in page.found if t == "section"] == \
     ["summary", "body", "probes", "steps", "energy", "scenario"]
+warnings = json.load(open("run/result.json"))["warnings"]
+assert ("No warnings." in text) == (not warnings)
 PY
 
 # What the run warns of stands on its page; where there is nothing, the page says so.

@@ -542,7 +542,8 @@ static void make_static(const char *dir) {
                  " \"t_reached\": 1.0, \"energy\": {\"t\": 1, \"kinetic\": 0, \"elastic\": 2,"
                  " \"dissipated\": 0, \"external_work\": 2, \"balance\": 1e-3},"
                  " \"statistics\": {\"nstep\": 1},"
-                 " \"extremes\": {\"a.ux\": {\"min\": {\"value\": 3, \"t\": 1}}},"
+                 " \"extremes\": {\"a.ux\": {\"min\": {\"value\": 3, \"t\": 1}},"
+                 " \"kinetic\": {\"max\": {\"value\": 0, \"t\": 0}}},"
                  " \"statics\": {\"tolerance\": 1e-10, \"reactions\": {\"base\": [-3, 1e-20, 0]},"
                  " \"steps\": [{\"factor\": 0.25, \"force\": 4, \"residual\": [1, 1e-5, 0]},"
                  " {\"factor\": 0.5, \"force\": 4, \"residual\": [1, 1e-12]}, 3]},");
