@@ -204,8 +204,8 @@ void corot_deformation_measure(const corot_model *model, corot_state *state, dou
      *share = e / sqrt(|S|^2 + e^2),  e = |S* - S|
 
    in the norm of the strain energy (Zienkiewicz & Zhu 1987, whose estimator of the relative error
-   this is). Where dilatations are averaged, of the deviator alone. 0 for a body without stress.
-   COROT_ENOMEM. */
+   this is). Where dilatations are averaged, of the deviator alone. 0 for a body without stress but
+   what rounding leaves. COROT_ENOMEM. */
 corot_status corot_stress_jumps(const corot_model *model, corot_state *state, double t,
                                 const double *u, double *share);
 

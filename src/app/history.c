@@ -169,21 +169,22 @@ json_t *history_extremes(const history *h) {
 static double range(const signal_seen *s) { return s->max.value - s->min.value; }
 
 /* The component that goes furthest; NULL if there are no probes. */
-static const turning *widest(const history *h) {
+static const signal_seen *widest(const history *h) {
   const signal_seen *best = NULL;
   for (int k = 0; k < OF_PROBE * h->nprobe; k++) {
     const signal_seen *s = &h->signal[k];
     if (k % OF_PROBE != MAGNITUDE && (!best || range(s) > range(best))) best = s;
   }
-  return best ? &best->turning : NULL;
+  return best;
 }
 
 /* Two periods have four turns; the kinetic energy has twice as many. */
-static double period_of(const history *h) {
-  const turning *n = widest(h);
-  double turns = 2;
-  if (!n) n = &energy_signal(h, KINETIC)->turning, turns = 4;
-  return n->count >= 2 * turns && n->weight > 0 ? turns * n->weighted / n->weight : 0;
+static void find_period(const history *h, history_facts *f) {
+  const signal_seen *s = widest(h);
+  double turns = s ? 2 : 4;
+  f->swing = s ? range(s) : NAN;
+  const turning *n = s ? &s->turning : &energy_signal(h, KINETIC)->turning;
+  f->period = n->count >= 2 * turns && n->weight > 0 ? turns * n->weighted / n->weight : 0;
 }
 
 history_facts history_known(const history *h) {
@@ -193,10 +194,11 @@ history_facts history_known(const history *h) {
       .balance_max = energy_signal(h, BALANCE)->max,
       .balance = h->balance,
       .dissipated = h->dissipated,
-      .period = period_of(h),
+      .kinetic = energy_signal(h, KINETIC)->max.value,
       .t_elastic = h->t_elastic,
       .u = h->u,
   };
+  find_period(h, &f);
   for (int k = KINETIC; k <= WORK; k++) {
     const signal_seen *s = energy_signal(h, k);
     f.energy = fmax(f.energy, fmax(fabs(s->min.value), fabs(s->max.value)));

@@ -46,8 +46,10 @@ typedef struct history_facts {
   double energy;                    /* the largest of any kinetic, elastic or dissipated energy, and
                                        of the external work [J] */
   double period;    /* of the motion that moves the probes most: twice the mean time between turns,
-                       weighted by how far it goes between them; without probes, four times that of
-                       the kinetic energy [s]. 0: it does not turn, or hardly */
+                       weighted by how far it goes between them; without probes, four times that of the
+                       kinetic energy [s]. 0: it does not turn, or hardly */
+  double swing;     /* how far that probe's component goes [m]; NaN: without probes */
+  double kinetic;   /* the largest kinetic energy [J] */
   double t_elastic; /* when the elastic energy was largest [s] */
   const double *u;  /* [ndof] and the displacement then */
 } history_facts;

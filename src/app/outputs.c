@@ -244,11 +244,22 @@ ledger outputs_ledger(const outputs *o) { return o->ledger; }
 
 json_t *outputs_extremes(const outputs *o) { return history_extremes(o->history); }
 
+/* Whether what swings is the motion, not what tolerance or rounding make of a body that is still or
+   follows its load: beyond the absolute tolerance or, without a probe, in energy. */
+static bool is_swinging(const outputs *o, const history_facts *h) {
+  const corot_integrator_def *d = &o->scenario->integrator;
+  double least = d->step > 0 ? 100 * d->newton_tolerance : 0.01 * d->rtol;
+  least *= corot_model_length(o->model);
+  if (d->step == 0 && d->atol_displacement > 0) least = d->atol_displacement;
+  return h->swing == h->swing ? h->swing > least : h->kinetic > 0.01 * h->energy;
+}
+
 corot_status outputs_observed(const outputs *o, corot_state *state, observed *out) {
   observed seen = o->seen;
   *out = (observed){0};
   if (o->count == 0) return COROT_OK;
   seen.history = history_known(o->history);
+  if (!is_swinging(o, &seen.history)) seen.history.period = 0;
   observe_deformation(o, state, seen.history.t_elastic, seen.history.u, &seen);
   COROT_TRY(
       corot_stress_jumps(o->model, state, seen.history.t_elastic, seen.history.u, &seen.jumps));

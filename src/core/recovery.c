@@ -9,6 +9,7 @@
 
    and the recovered stress is linear in a tet, S* = sum_a N_a S_a, so that the integral of
    |S* - S|^2 is V/20 (|sum_a d_a|^2 + sum_a |d_a|^2), d_a = S_a - S. */
+#include <float.h>
 #include <stdlib.h>
 
 #include "core/kernel.h"
@@ -24,7 +25,14 @@ typedef struct recovery {
   const corot_state *state;
   stress6 *sum;   /* [nnode] of volume times stress, of one material */
   double *volume; /* [nnode] around each node, of that material */
+  double moved;   /* the largest displacement */
 } recovery;
+
+/* Squares of norms, summed over the tets. */
+typedef struct norms {
+  double apart, whole; /* of S* - S and of S */
+  double rounding;     /* of what may be left of S where there is none */
+} norms;
 
 COROT_INLINE stress6 stress_of(const recovery *r, int b, int l, mat3 F) {
   static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
@@ -76,8 +84,16 @@ static void gather(const recovery *r, int which) {
   }
 }
 
+/* Strains are differences of displacements, and of F'F from the identity: a hundred times what
+   double precision leaves of either. */
+COROT_INLINE double rounding_of(const recovery *r, int b, int l) {
+  const tet_block *block = &r->model->tets.block[b];
+  double e = 100 * DBL_EPSILON * (1 + r->moved * sqrt(mat3_dot(block->g, block->g)[l]));
+  return block->volume[l] * 2 * r->model->material[block->material].mu * e * e;
+}
+
 /* Adds what a material's tets differ by, and what their stresses amount to. */
-static void compare(const recovery *r, int which, double *apart, double *whole) {
+static void compare(const recovery *r, int which, norms *sum) {
   const tets *t = &r->model->tets;
   const material *mat = &r->model->material[which];
   for (int b = 0; b < t->nblock; b++) {
@@ -96,28 +112,37 @@ static void compare(const recovery *r, int which, double *apart, double *whole) 
         }
         each += energy_of(mat, &d);
       }
-      *apart += block->volume[l] / 20 * (energy_of(mat, &all) + each);
-      *whole += block->volume[l] * energy_of(mat, &s);
+      sum->apart += block->volume[l] / 20 * (energy_of(mat, &all) + each);
+      sum->whole += block->volume[l] * energy_of(mat, &s);
+      sum->rounding += rounding_of(r, b, l);
     }
   }
+}
+
+static double largest_displacement(const corot_state *s) {
+  double largest = 0;
+  for (int n = 0; n < s->nnode; n++)
+    for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(s->u[n][c]));
+  return largest;
 }
 
 corot_status corot_stress_jumps(const corot_model *m, corot_state *s, double t, const double *u,
                                 double *share) {
   size_t nnode = (size_t)m->mesh->nnode;
-  recovery r = {m, s, malloc(nnode * sizeof *r.sum), malloc(nnode * sizeof *r.volume)};
-  double apart = 0, whole = 0;
+  recovery r = {m, s, malloc(nnode * sizeof *r.sum), malloc(nnode * sizeof *r.volume), 0};
+  norms n = {0};
   if (r.sum && r.volume) {
     corot_state_displace(m, s, t, u);
+    r.moved = largest_displacement(s);
     for (int k = 0; k < m->nmaterial; k++) {
       gather(&r, k);
-      compare(&r, k, &apart, &whole);
+      compare(&r, k, &n);
     }
   }
   bool done = r.sum && r.volume;
   free(r.sum);
   free(r.volume);
   if (!done) return corot_fail(COROT_ENOMEM, "no memory for the stresses at %zu nodes", nnode);
-  *share = apart + whole > 0 ? sqrt(apart / (apart + whole)) : 0;
+  *share = n.whole > n.rounding ? sqrt(n.apart / (n.apart + n.whole)) : 0;
   return COROT_OK;
 }

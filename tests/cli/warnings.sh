@@ -157,6 +157,13 @@ json '0.8 < d["observed"]["period"] < 0.88'
 lacks output $(run swing.yaml) --set time.output=0.08
 lacks output $(run swing.yaml) --set time.output=5 # who asks for the end alone
 lacks output $(run pull.yaml) --set time.output=0.3 # it does not swing
+for start in rest equilibrium; do # nothing moves but the last digits
+  lacks output $(run swing.yaml) --set start=$start --set time.output=0.3 \
+    --set 'loads.0.amplitude=[[0, 0.001], [5, 1]]' --set integrator.max_step=0.05
+done
+for method in cvode ida arkode; do # a free fall, without stress
+  lacks bending $(run block.yaml) --set boundary=[] --set integrator.method=$method
+done
 
 # No code without its case, and no case of another code.
 expect 0 check --warnings; no_err

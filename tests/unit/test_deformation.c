@@ -120,6 +120,22 @@ static void an_even_strain_does_not_jump(void **state) {
     }
 }
 
+/* Far away, and turned: what rounding leaves of no strain is no stress. */
+static void a_rigid_motion_does_not_jump(void **state) {
+  (void)state;
+  for (int m = 1; m < NMEASURE; m++) {
+    body b = block(measures[m], true);
+    double Q[9];
+    rotation(about, 0.9, Q);
+    double *u = map(&b, Q);
+    assert_close(jumps(&b, u), 0, 0, 0);
+    for (int i = 0; i < b.n; i++) u[i] += 1e4;
+    assert_close(jumps(&b, u), 0, 0, 0);
+    free(u);
+    drop_body(&b);
+  }
+}
+
 /* u_x = z^2 size: bent. Turned as a whole it jumps as much, but in cauchy's eyes; and at small
    sizes the share does not depend on the size. */
 static void a_bent_block_jumps_however_it_is_turned(void **state) {
@@ -173,6 +189,7 @@ int main(void) {
       cmocka_unit_test(turns_are_found),
       cmocka_unit_test(an_inverted_tet_is_counted),
       cmocka_unit_test(an_even_strain_does_not_jump),
+      cmocka_unit_test(a_rigid_motion_does_not_jump),
       cmocka_unit_test(a_bent_block_jumps_however_it_is_turned),
       cmocka_unit_test(failed_allocations_are_survived),
   };
