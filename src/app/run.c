@@ -115,23 +115,15 @@ static void prepare_step(run *r) {
     corot_state_enter(r->state, NAN);
 }
 
-/* Whether the velocity of a support jumps at a kink. */
-static bool is_jump(const scenario *s, double kink) {
-  for (int i = 0; i < s->nmotion; i++)
-    if (s->motion[i].from == kink || s->motion[i].to == kink) return true;
-  return false;
-}
-
-/* Kinks of the loads are mild: the integrator has stopped there, and keeps its history. At constant
-   step it keeps it in any case, with its factor, in which no velocity stands. */
+/* The integrator has stopped at a kink, and is told. At constant step it keeps its factor, in which
+   no velocity stands. */
 static corot_status pass_kinks(run *r, step_row *row) {
   long before = corot_integrator_statistics(r->integrator).nrestart;
   for (double kink; schedule_take_kink(r->schedule, row->t, &kink);) {
     row->events |= EVENT_KINK;
     corot_state_enter(r->state, fmax(kink, row->t));
-    if (is_jump(r->scenario, kink) && !is_constant_step(r))
-      COROT_TRY(corot_integrator_changed(r->integrator, COROT_HISTORY_AUTO));
   }
+  if (row->events & EVENT_KINK) COROT_TRY(corot_integrator_kink(r->integrator));
   if (corot_integrator_statistics(r->integrator).nrestart > before) row->events |= EVENT_RESTART;
   return COROT_OK;
 }
