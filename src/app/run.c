@@ -28,6 +28,7 @@ typedef struct run {
   progress progress;
   double *u, *v; /* [n] scratch */
   double t;      /* reached [s]; at a constant step, it may pass the end */
+  double before; /* where the last step began [s] */
   double shown;  /* time of the last row of the tables [s]; -1: there is none */
   frame_totals frames;
   double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
@@ -75,15 +76,35 @@ static void release(run *r) {
 
 /* Step by step. */
 
+/* u and v at t by a step that ends there, from where the last one began: between the ends of a
+   sound step the interpolant may pass a state that cannot be evaluated. */
+static corot_status step_to(run *r, double t) {
+  corot_integrator_def def = r->scenario->integrator;
+  def.linear.refinement = r->refinement;
+  def.first_step = t - r->before;
+  if (def.step > 0) def.step = t - r->before;
+  corot_integrator *other;
+  COROT_TRY(corot_integrator_at(r->integrator, r->before, r->u, r->v));
+  COROT_TRY(corot_integrator_create(&def, r->model, r->state, r->before, r->u, r->v, &other));
+  corot_step step = {.t = r->before};
+  corot_status status = COROT_OK;
+  while (status == COROT_OK && step.t < t) status = corot_integrator_step(other, t, &step);
+  if (status == COROT_OK) status = corot_integrator_at(other, t, r->u, r->v);
+  corot_integrator_destroy(other);
+  return status;
+}
+
 /* Writes the moment t, which is 0 or, but for rounding, within the last step. */
 static corot_status write_moment(run *r, double t, bool last) {
   instant now = {.t = t, .u = r->u, .v = r->v, .frame_energy = r->frames.energy};
+  double within = fmin(t, r->t);
   if (t > 0) {
-    double within = fmin(t, r->t);
     COROT_TRY(corot_integrator_at(r->integrator, within, r->u, r->v));
     COROT_TRY(corot_integrator_work(r->integrator, within, &now.dissipated, &now.external_work));
   }
   corot_status status = outputs_write(r->outputs, r->state, &now, last);
+  if (status > 0 && within > r->before && within < r->t && step_to(r, within) == COROT_OK)
+    status = outputs_write(r->outputs, r->state, &now, last);
   if (status > 0) return corot_fail(status, "output at t = %g s: %s", t, corot_error());
   if (status == COROT_OK) r->shown = t;
   return status;
@@ -167,6 +188,7 @@ static corot_status integrate(run *r) {
     double stop = schedule_stop(r->schedule, corot_frame_clock_stop(r->clock));
     prepare_step(r);
     COROT_TRY(corot_integrator_step(r->integrator, stop, &step));
+    r->before = r->t;
     r->t = step.t;
     COROT_TRY(write_outputs(r, step.t));
 
