@@ -87,11 +87,16 @@ typedef struct corot_step {
    was inverted. The state last reached remains readable. */
 corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, corot_step *step);
 
-/* u and v [n] at any t within the last step, by the method's own interpolant; NULL skips one. After
-   a restart only the end of that step is left. */
+/* u and v [n] at any t within the last step; NULL skips one. After a restart only the end of that
+   step is left. cvode and ida: the method's own interpolant. arkode and erk: Hermite's polynomial of
+   degree 5 through u, v and the acceleration at both ends, v its derivative (to order 3, Hermite's
+   cubic through v and the acceleration); of arkode, in the modes too fast for the step, by a
+   polynomial through the displacements of the stages, so that it is right for stiff bodies, too. */
 corot_status corot_integrator_at(corot_integrator *integrator, double t, double *u, double *v);
 
-/* Work integrals from the start to t, t within the last step: dissipated and external work [J]. */
+/* Work integrals from the start to t, t within the last step: dissipated and external work [J].
+   cvode and ida: integrated with the solution. arkode and erk: by Lobatto's rule along the
+   interpolant, or where it is not all resolved by the table's own sum over the stages. */
 corot_status corot_integrator_work(corot_integrator *integrator, double t, double *dissipated,
                                    double *external);
 
@@ -110,6 +115,13 @@ typedef enum corot_history {
 
 /* To be called after a change of the held frames, at the end of a step. */
 corot_status corot_integrator_changed(corot_integrator *integrator, corot_history history);
+
+/* Call this at a kink of a load or motion (corot_model_kinks), at the end of the step that stops
+   there and after corot_state_enter: COROT_HISTORY_AUTO, with the matrices kept, which know of
+   positions only. A multistep method begins again where r has jumped and the next step feels it; a
+   Runge-Kutta method takes the new r, and a shorter step where the kink excites vibrations above
+   the tolerance which that step would not resolve. A method of constant step has nothing to do. */
+corot_status corot_integrator_kink(corot_integrator *integrator);
 
 /* --- Frames that follow the body between steps ------------------------------------------------ */
 

@@ -28,6 +28,7 @@ typedef struct run {
   progress progress;
   double *u, *v; /* [n] scratch */
   double t;      /* reached [s]; at a constant step, it may pass the end */
+  double before; /* where the last step began [s] */
   double shown;  /* time of the last row of the tables [s]; -1: there is none */
   frame_totals frames;
   warnings warnings;
@@ -80,15 +81,35 @@ static void release(run *r) {
 
 /* Step by step. */
 
+/* u and v at t by a step that ends there, from where the last one began: between the ends of a
+   sound step the interpolant may pass a state that cannot be evaluated. */
+static corot_status step_to(run *r, double t) {
+  corot_integrator_def def = r->scenario->integrator;
+  def.linear.refinement = r->refinement;
+  def.first_step = t - r->before;
+  if (def.step > 0) def.step = t - r->before;
+  corot_integrator *other;
+  COROT_TRY(corot_integrator_at(r->integrator, r->before, r->u, r->v));
+  COROT_TRY(corot_integrator_create(&def, r->model, r->state, r->before, r->u, r->v, &other));
+  corot_step step = {.t = r->before};
+  corot_status status = COROT_OK;
+  while (status == COROT_OK && step.t < t) status = corot_integrator_step(other, t, &step);
+  if (status == COROT_OK) status = corot_integrator_at(other, t, r->u, r->v);
+  corot_integrator_destroy(other);
+  return status;
+}
+
 /* Writes the moment t, which is 0 or, but for rounding, within the last step. */
 static corot_status write_moment(run *r, double t, bool last) {
   instant now = {.t = t, .u = r->u, .v = r->v, .frame_energy = r->frames.energy};
+  double within = fmin(t, r->t);
   if (t > 0) {
-    double within = fmin(t, r->t);
     COROT_TRY(corot_integrator_at(r->integrator, within, r->u, r->v));
     COROT_TRY(corot_integrator_work(r->integrator, within, &now.dissipated, &now.external_work));
   }
   corot_status status = outputs_write(r->outputs, r->state, &now, last);
+  if (status > 0 && within > r->before && within < r->t && step_to(r, within) == COROT_OK)
+    status = outputs_write(r->outputs, r->state, &now, last);
   if (status > 0) return corot_fail(status, "output at t = %g s: %s", t, corot_error());
   if (status == COROT_OK) r->shown = t;
   return status;
@@ -136,40 +157,15 @@ static void prepare_step(run *r) {
     corot_state_enter(r->state, NAN);
 }
 
-static int by_time(const void *a, const void *b) {
-  double d = *(const double *)a - *(const double *)b;
-  return (d > 0) - (d < 0);
-}
-
-/* How many points of a piecewise linear amplitude stand at t: two are a jump. */
-static int points_at(const corot_amplitude *a, double t) {
-  if (a->curve != COROT_CURVE_LINEAR || a->n == 0) return 0;
-  const double *p = bsearch(&t, a->time, (size_t)a->n, sizeof t, by_time);
-  if (!p) return 0;
-  return 1 + (p > a->time && p[-1] == t) + (p + 1 < a->time + a->n && p[1] == t);
-}
-
-/* Whether a load, or the velocity of a support, jumps at a kink. */
-static bool is_jump(const scenario *s, double kink) {
-  for (int i = 0; i < s->nmotion; i++) {
-    const corot_motion *m = &s->motion[i];
-    if (m->from == kink || m->to == kink || points_at(&m->amplitude, kink)) return true;
-  }
-  for (int i = 0; i < s->nload; i++)
-    if (points_at(&s->load[i].amplitude, kink) > 1) return true;
-  return false;
-}
-
-/* Other kinks of the loads are mild: the integrator has stopped there, and keeps its history. At
-   constant step it keeps it in any case, with its factor, in which no velocity stands. */
+/* The integrator has stopped at a kink, and is told. At constant step it keeps its factor, in which
+   no velocity stands. */
 static corot_status pass_kinks(run *r, step_row *row) {
   long before = corot_integrator_statistics(r->integrator).nrestart;
   for (double kink; schedule_take_kink(r->schedule, row->t, &kink);) {
     row->events |= EVENT_KINK;
     corot_state_enter(r->state, fmax(kink, row->t));
-    if (is_jump(r->scenario, kink) && !is_constant_step(r))
-      COROT_TRY(corot_integrator_changed(r->integrator, COROT_HISTORY_AUTO));
   }
+  if (row->events & EVENT_KINK) COROT_TRY(corot_integrator_kink(r->integrator));
   if (corot_integrator_statistics(r->integrator).nrestart > before) row->events |= EVENT_RESTART;
   return COROT_OK;
 }
@@ -213,6 +209,7 @@ static corot_status integrate(run *r) {
     double stop = schedule_stop(r->schedule, corot_frame_clock_stop(r->clock));
     prepare_step(r);
     COROT_TRY(corot_integrator_step(r->integrator, stop, &step));
+    r->before = r->t;
     r->t = step.t;
     COROT_TRY(record_step(r));
     COROT_TRY(write_outputs(r, step.t));

@@ -250,6 +250,11 @@ corot_status corot_integrator_changed(corot_integrator *self, corot_history hist
   return self->ops->changed(self, history);
 }
 
+corot_status corot_integrator_kink(corot_integrator *self) {
+  if (!corot_integrator_controls_error(self->ops->name)) return COROT_OK;
+  return self->ops->changed(self, COROT_HISTORY_AUTO);
+}
+
 corot_statistics corot_integrator_statistics(const corot_integrator *self) {
   corot_pencil_counts p = {0};
   if (self->pencil) p = corot_pencil_statistics(self->pencil);

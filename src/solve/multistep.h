@@ -35,6 +35,7 @@ struct multistep {
   N_Vector rate;                   /* [2n] y' at self->t, of IDA; NULL: CVODE knows it */
   N_Vector error, weight, scratch; /* [2n] */
   N_Vector work;                   /* [2] dissipated and external work at self->t */
+  double t_last;                   /* end of the last step; self->t may be after it by rounding */
   double t_stop;                   /* armed; NaN: none */
   corot_statistics before;         /* counts of earlier starts */
   long nni;                        /* at the end of the last step */

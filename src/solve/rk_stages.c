@@ -22,6 +22,7 @@
 #include <string.h>
 
 #include "solve/runge_kutta.h"
+#include "solve/slow.h"
 
 /* --- The polynomial through stages ----------------------------------------------------------- */
 
@@ -220,16 +221,13 @@ void corot_rk_clear_slopes(runge_kutta *m) {
   const corot_integrator *self = m->driver.self;
   int n = corot_model_ndof(self->model);
   double h = m->end.t - m->start.t, *E = N_VGetArrayPointer(m->error), *x = E + n;
-  corot_pencil_counts counts = self->pencil->counts; /* are of the steps */
   for (int k = 0; k < 4; k++) {
     double *slope = N_VGetArrayPointer(m->slope[k / 2]) + k % 2 * n;
     difference(m, k, k % 2 ? 1 / (h * h) : 1 / h, slope, E);
     for (int pass = 0; pass < 3; pass++) {
-      corot_mass_multiply(self->model, E, x);
-      if (corot_pencil_solve(self->pencil, x, x)) break; /* all of it, then */
+      if (corot_slow_part(self, E, x)) break; /* all of it, then */
       for (int i = 0; i < n; i++) E[i] -= x[i];
     }
     for (int i = 0; i < n; i++) slope[i] -= E[i];
   }
-  self->pencil->counts = counts;
 }

@@ -63,11 +63,27 @@ static corot_status reset(runge_kutta *m, double h) {
   return COROT_OK;
 }
 
-/* After a jump of r the next step is as long as it would have been: nothing of the past goes into
-   it, and error control sees to the rest. */
+/* After a change of r. Of the past no more than the rate at the start goes into the next step: if
+   it is what it was there is nothing to begin. */
 static corot_status begin_afresh(runge_kutta *m) {
-  double h = m->first_step;
-  if (h == 0) m->api->next_step(m->memory, &h);
+  driver *d = &m->driver;
+  double h = m->first_step, usual = 0;
+  m->api->next_step(m->memory, &usual);
+  m->nfe++;
+  if (corot_driver_rhs(m->start.t, m->start.y, m->error, d))
+    return corot_driver_give_up(d, "in the state reached");
+  N_VLinearSum(1, m->error, -1, m->start.rate, m->start.rate);
+  bool same = !m->fresh && usual * N_VWrmsNorm(m->start.rate, m->weight) < 1e-6;
+  N_VScale(1, m->error, m->start.rate);
+  m->start.rate_known = true;
+  if (h == 0) {
+    h = usual;
+    if (!m->resolved || !same) COROT_TRY(corot_rk_first_step(m, &h));
+    if (same && h == usual) {
+      m->stale = false;
+      return COROT_OK;
+    }
+  }
   m->first_step = 0;
   return reset(m, h);
 }

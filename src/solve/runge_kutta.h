@@ -125,6 +125,10 @@ bool corot_rk_resolves(runge_kutta *m);
 /* In those modes the slopes give way to the slopes of the polynomial through the stages. */
 void corot_rk_clear_slopes(runge_kutta *m);
 
+/* Shortens h, the step to be taken after a change of r, to what a transient it brings asks for: see
+   rk_start.c. m->start.rate is that of the new r. */
+corot_status corot_rk_first_step(runge_kutta *m, double *h);
+
 /* The table the definition asks for, by name or order; `mine` and `others` end with a NULL name,
    and the first of an order is the one it stands for. NULL: there is none, see corot_rk_refuse. */
 const rk_table *corot_rk_find(const corot_integrator_def *def, const rk_table *mine);
