@@ -373,7 +373,8 @@ size_t corot_model_bytes(const corot_model *m) {
   const tets *t = &m->tets;
   const pattern *p = &m->pattern;
   size_t bytes = sizeof *m + mesh_bytes(m->mesh) + m->nmaterial * sizeof *m->material +
-                 m->mesh->nnode * sizeof *m->dof + 2 * m->ndof * sizeof *m->mass;
+                 m->mesh->nnode * sizeof *m->dof;
+  if (m->mass) bytes += 2 * m->ndof * sizeof *m->mass; /* parts of a hierarchy have none */
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
     bytes += sizeof *l + corot_amplitude_bytes(&l->amplitude) + l->ntri * sizeof *l->tri;

@@ -569,6 +569,32 @@ static void the_viscous_law_follows_the_measure(void **state) {
   }
 }
 
+/* Bounds may be met. */
+static void steps_at_their_bounds(void **state) {
+  (void)state;
+  static const char *const texts[] = {
+      MINIMAL "integrator: {min_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "integrator: {first_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "integrator: {min_step: 0.5, first_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "statics: {min_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "statics: {first_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "statics: {first_step: 1, max_step: 1, min_step: 1}\n",
+      MINIMAL "groups: {a: {box: {min: [0, 0, 1], max: [1, 0, 1]}}}\n",
+      MINIMAL "integrator: {method: hht, step: 0.1, spectral_radius: 0.5}\n",
+      MINIMAL "integrator: {method: hht, step: 0.1, spectral_radius: 1}\n",
+      MINIMAL "integrator: {method: arkode, order: 5}\n",
+      MINIMAL "integrator: {method: erk, order: 8}\n",
+      MINIMAL "integrator: {method: cvode, max_order: 5}\n",
+      MESH MATERIAL "time: {end: 2, output: 2}\n",
+      "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 1}\n" MATERIAL TIME
+      "hierarchy: {frame_level: 1}\n",
+  };
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+    print_message("%s", texts[k]);
+    scenario_destroy(accept(texts[k]));
+  }
+}
+
 /* Two cells across are six tets each by every split; one is cut in halves by the default. */
 static void boxes_are_split_as_named(void **state) {
   (void)state;
@@ -791,6 +817,7 @@ int main(void) {
       cmocka_unit_test(numbers_as_text),
       cmocka_unit_test(builds),
       cmocka_unit_test(the_viscous_law_follows_the_measure),
+      cmocka_unit_test(steps_at_their_bounds),
       cmocka_unit_test(boxes_are_split_as_named),
       cmocka_unit_test(builds_motions_and_loads),
       cmocka_unit_test(builds_averages_of_the_dilatation),
