@@ -85,7 +85,7 @@ static int configure(runge_kutta *m, const rk_table *table) {
   return ARKStepSetUserData(a, m) || ARKStepWFtolerances(a, corot_driver_weights) ||
          ARKStepSetMaxNumSteps(a, -1) || set_table(a, table->name) ||
          ARKStepSetLinearSolver(a, m->driver.LS, m->driver.A) ||
-         ARKStepSetLinSysFn(a, corot_sun_linsys_ark) ||
+         ARKStepSetLinSysFn(a, corot_driver_linsys_ark) ||
          ARKStepSetLSetupFrequency(a, d->refactorisation) ||
          ARKStepSetJacEvalFrequency(a, d->reassembly) ||
          ARKStepSetDeltaGammaMax(a, d->gamma_change) ||

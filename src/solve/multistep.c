@@ -41,8 +41,6 @@ static corot_status advance(multistep *m, double t_stop, double *t) {
   double beyond = t_stop + (t_stop - d->self->t);
   d->message[0] = 0;
   int flag = m->api->advance(m, beyond, t);
-  if (flag == m->api->setup_failed || flag == m->api->solve_failed)
-    corot_driver_refuse_trial(d, flag, corot_error());
   if (flag < 0) return corot_driver_give_up(d, d->message);
   if (flag == m->api->stopped) {
     *t = t_stop;
@@ -101,18 +99,20 @@ corot_status corot_multistep_work(corot_integrator *self, double t, double *diss
   return COROT_OK;
 }
 
-/* Counts since the last start are added to `s`. */
-static void add_counts(const multistep *m, corot_statistics *s) {
+/* Counts since the last start are added to `s`. False: SUNDIALS does not tell. */
+static bool add_counts(const multistep *m, corot_statistics *s) {
   const struct {
     multistep_count *get;
     long *sum;
   } counts[] = {{m->api->nfe, &s->nfe}, {m->api->nsetups, &s->nsetups}, {m->api->netf, &s->netf},
                 {m->api->nni, &s->nni}, {m->api->ncfn, &s->ncfn},       {m->api->nfeQ, &s->nfeQ}};
+  bool told = true;
   for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
     long count = 0;
-    counts[k].get(m->memory, &count);
+    told = counts[k].get(m->memory, &count) == 0 && told;
     *counts[k].sum += count;
   }
+  return told;
 }
 
 /* How fast the solution leaves its history, in units of the tolerance per second: the jump of the
@@ -141,12 +141,12 @@ corot_status corot_multistep_changed(corot_integrator *self, corot_history histo
   if (history == COROT_HISTORY_AUTO) {
     double jump = 0, h_last = 0, h_next = 0;
     COROT_TRY(derivative_jump(m, &jump));
-    m->api->last_step(m->memory, &h_last);
-    m->api->next_step(m->memory, &h_next);
+    if (m->api->last_step(m->memory, &h_last) || m->api->next_step(m->memory, &h_next))
+      return corot_driver_refuse(&m->driver, "statistics");
     if (h_next * jump < 0.5) return COROT_OK;
     h = fmax(fmin(h_last, 0.5 / jump), 100 * DBL_EPSILON * fabs(self->t));
   }
-  add_counts(m, &m->before);
+  if (!add_counts(m, &m->before)) return corot_driver_refuse(&m->driver, "statistics");
   m->before.nrestart++;
   m->nni = 0;
   m->t_stop = NAN;
@@ -163,5 +163,5 @@ void corot_multistep_statistics(const corot_integrator *self, corot_statistics *
   const corot_statistics *b = &m->before;
   s->nfe = b->nfe, s->nsetups = b->nsetups, s->netf = b->netf, s->nni = b->nni, s->ncfn = b->ncfn;
   s->nfeQ = b->nfeQ, s->nrestart = b->nrestart;
-  add_counts(m, s);
+  (void)add_counts(m, s); /* what is not told stays as it was before the last start */
 }
