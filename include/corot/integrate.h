@@ -196,6 +196,7 @@ typedef struct corot_statistics {
   long nje;     /* Jacobian evaluations (K and D) */
   long nli;     /* linear iterations; 0 for direct solvers */
   long nfactor, nsolve, nfresh, nindefinite, nclamped, nfallback; /* of the pencil */
+  long nlsfail; /* linear solves that failed: the step was repeated with a shorter one, or ended */
   long nfeQ;     /* evaluations of the work integrands */
   long nrestart; /* restarts after a change */
   double hlast;  /* last step [s] */

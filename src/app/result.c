@@ -92,11 +92,12 @@ static json_t *statistics_part(const run_summary *run) {
                 integer(n->nfe), "nsetups", integer(n->nsetups), "netf", integer(n->netf), "nni",
                 integer(n->nni), "ncfn", integer(n->ncfn), "nje", integer(n->nje), "nli",
                 integer(n->nli), "hlast", json_text_real(n->hlast), "qlast", n->qlast);
-  json_t *more = json_pack(
-      "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor", integer(n->nfactor), "nsolve",
-      integer(n->nsolve), "nfresh", integer(n->nfresh), "nindefinite", integer(n->nindefinite),
-      "nclamped", integer(n->nclamped), "nfallback", integer(n->nfallback), "nfeQ",
-      integer(n->nfeQ), "nrestart", integer(n->nrestart), "nframes", integer(run->frames.count));
+  json_t *more =
+      json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor",
+                integer(n->nfactor), "nsolve", integer(n->nsolve), "nlsfail", integer(n->nlsfail),
+                "nfresh", integer(n->nfresh), "nindefinite", integer(n->nindefinite), "nclamped",
+                integer(n->nclamped), "nfallback", integer(n->nfallback), "nfeQ", integer(n->nfeQ),
+                "nrestart", integer(n->nrestart), "nframes", integer(run->frames.count));
   bool complete = part && more && json_object_update(part, more) == 0;
   json_decref(more);
   if (complete) return part;

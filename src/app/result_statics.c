@@ -16,11 +16,11 @@ json_t *result_statics(const scenario *s, const statics_summary *statics) {
 }
 
 json_t *result_statics_counts(const corot_statics_counts *n) {
-  return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "nni",
+  return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "nni",
                    (json_int_t)n->nni, "nfe", (json_int_t)n->nfe, "nje", (json_int_t)n->nje,
                    "nbcfails", (json_int_t)n->nbcfails, "nbacktrack", (json_int_t)n->nbacktrack,
                    "nstep", (json_int_t)n->nstep, "nrejected", (json_int_t)n->nrejected, "nframes",
                    (json_int_t)n->nframes, "nfactor", (json_int_t)n->nfactor, "nsolve",
-                   (json_int_t)n->nsolve, "nli", (json_int_t)n->nli, "nindefinite",
-                   (json_int_t)n->nindefinite);
+                   (json_int_t)n->nsolve, "nli", (json_int_t)n->nli, "nlsfail",
+                   (json_int_t)n->nlsfail, "nindefinite", (json_int_t)n->nindefinite);
 }

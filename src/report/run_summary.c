@@ -120,6 +120,7 @@ static void write_counts(const json_t *r, FILE *out) {
       {"factorisations", "statistics.nfactor", true},
       {"solves", "statistics.nsolve", true},
       {"linear iterations", "statistics.nli", false},
+      {"failed solves", "statistics.nlsfail", false},
       {"restarts", "statistics.nrestart", false},
       {"indefinite matrices", "statistics.nindefinite", false},
   };

@@ -262,6 +262,7 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
                         .nli = p.niteration,
                         .nfactor = p.nfactor,
                         .nsolve = p.nsolve,
+                        .nlsfail = p.nlsfail,
                         .nfresh = p.nfresh,
                         .nindefinite = p.nindefinite,
                         .nclamped = p.nclamped,

@@ -89,7 +89,7 @@ static int configure(runge_kutta *m) {
   return ARKStepSetUserData(a, m) || ARKStepWFtolerances(a, corot_driver_weights) ||
          ARKStepSetMaxNumSteps(a, -1) || ARKStepSetMaxErrTestFails(a, DRIVER_MOST_FAILURES) ||
          ARKStepSetLinearSolver(a, m->driver.LS, m->driver.A) ||
-         ARKStepSetLinSysFn(a, corot_sun_linsys_ark) ||
+         ARKStepSetLinSysFn(a, corot_driver_linsys_ark) ||
          ARKStepSetLSetupFrequency(a, d->refactorisation) ||
          ARKStepSetJacEvalFrequency(a, d->reassembly) ||
          ARKStepSetDeltaGammaMax(a, d->gamma_change) ||

@@ -36,24 +36,26 @@ void corot_multistep_close(multistep *m) {
   free(m);
 }
 
-/* Counts since the last start are added to `s`. */
-static void add_counts(const multistep *m, corot_statistics *s) {
+/* Counts since the last start are added to `s`. False: SUNDIALS does not tell. */
+static bool add_counts(const multistep *m, corot_statistics *s) {
   const struct {
     multistep_count *get;
     long *sum;
   } counts[] = {{m->api->nfe, &s->nfe}, {m->api->nsetups, &s->nsetups}, {m->api->netf, &s->netf},
                 {m->api->nni, &s->nni}, {m->api->ncfn, &s->ncfn},       {m->api->nfeQ, &s->nfeQ}};
+  bool told = true;
   for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
     long count = 0;
-    counts[k].get(m->memory, &count);
+    told = counts[k].get(m->memory, &count) == 0 && told;
     *counts[k].sum += count;
   }
+  return told;
 }
 
 /* Begins again at order 1, with a first step of h; 0: as SUNDIALS chooses. */
 static corot_status begin_again(multistep *m, double h) {
   corot_integrator *self = m->driver.self;
-  add_counts(m, &m->before);
+  if (!add_counts(m, &m->before)) return corot_driver_refuse(&m->driver, "statistics");
   m->nni = 0;
   m->t_stop = NAN;
   m->t_last = self->t;
@@ -71,7 +73,8 @@ static corot_status begin_again(multistep *m, double h) {
 static corot_status look_ahead(multistep *m, double *t_stop) {
   const corot_integrator *self = m->driver.self;
   double h = 0; /* not known after a start */
-  if (self->before < self->t) m->api->next_step(m->memory, &h);
+  if (self->before < self->t && m->api->next_step(m->memory, &h))
+    return corot_driver_refuse(&m->driver, "statistics");
   double sight = corot_integrator_sight(self, h, *t_stop);
   bool sets_out = sight < *t_stop && h > 100 * (sight - self->t);
   *t_stop = sight;
@@ -89,8 +92,6 @@ static corot_status advance(multistep *m, double t_stop, double *t) {
   double beyond = t_stop + (t_stop - d->self->t);
   d->message[0] = 0;
   int flag = m->api->advance(m, beyond, t);
-  if (flag == m->api->setup_failed || flag == m->api->solve_failed)
-    corot_driver_refuse_trial(d, flag, corot_error());
   if (flag < 0) return corot_driver_give_up(d, d->message);
   if (flag == m->api->stopped) {
     *t = t_stop;
@@ -184,8 +185,8 @@ static corot_status is_felt(multistep *m, bool *felt, double *h) {
   const corot_integrator *self = m->driver.self;
   double jump = 0, slow = 0, h_last = 0, h_next = 0;
   COROT_TRY(derivative_jump(m, &jump));
-  m->api->last_step(m->memory, &h_last);
-  m->api->next_step(m->memory, &h_next);
+  if (m->api->last_step(m->memory, &h_last) || m->api->next_step(m->memory, &h_next))
+    return corot_driver_refuse(&m->driver, "statistics");
   *felt = h_next * jump >= 0.5;
   if (*felt && slow_jump(m, &slow) == COROT_OK) *felt = h_next * slow >= 0.5;
   *h = fmax(fmin(h_last, 0.5 / jump), 100 * DBL_EPSILON * fabs(self->t));
@@ -211,5 +212,5 @@ void corot_multistep_statistics(const corot_integrator *self, corot_statistics *
   const corot_statistics *b = &m->before;
   s->nfe = b->nfe, s->nsetups = b->nsetups, s->netf = b->netf, s->nni = b->nni, s->ncfn = b->ncfn;
   s->nfeQ = b->nfeQ, s->nrestart = b->nrestart;
-  add_counts(m, s);
+  (void)add_counts(m, s); /* what is not told stays as it was before the last start */
 }

@@ -11,7 +11,7 @@ typedef struct multistep multistep;
 typedef int multistep_count(void *memory, long *count);
 
 typedef struct multistep_api {
-  int setup_failed, solve_failed, stopped; /* what `advance` returns in these cases */
+  int stopped; /* what `advance` returns where it has reached the stop time */
   int (*advance)(multistep *m, double beyond, double *t); /* by one internal step */
   int (*restart)(multistep *m);                           /* from (self->t, y) */
   int (*set_stop_time)(void *memory, sunrealtype t);

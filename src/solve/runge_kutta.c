@@ -68,7 +68,7 @@ static corot_status reset(runge_kutta *m, double h) {
 static corot_status begin_afresh(runge_kutta *m) {
   driver *d = &m->driver;
   double h = m->first_step, usual = 0;
-  m->api->next_step(m->memory, &usual);
+  if (m->api->next_step(m->memory, &usual)) return corot_driver_refuse(d, "statistics");
   m->nfe++;
   if (corot_driver_rhs(m->start.t, m->start.y, m->error, d))
     return corot_driver_give_up(d, "in the state reached");
@@ -109,7 +109,7 @@ static corot_status attempt(runge_kutta *m, double t_stop, double *t, int *flag)
 static bool too_long(const driver *d, int flag) {
   bool refused =
       flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR || flag == ARK_RHSFUNC_FAIL;
-  return refused && d->refusal[0] && d->refused == d->self->nst;
+  return refused && !d->fatal && d->refusal[0] && d->refused == d->self->nst;
 }
 
 static corot_status advance(runge_kutta *m, double t_stop, double *t) {
@@ -119,14 +119,12 @@ static corot_status advance(runge_kutta *m, double t_stop, double *t) {
   for (;;) {
     COROT_TRY(attempt(m, t_stop, t, &flag));
     if (!too_long(d, flag)) break;
-    if (h == 0) m->api->next_step(m->memory, &h);
+    if (h == 0 && m->api->next_step(m->memory, &h)) return corot_driver_refuse(d, "statistics");
     h = fmin(h, t_stop - t_now) / 4;
     if (!(h > least && h > 1e-9 * d->longest && h >= d->self->def.min_step)) break;
     N_VScale(1, m->start.y, d->y);
     COROT_TRY(reset(m, h));
   }
-  if (flag == ARK_LSETUP_FAIL || flag == ARK_LSOLVE_FAIL)
-    corot_driver_refuse_trial(d, flag, corot_error());
   if (flag < 0) {
     N_VScale(1, m->start.y, d->y);
     return corot_driver_give_up(d, d->message);
@@ -210,7 +208,7 @@ static corot_status find_power(runge_kutta *m, double t, N_Vector y, double *pow
   driver *d = &m->driver;
   m->nfeQ++;
   if (corot_driver_work_rate(t, y, m->power, d) &&
-      corot_driver_work_rate(m->end.t, m->end.y, m->power, d))
+      (d->fatal || corot_driver_work_rate(m->end.t, m->end.y, m->power, d)))
     return corot_driver_give_up(d, corot_error());
   memcpy(power, N_VGetArrayPointer(m->power), 2 * sizeof *power);
   return COROT_OK;
@@ -358,7 +356,9 @@ corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *st
   runge_kutta *m = self->method;
   driver *d = &m->driver;
   COROT_TRY(corot_driver_check(d));
-  if (m->limit) corot_explicit_limit_follow(m->limit, self->t, N_VGetArrayPointer(d->y));
+  if (m->limit && corot_driver_answer(d, corot_explicit_limit_follow(m->limit, self->t,
+                                                                     N_VGetArrayPointer(d->y))) < 0)
+    return corot_driver_give_up(d, "the stable step");
   rk_end before = m->start;
   m->start = m->end;
   m->start.t = self->t; /* which may have moved on by rounding */
@@ -366,6 +366,9 @@ corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *st
   corot_status status = cross(m, t_stop);
   double error = status ? 0 : N_VWrmsNorm(m->error, m->weight);
   if (!status) status = measure_work(m);
+  long nni = 0;
+  if (!status && m->api->nni && m->api->nni(m->memory, &nni))
+    status = corot_driver_refuse(d, "statistics");
   m->fresh = status != COROT_OK;
   if (status) { /* of the step before only its end is left */
     m->end = m->start;
@@ -375,8 +378,6 @@ corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *st
     self->before = self->t;
     return status;
   }
-  long nni = 0;
-  if (m->api->nni) m->api->nni(m->memory, &nni);
   *step =
       (corot_step){.t = m->end.t, .order = m->order, .error = error, .newton = (int)(nni - m->nni)};
   m->nni = nni;
@@ -409,7 +410,7 @@ void corot_rk_statistics(const corot_integrator *self, corot_statistics *s) {
                 {m->api->nni, &s->nni},
                 {m->api->ncfn, &s->ncfn}};
   for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
-    if (counts[k].get) counts[k].get(m->memory, counts[k].count);
+    if (counts[k].get && counts[k].get(m->memory, counts[k].count)) *counts[k].count = 0;
   s->nfe += m->nfe;
   s->nfeQ = m->nfeQ;
   s->nrestart = m->nrestart;
