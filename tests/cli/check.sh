@@ -11,6 +11,7 @@ out "corner: node 11 at (0.1, 0.1, 0.2)"
 out "cvode"
 
 expect 0 check model.yaml --json; no_err
+! grep -q ' $' stdout || complain "blanks at the end of a line"
 json 'd["mesh"]["tets"] == 12 and d["dofs"] == 24 and abs(d["mass"] - 2) < 1e-12'
 json 'd["probes"][0]["node"] == 11 and d["integrator"]["method"] == "cvode"'
 
