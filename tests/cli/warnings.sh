@@ -108,6 +108,12 @@ lacks rtol check pull.yaml --set 'integrator={method: erk, order: 8, rtol: 1e-14
 has rtol $(run pull.yaml) --set 'integrator={method: erk, order: 8, rtol: 1e-14}' --set time.end=0.1
 json 'sum(w["code"] == "rtol" for w in d["warnings"]) == 1'
 
+# A body that hardly moves: the absolute tolerance is all there is.
+has atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]'
+lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]' --set integrator.atol.displacement=1e-10
+lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]' --set "$(constant newmark 0.01)"
+lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,100]'
+
 # Energy: lost to the method, or never there.
 has numerical-dissipation $(run swing.yaml) --set "$(constant backward-euler 0.01)"
 lacks ledger $(run swing.yaml) --set "$(constant backward-euler 0.01)"
