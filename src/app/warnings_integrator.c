@@ -23,11 +23,11 @@
        angular momentum    2.3e-2 : 1.8e-2     1.5e-2 : 1.6e-3    3.8e-3 : 3.5e-4
 
    and ida like cvode, in half to twice the CPU time of cvode where there is no damping (for the
-   same error, in half of it or less) and 2 to 3.5 times where there is. Held and damped, arkode is
-   nearer at the same tolerance, too, but dearer, and not better for its time. At 1e-6 cvode is
-   still off by up to 0.5 % in displacement and 4.5 % in velocity, and at 1e-7 by less than 1 % in
-   both, and in energy, which is taken for the end of what matters. Frames that are held have an
-   error of their own, which hides that of the method, and were not measured. */
+   same error, in half of it or less) and 2 to 3.5 times where there is. Held and well damped,
+   arkode is nearer at the same tolerance, too, but dearer, and not better for its time. At 1e-6
+   cvode is still off by up to 0.5 % in displacement and 4.5 % in velocity, and at 1e-7 by less than
+   1 % in both, and in energy, which is taken for the end of what matters. Frames that are held have
+   an error of their own, which hides that of the method, and were not measured. */
 #define SMALL_TOLERANCE 1e-7
 
 static bool is_zero(const double x[3]) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
@@ -88,6 +88,6 @@ corot_status warnings_find_integrator(const scenario *s, const corot_model *mode
       "nothing damps the body, so that the errors of %s in size and phase of its vibrations add "
       "up%s; "
       "take integrator.method: arkode, whose error is 2 to 20 times smaller at rtol 1e-4 and 30 to "
-      "100 times at 1e-5, in a tenth to a quarter of the steps and about the same CPU time",
+      "100 times at 1e-5, in a tenth to a quarter of the steps and half to twice the CPU time",
       d->method, is_free ? ", and nothing holds it, so that its angular momentum drifts" : "");
 }
