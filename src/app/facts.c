@@ -60,7 +60,7 @@ corot_status facts_find(const scenario *s, facts *f) {
   corot_state *state = NULL;
   COROT_TRY(scenario_build(s, &f->mesh, &f->refinement, &f->model));
   f->quality = corot_mesh_measure(f->mesh);
-  COROT_TRY(warnings_before(s, f->model, &f->warnings));
+  COROT_TRY(warnings_before(s, f->model, false, &f->warnings));
   f->mass = total_mass(s, f);
   COROT_TRY(corot_state_create(f->model, &state));
   f->bytes = corot_model_bytes(f->model) + corot_state_bytes(state);

@@ -59,7 +59,7 @@ static corot_status start_integrator(run *r) {
 
 static corot_status prepare(run *r) {
   COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->refinement, &r->model));
-  COROT_TRY(run_warn_before(r->scenario, r->model, r->options, &r->warnings));
+  COROT_TRY(run_warn_before(r->scenario, r->model, false, r->options, &r->warnings));
   COROT_TRY(start_integrator(r));
   r->setup_s = wall_clock() - r->wall_at_start;
   return COROT_OK;

@@ -42,8 +42,8 @@ int run_exit_code(corot_status status) {
 static const char head[] = "warning: ";
 
 corot_status run_warn_before(const scenario *s, const corot_model *model,
-                             const run_options *options, warnings *w) {
-  corot_status status = warnings_before(s, model, w);
+                             bool statics, const run_options *options, warnings *w) {
+  corot_status status = warnings_before(s, model, statics, w);
   if (!options->quiet) warnings_print(w, 0, head, stderr);
   return status;
 }

@@ -20,7 +20,7 @@ int run_interrupted(size_t size, char *reason);
 /* The warnings of what there is before the first step, told on stderr unless the options ask for
    quiet. */
 corot_status run_warn_before(const scenario *s, const corot_model *model,
-                             const run_options *options, warnings *w);
+                             bool statics, const run_options *options, warnings *w);
 
 /* The same of what came of it, after the last moment was written; `seen` is what was looked at. */
 corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,

@@ -60,7 +60,7 @@ static corot_status prepare(equilibrium_run *r) {
   corot_statics_def def = s->statics;
   def.stop = is_stopped;
   COROT_TRY(scenario_build(s, &r->mesh, &r->refinement, &r->model));
-  COROT_TRY(run_warn_before(s, r->model, r->options, &r->warnings));
+  COROT_TRY(run_warn_before(s, r->model, true, r->options, &r->warnings));
   def.linear.refinement = r->refinement;
   COROT_TRY(allocate(r));
   corot_status status = corot_statics_create(&def, r->model, s->t_end, NULL, &r->statics);

@@ -12,6 +12,7 @@ const warning_kind warning_kinds[WARNING_CODES] = {
     [WARNING_PARTS] = {"parts", "the body is in several parts that share no node"},
     [WARNING_UNHELD] = {"unheld", "a part has no support while another has"},
     [WARNING_PROBE] = {"probe", "the nearest node is far from the point of a probe"},
+    [WARNING_INTEGRATOR] = {"integrator", "cvode or ida, where a body is free or undamped"},
     [WARNING_RTOL] = {"rtol", "a tolerance is below what double precision can tell"},
     [WARNING_ATOL] = {"atol", "the absolute tolerance is no small part of the motion"},
     [WARNING_LEDGER] = {"ledger", "work and energies do not add up, or the method adds energy"},

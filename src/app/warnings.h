@@ -15,6 +15,7 @@ typedef enum warning_code {
   WARNING_PARTS,
   WARNING_UNHELD,
   WARNING_PROBE,
+  WARNING_INTEGRATOR,
   WARNING_RTOL, /* or after it */
   /* After it. */
   WARNING_ATOL,
@@ -56,8 +57,9 @@ void warnings_free(warnings *w);
 /* What a mesh alone gives rise to: PARTS. */
 corot_status warnings_of_mesh(const corot_mesh *mesh, warnings *w);
 
-/* What scenario and model do, before the first step. */
-corot_status warnings_before(const scenario *s, const corot_model *model, warnings *w);
+/* What scenario and model do, before the first step of a run, or of a search for an equilibrium. */
+corot_status warnings_before(const scenario *s, const corot_model *model, bool statics,
+                             warnings *w);
 
 /* What came of a run, or of a search for an equilibrium (`statics`): see outputs.h. */
 corot_status warnings_after(const scenario *s, const corot_model *model, const observed *seen,

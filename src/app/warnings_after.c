@@ -17,6 +17,14 @@ static double energy_share(const scenario *s) {
   return fmax(1e-4, fmin(0.02, 100 * s->integrator.rtol));
 }
 
+/* What helps: arkode errs less at the same tolerance, and costs more (warnings_integrator.c). */
+static const char *energy_remedy(const scenario *s) {
+  if (s->integrator.step > 0) return "take shorter steps, or a method with error control";
+  if (strcmp(s->integrator.method, "cvode") == 0 || strcmp(s->integrator.method, "ida") == 0)
+    return "lower integrator.rtol, or take integrator.method: arkode";
+  return "lower integrator.rtol";
+}
+
 /* A loss that is still there in the end is damping by the method. A gain, or an error that comes
    and goes, is not. */
 static corot_status find_energy(const scenario *s, const history_facts *h, warnings *w) {
@@ -24,23 +32,19 @@ static corot_status find_energy(const scenario *s, const history_facts *h, warni
   double worst = fmax(gain, loss);
   if (!(worst > share * h->energy)) return COROT_OK;
   bool damped = loss > gain && -h->balance >= 0.5 * loss;
-  const char *remedy =
-      s->integrator.step > 0
-          ? "take shorter steps, or a method with error control"
-          : "lower integrator.rtol, or take integrator.method: arkode, which damps less";
   if (damped)
     return warnings_add(w, WARNING_DISSIPATION,
                         "the method itself took %.3g J from the motion by t = %.4g s, %.2g %% of "
                         "the largest energy, %.3g J (%.3g J went by damping; %.2g %% would pass): "
                         "vibrations die away faster than they should; %s",
                         loss, h->balance_min.t, 100 * loss / h->energy, h->energy, h->dissipated,
-                        100 * share, remedy);
+                        100 * share, energy_remedy(s));
   return warnings_add(w, WARNING_LEDGER,
                       "energies and work do not add up: at t = %.4g s there are %.3g J too %s, "
                       "%.2g %% of the largest energy, %.3g J (%.2g %% would pass); %s",
                       gain > loss ? h->balance_max.t : h->balance_min.t, worst,
                       gain > loss ? "many" : "few", 100 * worst / h->energy, h->energy, 100 * share,
-                      s->integrator.step > 0 ? "take shorter steps" : "lower integrator.rtol");
+                      energy_remedy(s));
 }
 
 /* --- Strains --- */

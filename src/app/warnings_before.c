@@ -152,9 +152,11 @@ corot_status warnings_find_rtol(const scenario *s, const corot_model *model, dou
 
 /* --- All of it --- */
 
-corot_status warnings_before(const scenario *s, const corot_model *model, warnings *w) {
+corot_status warnings_before(const scenario *s, const corot_model *model, bool statics,
+                             warnings *w) {
   COROT_TRY(find_locking(s, w));
   COROT_TRY(find_parts(model, w));
   COROT_TRY(find_probes(s, corot_model_mesh(model), w));
+  if (!statics) COROT_TRY(warnings_find_integrator(s, model, w));
   return warnings_find_rtol(s, model, EXPECTED_DISPLACEMENT * corot_model_length(model), w);
 }

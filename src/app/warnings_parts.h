@@ -4,6 +4,9 @@
 
 #include "warnings.h"
 
+/* Adds INTEGRATOR if a multistep method is to move a body that is free or undamped. */
+corot_status warnings_find_integrator(const scenario *s, const corot_model *model, warnings *w);
+
 /* What rounding moves a body by in a step, in its lengths: below, the answers of explicit and
    implicit Runge-Kutta methods for a clamped bar cease to get closer to each other. */
 #define LEAST_TOLERANCE 1e-15

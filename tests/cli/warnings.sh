@@ -72,10 +72,10 @@ run() { echo run "$1" -o r --quiet; }
 constant() { echo "integrator={method: $1, step: $2}"; }
 
 # Nothing where nothing is wrong, in a run, in statics and before either.
-expect 0 run pull.yaml -o r --json; [ -z "$(codes stdout)" ] || complain "$what: $(codes stdout)"
+expect 0 run pull.yaml -o r --json --set integrator.method=arkode; [ -z "$(codes stdout)" ] || complain "$what: $(codes stdout)"
 grep -q warning stderr && complain "a warning of nothing"
 expect 0 static pull.yaml -o r --json; [ -z "$(codes stdout)" ] || complain "$what: $(codes stdout)"
-expect 0 check pull.yaml; no_err; grep -q warning stdout && complain "a warning of nothing"
+expect 0 check pull.yaml --set integrator.method=arkode; no_err; grep -q warning stdout && complain "a warning of nothing"
 
 # Before the first step.
 has locking check pull.yaml --set material.lambda=1.1e6
@@ -113,6 +113,45 @@ has atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]'
 lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]' --set integrator.atol.displacement=1e-10
 lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]' --set "$(constant newmark 0.01)"
 lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,100]'
+
+# Another integrator, where nothing damps the body, or nothing holds it.
+for method in cvode ida; do
+  for rtol in 1e-3 1e-4 1e-6; do
+    has integrator check swing.yaml --set "integrator={method: $method, rtol: $rtol}"
+    json 'any("nothing damps the body, so that the errors of '$method'" in w["text"] for w in d["warnings"])'
+  done
+  lacks integrator check swing.yaml --set "integrator={method: $method, rtol: 1e-7}"
+  for damping in '{lambda: 10, mu: 1}' '{mass: 0.1}'; do
+    lacks integrator check swing.yaml --set "integrator.method=$method" --set "material.damping=$damping"
+  done
+done
+for integrator in '{method: arkode}' '{method: erk}' '{method: newmark, step: 0.01}'; do
+  lacks integrator check swing.yaml --set "integrator=$integrator"
+done
+has integrator $(run swing.yaml)
+lacks integrator static swing.yaml -o r --quiet # which takes no steps in time
+lacks integrator check swing.yaml --set 'frames={policy: hold, interval: 0.1}' # whose error is larger
+lacks integrator check swing.yaml --set 'loads=[]'
+lacks integrator check swing.yaml --set start=equilibrium # nothing moves it
+has integrator check swing.yaml --set start=equilibrium --set 'loads.0.amplitude=[[0, 1], [1, 0]]'
+has integrator check swing.yaml --set 'loads=[]' --set 'start={velocity: [0.1, 0, 0]}'
+has integrator check swing.yaml --set 'loads=[]' \
+  --set 'boundary=[{group: zmin, translate: {velocity: [0.1, 0, 0]}}]'
+
+sed 's/^boundary.*/boundary: []/; s/^loads.*/loads: [{gravity: [0.0, 0.0, -9.81]}]/' \
+  swing.yaml >thrown.yaml
+spin='{spin: {axis: [1, 2, 3], rate: 4}}'
+for damping in 0 10; do # damped, it still turns
+  damped="material.damping={lambda: $damping, mu: $damping}"
+  has integrator check thrown.yaml --set "start=$spin" --set "$damped"
+  json 'any("nothing holds" in w["text"] and "angular momentum" in w["text"] for w in d["warnings"])'
+  has integrator check thrown.yaml --set 'start={group: zmax, velocity: [1, 0, 0]}' --set "$damped"
+  lacks integrator check thrown.yaml --set 'start={velocity: [1, 0, 0]}' --set "$damped"
+  lacks integrator check thrown.yaml --set "start=$spin" --set "$damped" --set integrator.rtol=1e-7
+  lacks integrator check thrown.yaml --set "start=$spin" --set "$damped" \
+    --set integrator.method=arkode
+done
+lacks integrator check swing.yaml --set "start=$spin" --set "$damped" # held
 
 # Energy: lost to the method, or never there.
 has numerical-dissipation $(run swing.yaml) --set "$(constant backward-euler 0.01)"
