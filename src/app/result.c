@@ -181,7 +181,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
 }
 
 corot_status result_text(const json_t *result, char **text) {
-  char *dump = json_dumps(result, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+  char *dump = json_text_dump(result, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
   char *whole = dump ? malloc(strlen(dump) + 2) : NULL;
   if (whole) {
     size_t length = strlen(dump);

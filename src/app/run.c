@@ -11,6 +11,7 @@
 #include "progress.h"
 #include "result.h"
 #include "run_common.h"
+#include "say.h"
 #include "schedule.h"
 #include "static.h"
 
@@ -219,12 +220,12 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
 static void tell(const run *r, const run_summary *summary) {
   const char *path = r->scenario->path, *dir = r->options->dir;
   if (summary->reason)
-    fprintf(stderr, "%s: stopped at t = %.6g s of %g s: %s\n", path, summary->t_reached,
-            r->scenario->t_end, summary->reason);
+    say("%s: stopped at t = %.6g s of %g s: %s\n", path, summary->t_reached, r->scenario->t_end,
+        summary->reason);
   if (r->options->quiet) return;
-  fprintf(stderr, "%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n",
-          path, summary->t_reached, summary->statistics.nst, summary->statistics.nfactor,
-          summary->wall_s, summary->t_reached / summary->wall_s, dir);
+  say("%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n", path,
+      summary->t_reached, summary->statistics.nst, summary->statistics.nfactor, summary->wall_s,
+      summary->t_reached / summary->wall_s, dir);
 }
 
 /* Closes the books after a run that ended with `status`; returns the exit code. */
@@ -252,7 +253,7 @@ static int conclude(run *r, corot_status status) {
   run_summary summary;
   late = summarize(r, reason, code, &summary);
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
-  if (late != COROT_OK) fprintf(stderr, "%s\n", corot_error());
+  if (late != COROT_OK) say_error();
   tell(r, &summary);
   return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
 }
@@ -265,13 +266,13 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
   int code;
   corot_status status = prepare(&r);
   if (status != COROT_OK) {
-    fprintf(stderr, "%s\n", corot_error());
+    say_error();
     bool lost = status == COROT_EINTEGRATE; /* no equilibrium to start from */
     code = lost ? EXIT_INTEGRATOR : status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
     if (lost && run_stop_signal()) code = EXIT_SIGNAL + run_stop_signal();
     run_forget_signal();
   } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
-    fprintf(stderr, "%s\n", corot_error());
+    say_error();
     code = run_exit_code(status);
   } else {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "cli.h"
+#include "say.h"
 
 static volatile sig_atomic_t stop_signal;
 
@@ -58,7 +59,7 @@ int run_in_c_locale(int (*action)(const scenario *, const run_options *), const 
                     const run_options *options) {
   locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!plain) {
-    fprintf(stderr, "out of memory\n");
+    say("out of memory\n");
     return EXIT_SYSTEM;
   }
   locale_t before = uselocale(plain);

@@ -9,6 +9,7 @@
 #include "clock.h"
 #include "json_text.h"
 #include "run_common.h"
+#include "say.h"
 
 typedef struct equilibrium_run {
   const scenario *scenario;
@@ -189,13 +190,12 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
 static void tell(const equilibrium_run *r, const char *reason, const run_summary *summary) {
   const corot_statics_counts *n = &summary->statics->counts;
   const char *path = r->scenario->path;
-  if (*reason) fprintf(stderr, "%s: stopped at load factor %.6g: %s\n", path, r->factor, reason);
+  if (*reason) say("%s: stopped at load factor %.6g: %s\n", path, r->factor, reason);
   if (r->options->quiet) return;
-  fprintf(stderr,
-          "%s: load factor %.6g in %ld load step%s, %ld Newton iterations, %ld factorisations, "
-          "%.3g s; %s\n",
-          path, r->factor, n->nstep, n->nstep == 1 ? "" : "s", n->nni, n->nfactor, summary->wall_s,
-          r->options->dir);
+  say("%s: load factor %.6g in %ld load step%s, %ld Newton iterations, %ld factorisations, "
+      "%.3g s; %s\n",
+      path, r->factor, n->nstep, n->nstep == 1 ? "" : "s", n->nni, n->nfactor, summary->wall_s,
+      r->options->dir);
 }
 
 /* Closes the books; returns the exit code. */
@@ -217,7 +217,7 @@ static int conclude(equilibrium_run *r, corot_status status) {
   statics_summary statics;
   late = summarize(r, reason, code, &statics, &summary);
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
-  if (late != COROT_OK) fprintf(stderr, "%s\n", corot_error());
+  if (late != COROT_OK) say_error();
   tell(r, reason, &summary);
   return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
 }
@@ -230,12 +230,12 @@ static int search(const scenario *s, const run_options *options) {
   int code;
   corot_status status = prepare(&r);
   if (status != COROT_OK) {
-    fprintf(stderr, "%s\n", corot_error());
+    say_error();
     code = status == COROT_ENOMEM       ? EXIT_SYSTEM
            : status == COROT_EINTEGRATE ? EXIT_INTEGRATOR
                                         : EXIT_SCENARIO;
   } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
-    fprintf(stderr, "%s\n", corot_error());
+    say_error();
     code = run_exit_code(status);
   } else {
     code = conclude(&r, find_equilibrium(&r));

@@ -1,5 +1,6 @@
 #include "warnings.h"
 
+#include "escape.h"
 #include "json_text.h"
 
 /* Linear tets lock where lambda is many mu. Beyond ten, a nu of 0.4545, the bar of models/bar bends
@@ -33,6 +34,10 @@ json_t *warnings_list(const scenario *s) {
 void warnings_print(const scenario *s, const char *head, FILE *out) {
   json_t *list = warnings_list(s), *text;
   size_t i;
-  json_array_foreach(list, i, text) fprintf(out, "%s%s\n", head, json_string_value(text));
+  json_array_foreach(list, i, text) {
+    fputs(head, out);
+    escape_line(json_string_value(text), out);
+    fputc('\n', out);
+  }
   json_decref(list);
 }

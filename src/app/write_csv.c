@@ -1,15 +1,19 @@
 #include "write_csv.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "escape.h"
 #include "folder.h"
+#include "no_memory.h"
 
-enum { CELL = 32 }; /* the longest number with its comma and a terminator, and to spare */
+enum {
+  CELL = 32,  /* the longest number with its comma and a terminator, and to spare */
+  ROW = 1024, /* a row of a fixed number of columns, to spare */
+};
 
 struct table {
   int fd;
@@ -78,38 +82,35 @@ static corot_status end_row(table *t) {
   return status;
 }
 
-/* NAME.COMPONENT as a cell: in quotes, with quotes doubled, where the name would break the table.
- */
-static void add_title(table *t, const char *name, const char *component) {
-  bool quote = strpbrk(name, ",\"\r\n") != NULL;
-  char *c = t->row + t->length;
-  if (quote) *c++ = '"';
-  for (; *name; name++) {
-    if (*name == '"') *c++ = '"';
-    *c++ = *name;
-  }
-  c += sprintf(c, ".%s", component);
-  if (quote) *c++ = '"';
-  *c++ = ',';
-  t->length = (size_t)(c - t->row);
+/* "t" and NAME.COMPONENT for each name and component; the caller's to free. */
+static corot_status make_header(int n, const char *const *name, const char *const component[3],
+                                char **header) {
+  char *title = NULL;
+  size_t size = 0, longest = 0;
+  for (int i = 0; i < n; i++) longest = strlen(name[i]) > longest ? strlen(name[i]) : longest;
+  title = malloc(longest + CELL);
+  FILE *out = title ? open_memstream(header, &size) : NULL;
+  if (out) fputc('t', out);
+  for (int i = 0; out && i < n; i++)
+    for (int c = 0; c < 3; c++) {
+      snprintf(title, longest + CELL, "%s.%s", name[i], component[c]);
+      fputc(',', out);
+      escape_csv(title, out);
+    }
+  free(title);
+  if (out && fclose(out) == 0) return COROT_OK;
+  free(*header);
+  *header = NULL;
+  return no_memory();
 }
 
-/* For t and three cells a name, be they numbers or titles. */
-static size_t room_for(int n, const char *const *name) {
-  size_t capacity = CELL + 3 * CELL * (size_t)n;
-  for (int i = 0; i < n; i++) capacity += 3 * 2 * strlen(name[i]);
-  return capacity;
-}
-
-/* Opens a table of t and three columns for each name. */
-static corot_status open_with_names(const char *dir, const char *file, int n,
-                                    const char *const *name, const char *const component[3],
-                                    table **out) {
+/* Opens a table with this header, for rows of up to `capacity` bytes. */
+static corot_status open_with_header(const char *dir, const char *name, const char *header,
+                                     size_t capacity, table **out) {
   table *t = NULL;
-  COROT_TRY(table_open(dir, file, room_for(n, name), &t));
-  add_text(t, "t");
-  for (int i = 0; i < n; i++)
-    for (int c = 0; c < 3; c++) add_title(t, name[i], component[c]);
+  size_t needed = strlen(header) + 2;
+  COROT_TRY(table_open(dir, name, needed > capacity ? needed : capacity, &t));
+  add_text(t, header);
   corot_status status = end_row(t);
   if (status != COROT_OK) {
     table_close(t);
@@ -117,6 +118,17 @@ static corot_status open_with_names(const char *dir, const char *file, int n,
   }
   *out = t;
   return COROT_OK;
+}
+
+/* Opens a table of t and three columns for each name. */
+static corot_status open_with_names(const char *dir, const char *file, int n,
+                                    const char *const *name, const char *const component[3],
+                                    table **out) {
+  char *header = NULL;
+  COROT_TRY(make_header(n, name, component, &header));
+  corot_status status = open_with_header(dir, file, header, CELL + 3 * CELL * (size_t)n, out);
+  free(header);
+  return status;
 }
 
 corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **probes) {
@@ -155,26 +167,11 @@ corot_status compare_row(table *compare, double t, int nmeasure, const force_err
   return end_row(compare);
 }
 
-/* Opens a table whose header is known beforehand. */
-static corot_status open_with_header(const char *dir, const char *name, const char *header,
-                                     table **out) {
-  table *t = NULL;
-  COROT_TRY(table_open(dir, name, 1024, &t));
-  add_text(t, header);
-  corot_status status = end_row(t);
-  if (status != COROT_OK) {
-    table_close(t);
-    return status;
-  }
-  *out = t;
-  return COROT_OK;
-}
-
 corot_status energy_open(const char *dir, table **energy) {
   return open_with_header(dir, "energy.csv",
                           "t,kinetic,elastic,dissipated,external_work,balance,frame_energy,"
                           "px,py,pz,lx,ly,lz",
-                          energy);
+                          ROW, energy);
 }
 
 corot_status energy_row(table *energy, const ledger *row) {
@@ -193,7 +190,7 @@ corot_status energy_row(table *energy, const ledger *row) {
 corot_status steps_open(const char *dir, table **steps) {
   return open_with_header(dir, "steps.csv",
                           "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy,reason",
-                          steps);
+                          ROW, steps);
 }
 
 const char *const frame_reason_words[FRAME_REASONS] = {

@@ -1,5 +1,6 @@
 #include "collect.h"
 
+#include <app/escape.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
 #include <math.h>
@@ -277,8 +278,11 @@ static void warn(const json_t *table, FILE *out) {
   int nbelow = 0;
   for (size_t i = 0; i < json_array_size(references); i++) {
     const json_t *r = json_array_get(references, i);
-    if (!json_is_true(json_object_get(r, "agree")))
-      fprintf(out, "reference %zu: %s\n", i, json_string_value(json_object_get(r, "note")));
+    if (!json_is_true(json_object_get(r, "agree"))) {
+      fprintf(out, "reference %zu: ", i);
+      escape_terminal(json_string_value(json_object_get(r, "note")), out);
+      fputc('\n', out);
+    }
   }
   for (size_t i = 0; i < json_array_size(cells); i++)
     nbelow += json_is_true(json_object_get(json_array_get(cells, i), "below_floor"));

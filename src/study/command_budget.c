@@ -68,11 +68,11 @@ static int make_budget(void *context, const scenario *s, const variants_argument
   if (signal_number) return variants_interrupted(signal_number);
   int code = complete(budget);
   if (a->json)
-    json_text_write(budget, stdout);
+    status = json_text_show(budget);
   else
     budget_print(budget, stdout);
   json_decref(budget);
-  status = study_page(a->options.dir, a->options.quiet);
+  if (status == COROT_OK) status = study_page(a->options.dir, a->options.quiet);
   return status == COROT_OK ? code : failure(status);
 }
 

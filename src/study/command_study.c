@@ -1,7 +1,9 @@
 #include "command_study.h"
 
 #include <app/cli.h>
+#include <app/escape.h>
 #include <app/folder.h>
+#include <app/say.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -113,10 +115,14 @@ static int take_option(int answer, char **argv, arguments *a) {
 
 /* --- Running --- */
 
+enum { TITLE = 200 }; /* bytes of it that a message shows */
+
 static void announce(const manifest *m, const execute_options *o) {
   int nown = 0; /* runs are numbered as cells first need them */
   for (int i = 0; i < m->ncell; i++) nown += m->cell[i].run == nown;
-  fprintf(stderr, "%s: %d cells, %d runs; %s\n", m->title, m->ncell, m->nrun, o->dir);
+  char title[TITLE];
+  say("%s: %d cells, %d runs; %s\n", escape_line_cut(m->title, sizeof title, title), m->ncell,
+      m->nrun, o->dir);
   if (nown < m->ncell)
     fprintf(stderr, "%d cells are the same run as another; each run is made once\n",
             m->ncell - nown);
@@ -124,8 +130,8 @@ static void announce(const manifest *m, const execute_options *o) {
 
 static int conclude(const execute_options *o, const execute_totals *t, int signal_number) {
   if (!o->quiet || t->nfailed + t->nlost > 0)
-    fprintf(stderr, "%s: %d of %d runs done (%d now), %d failed\n", o->dir, t->ndone, t->nrun,
-            t->nnew, t->nfailed);
+    say("%s: %d of %d runs done (%d now), %d failed\n", o->dir, t->ndone, t->nrun, t->nnew,
+        t->nfailed);
   if (signal_number) {
     fputs("interrupted; the same command goes on from here\n", stderr);
     return 128 + signal_number;
@@ -143,8 +149,8 @@ static void tell_version(const char *dir) {
   manifest *before = NULL;
   if (manifest_read(dir, &before) != COROT_OK) return;
   if (strcmp(before->version, corot_version()) != 0)
-    fprintf(stderr, "%s: made by corot %s; this is %s, and does all of it again\n", dir,
-            before->version, corot_version());
+    say("%s: made by corot %s; this is %s, and does all of it again\n", dir, before->version,
+        corot_version());
   manifest_destroy(before);
 }
 
@@ -160,7 +166,7 @@ static int execute_here(const manifest *m, const execute_options *o) {
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
     status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
-    if (status == COROT_OK && !o->quiet) fprintf(stderr, "corot study table %s\n", o->dir);
+    if (status == COROT_OK && !o->quiet) say("corot study table %s\n", o->dir);
     if (status == COROT_OK) status = study_page(o->dir, o->quiet);
     if (status != COROT_OK) code = failure(status);
   }

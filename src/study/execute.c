@@ -2,6 +2,7 @@
 
 #include <app/clock.h>
 #include <app/no_memory.h>
+#include <app/say.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -74,7 +75,7 @@ static void tell_failure(execution *e, const task *t, const char *reason) {
   enum { MOST = 8 };
   if (e->ntold >= MOST || e->o->expects_failures) return;
   clear_progress(e);
-  fprintf(stderr, "%s/runs/%s: %s\n", e->o->dir, t->run->id, reason);
+  say("%s/runs/%s: %s\n", e->o->dir, t->run->id, reason);
   if (++e->ntold == MOST) fputs("(further failures are recorded, but not shown)\n", stderr);
 }
 

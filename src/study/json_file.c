@@ -45,8 +45,8 @@ corot_status json_file_write(const char *dir, const char *name, const json_t *va
   size_t size = 0;
   FILE *out = path ? open_memstream(&text, &size) : NULL;
   corot_status status = COROT_OK;
-  if (out) json_text_write(value, out);
-  if (!out || fclose(out) != 0)
+  bool written = out && json_text_write(value, out) == COROT_OK;
+  if (!out || fclose(out) != 0 || !written)
     status = corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
   if (status == COROT_OK) status = file_replace_durably(path, text, size);
   free(text);

@@ -1,3 +1,4 @@
+#include <app/escape.h>
 #include <app/folder.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -5,32 +6,18 @@
 
 #include "flat.h"
 
-/* In quotes, with quotes doubled, where it would break the table. */
-static void write_text(const char *text, FILE *out) {
-  if (!strpbrk(text, ",\"\r\n")) {
-    fputs(text, out);
-    return;
-  }
-  fputc('"', out);
-  for (; *text; text++) {
-    if (*text == '"') fputc('"', out);
-    fputc(*text, out);
-  }
-  fputc('"', out);
-}
-
 static void write_value(const json_t *value, FILE *out) {
   if (json_is_integer(value)) {
     fprintf(out, "%lld", (long long)json_integer_value(value));
   } else if (json_is_real(value)) {
     fprintf(out, "%.17g", json_real_value(value));
   } else if (json_is_string(value)) {
-    write_text(json_string_value(value), out);
+    escape_csv(json_string_value(value), out);
   } else if (json_is_boolean(value)) {
     fputs(json_is_true(value) ? "true" : "false", out);
   } else if (value && !json_is_null(value)) {
     char *text = json_dumps(value, JSON_COMPACT);
-    if (text) write_text(text, out);
+    if (text) escape_csv(text, out);
     free(text);
   }
 }
@@ -39,7 +26,7 @@ static void write_table(const json_t *table, const flat *f, FILE *out) {
   const json_t *cells = json_object_get(table, "cells");
   for (int k = 0; k < f->n; k++) {
     if (k > 0) fputc(',', out);
-    write_text(f->column[k].name, out);
+    escape_csv(f->column[k].name, out);
   }
   fputc('\n', out);
   for (size_t i = 0; i < json_array_size(cells); i++) {
