@@ -1,12 +1,12 @@
 #include "command_scenario.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
 #include "folder.h"
+#include "stop.h"
 #include "warnings.h"
 
 static const struct option options[] = {
@@ -14,13 +14,6 @@ static const struct option options[] = {
     {"quiet", no_argument, NULL, 'q'},        {"json", no_argument, NULL, 'j'},
     {"help", no_argument, NULL, 'h'},         {0},
 };
-
-static void heed_signals(void) {
-  struct sigaction action = {.sa_handler = run_interrupt, .sa_flags = SA_RESTART};
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
-}
 
 static int read_and_go(scenario_action *go, const char *path, int noverride, char **override,
                        run_options *o) {
@@ -33,7 +26,7 @@ static int read_and_go(scenario_action *go, const char *path, int noverride, cha
   if (folder) o->dir = folder;
   int code = EXIT_SYSTEM;
   if (o->dir) {
-    heed_signals();
+    stop_heed();
     if (!o->quiet) warnings_print(s, "warning: ", stderr);
     code = go(s, o);
   } else {

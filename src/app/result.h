@@ -21,11 +21,18 @@ typedef struct statics_summary {
   json_t *steps;           /* a list with an object for each load step */
 } statics_summary;
 
+/* Why a run is not ok. */
+typedef struct run_failure {
+  const char *kind; /* "integrator", "scenario", "memory", "io", "interrupted"; NULL: it is ok */
+  bool retry;       /* whether the same run may end otherwise another time */
+} run_failure;
+
 /* What a run has to say when it is over. */
 typedef struct run_summary {
   const char *status; /* "ok", "failed", "interrupted" */
   const char *reason; /* NULL: ok */
   int exit_code;
+  run_failure failure;
   double t_reached; /* [s] */
   const corot_model *model;
   size_t state_bytes;
@@ -40,6 +47,10 @@ typedef struct run_summary {
 
 /* The caller's to json_decref. */
 corot_status result_make(const scenario *s, const outputs *o, const run_summary *run, json_t **out);
+
+/* {"kind", "retry"}, or null. Parts of result.json; NULL: no memory. */
+json_t *result_failure(const run_failure *failure);
+json_t *result_versions(void);
 
 /* The text of it, as it stands in the file; the caller's to free. */
 corot_status result_text(const json_t *result, char **text);

@@ -14,6 +14,7 @@
 #include "say.h"
 #include "schedule.h"
 #include "static.h"
+#include "stop.h"
 
 typedef struct run {
   const scenario *scenario;
@@ -31,6 +32,7 @@ typedef struct run {
   double t;      /* reached [s]; at a constant step, it may pass the end */
   double shown;  /* time of the last row of the tables [s]; -1: there is none */
   frame_totals frames;
+  run_failure failure;
   double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
 } run;
 
@@ -90,12 +92,18 @@ static corot_status write_moment(run *r, double t, bool last) {
   return status;
 }
 
-/* Writes the output times up to t, with the frames as they were during the step. */
+/* Writes the output times up to t, with the frames as they were during the step. A request to stop
+   leaves those that remain: the answer ends at the last that was written, but not before the first.
+ */
 static corot_status write_outputs(run *r, double t) {
   double started = wall_clock(), due;
   corot_status status = COROT_OK;
-  while (status == COROT_OK && schedule_take_output(r->schedule, t, &due))
-    status = write_moment(r, due, due == r->scenario->t_end);
+  bool cut = false;
+  while (status == COROT_OK && !cut && schedule_take_output(r->schedule, t, &due)) {
+    cut = stop_signal() && r->shown >= 0;
+    if (!cut) status = write_moment(r, due, due == r->scenario->t_end);
+  }
+  if (cut) r->t = r->shown;
   r->output_s += wall_clock() - started;
   return status;
 }
@@ -171,13 +179,14 @@ static corot_status handle_events(run *r, step_row *row) {
 
 static corot_status integrate(run *r) {
   COROT_TRY(write_outputs(r, 0));
-  while (!schedule_over(r->schedule, r->t) && !run_stop_signal()) {
+  while (!schedule_over(r->schedule, r->t) && !stop_signal()) {
     corot_step step;
     double stop = schedule_stop(r->schedule, corot_frame_clock_stop(r->clock));
     prepare_step(r);
     COROT_TRY(corot_integrator_step(r->integrator, stop, &step));
     r->t = step.t;
     COROT_TRY(write_outputs(r, step.t));
+    stop_reached(r->t);
 
     step_row row = {
         .t = step.t, .h = step.h, .order = step.order, .error = step.error, .newton = step.newton};
@@ -202,6 +211,7 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
                               : "failed",
       .reason = code == 0 ? NULL : reason,
       .exit_code = code,
+      .failure = r->failure,
       .t_reached = reached(r),
       .model = r->model,
       .state_bytes = corot_state_bytes(r->state),
@@ -234,10 +244,10 @@ static int conclude(run *r, corot_status status) {
   int code = run_exit_code(status);
   if (code != 0) {
     snprintf(reason, sizeof reason, "%s", corot_error());
-  } else if (run_stop_signal() && !schedule_over(r->schedule, r->t)) {
+  } else if (stop_signal() && !schedule_over(r->schedule, r->t)) {
     code = run_interrupted(sizeof reason, reason);
   }
-  run_forget_signal();
+  stop_heeded();
   progress_clear(&r->progress);
 
   /* What could be written before can be written now; if it cannot, the first reason stands. */
@@ -247,10 +257,14 @@ static int conclude(run *r, corot_status status) {
   if (late == COROT_OK) late = closed;
   if (code == 0 && late != COROT_OK) {
     code = run_exit_code(late);
+    status = late;
     snprintf(reason, sizeof reason, "%s", corot_error());
   }
 
   run_summary summary;
+  r->failure = run_failure_of(status, code);
+  stop_forget();
+  stop_release();
   late = summarize(r, reason, code, &summary);
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
@@ -264,16 +278,11 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
   r.cpu_at_start = cpu_clock();
 
   int code;
-  corot_status status = prepare(&r);
+  corot_status status = run_begin(s, options);
+  if (status == COROT_OK) status = run_preparing(prepare(&r));
+  if (status == COROT_OK) status = outputs_open(s, r.model, options->dir, &r.outputs);
   if (status != COROT_OK) {
-    say_error();
-    bool lost = status == COROT_EINTEGRATE; /* no equilibrium to start from */
-    code = lost ? EXIT_INTEGRATOR : status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
-    if (lost && run_stop_signal()) code = EXIT_SIGNAL + run_stop_signal();
-    run_forget_signal();
-  } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
-    say_error();
-    code = run_exit_code(status);
+    code = run_end_early(s, options, status);
   } else {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
     code = conclude(&r, integrate(&r));

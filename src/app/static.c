@@ -10,6 +10,7 @@
 #include "json_text.h"
 #include "run_common.h"
 #include "say.h"
+#include "stop.h"
 
 typedef struct equilibrium_run {
   const scenario *scenario;
@@ -27,6 +28,7 @@ typedef struct equilibrium_run {
   double (*velocity)[3];                 /* [nnode] not looked at */
   double factor, work;                   /* reached; by loads and supports [J] */
   json_t *steps;
+  run_failure failure;
   double wall_at_start, cpu_at_start, setup_s, output_s; /* [s] */
 } equilibrium_run;
 
@@ -48,7 +50,7 @@ static corot_status allocate(equilibrium_run *r) {
 
 static bool is_stopped(void *data) {
   (void)data;
-  return run_stop_signal() != 0;
+  return stop_signal() != 0;
 }
 
 static corot_status prepare(equilibrium_run *r) {
@@ -140,10 +142,11 @@ static void tell_step(const equilibrium_run *r, const corot_load_step *step) {
 
 static corot_status find_equilibrium(equilibrium_run *r) {
   COROT_TRY(write_equilibrium(r, false));
-  while (r->factor < 1 && !run_stop_signal()) {
+  while (r->factor < 1 && !stop_signal()) {
     corot_load_step step;
     COROT_TRY(corot_statics_step(r->statics, &step));
     r->factor = corot_statics_at(r->statics, r->u);
+    stop_reached(r->factor * r->scenario->t_end);
     tell_step(r, &step);
     COROT_TRY(remember(r, &step));
     COROT_TRY(write_equilibrium(r, r->factor == 1));
@@ -170,6 +173,7 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
                                      : "failed",
       .reason = code == 0 ? NULL : reason,
       .exit_code = code,
+      .failure = r->failure,
       .t_reached = r->factor * r->scenario->t_end,
       .model = r->model,
       .state_bytes = corot_state_bytes(r->state) + corot_statics_bytes(r->statics),
@@ -202,19 +206,23 @@ static void tell(const equilibrium_run *r, const char *reason, const run_summary
 static int conclude(equilibrium_run *r, corot_status status) {
   char reason[1024] = "";
   int code = run_exit_code(status);
-  if (run_stop_signal() && r->factor < 1)
+  if (stop_signal() && r->factor < 1)
     code = run_interrupted(sizeof reason, reason);
   else if (code != 0)
     snprintf(reason, sizeof reason, "%s", corot_error());
-  run_forget_signal();
+  stop_heeded();
 
   corot_status late = outputs_close(r->outputs);
   if (code == 0 && late != COROT_OK) {
     code = run_exit_code(late);
+    status = late;
     snprintf(reason, sizeof reason, "%s", corot_error());
   }
   run_summary summary;
   statics_summary statics;
+  r->failure = run_failure_of(status, code);
+  stop_forget();
+  stop_release();
   late = summarize(r, reason, code, &statics, &summary);
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
@@ -227,19 +235,11 @@ static int search(const scenario *s, const run_options *options) {
   r.wall_at_start = wall_clock();
   r.cpu_at_start = cpu_clock();
 
-  int code;
-  corot_status status = prepare(&r);
-  if (status != COROT_OK) {
-    say_error();
-    code = status == COROT_ENOMEM       ? EXIT_SYSTEM
-           : status == COROT_EINTEGRATE ? EXIT_INTEGRATOR
-                                        : EXIT_SCENARIO;
-  } else if ((status = outputs_open(s, r.model, options->dir, &r.outputs)) != COROT_OK) {
-    say_error();
-    code = run_exit_code(status);
-  } else {
-    code = conclude(&r, find_equilibrium(&r));
-  }
+  corot_status status = run_begin(s, options);
+  if (status == COROT_OK) status = run_preparing(prepare(&r));
+  if (status == COROT_OK) status = outputs_open(s, r.model, options->dir, &r.outputs);
+  int code =
+      status == COROT_OK ? conclude(&r, find_equilibrium(&r)) : run_end_early(s, options, status);
   release(&r);
   return code;
 }
