@@ -80,6 +80,14 @@ bool parse_three(const char *text, double number[3]) {
   return true;
 }
 
+bool parse_seconds(const char *text, double *seconds) {
+  char *end;
+  double x = strtod(text, &end);
+  if (end == text || *end || !(x > 0 && x < 1e9)) return false;
+  *seconds = x;
+  return true;
+}
+
 bool parse_count(const char *text, int most, int *number) {
   char *end;
   long n = strtol(text, &end, 10);

@@ -142,11 +142,6 @@ static json_t *energy_part(const outputs *o) {
                    "angular_momentum", vector(e.angular_momentum));
 }
 
-json_t *result_failure(const run_failure *failure) {
-  if (!failure->kind) return json_null();
-  return json_pack("{s:s, s:b}", "kind", failure->kind, "retry", (int)failure->retry);
-}
-
 json_t *result_versions(void) {
   return json_pack("{s:s, s:s, s:s}", "corot", corot_version(), "sundials",
                    corot_sundials_version(), "compiler", COMPILER);
@@ -160,7 +155,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       "s:o,"
       " s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
-      result_failure(&run->failure), "exit_code", run->exit_code, "t_reached",
+      run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
       json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
       warnings_list(s), "strain", corot_model_strain(run->model), "mesh", mesh_part(s, run->model),
       "frames", run->statics ? json_null() : frames_part(s, run), "integrator",

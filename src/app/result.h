@@ -2,6 +2,7 @@
 #ifndef COROT_APP_RESULT_H
 #define COROT_APP_RESULT_H
 
+#include "failure.h"
 #include "hash.h"
 #include "outputs.h"
 
@@ -20,12 +21,6 @@ typedef struct statics_summary {
   double stable, unstable; /* load factors between which stability was lost; NaN: nowhere */
   json_t *steps;           /* a list with an object for each load step */
 } statics_summary;
-
-/* Why a run is not ok. */
-typedef struct run_failure {
-  const char *kind; /* "integrator", "scenario", "memory", "io", "interrupted"; NULL: it is ok */
-  bool retry;       /* whether the same run may end otherwise another time */
-} run_failure;
 
 /* What a run has to say when it is over. */
 typedef struct run_summary {
@@ -48,8 +43,7 @@ typedef struct run_summary {
 /* The caller's to json_decref. */
 corot_status result_make(const scenario *s, const outputs *o, const run_summary *run, json_t **out);
 
-/* {"kind", "retry"}, or null. Parts of result.json; NULL: no memory. */
-json_t *result_failure(const run_failure *failure);
+/* A part of result.json; NULL: no memory. */
 json_t *result_versions(void);
 
 /* The text of it, as it stands in the file; the caller's to free. */

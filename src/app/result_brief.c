@@ -12,7 +12,7 @@ static corot_status make_text(const scenario *s, const brief_result *what, json_
   result = json_text_with(result, "reason", json_text_string(what->reason));
   result = json_text_with(result, "exit_code", json_integer(what->exit_code));
   result = json_text_with(result, "t_reached", t_reached);
-  result = json_text_with(result, "failure", result_failure(&what->failure));
+  result = json_text_with(result, "failure", run_failure_json(what->failure));
   result = json_text_with(result, "t_end", json_text_real(s->t_end));
   result = json_text_with(result, "title", json_text_string(s->title));
   result = json_text_with(result, "warnings", warnings_list(s));

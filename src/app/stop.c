@@ -15,7 +15,7 @@
 #include "folder.h"
 #include "no_memory.h"
 
-const int stop_signals[STOP_SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
+const int stop_signals[STOP_SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU, SIGALRM};
 
 enum {
   TIMER = SIGVTALRM, /* which nothing else here uses */

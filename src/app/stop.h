@@ -1,4 +1,5 @@
-/* Requests from outside to end: SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU.
+/* Requests from outside to end: SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU, and SIGALRM, which is
+   the time limit that a study sets.
 
    A run looks at stop_signal() where it can end in good order. Where it cannot within a second (a
    mesh is read, a large matrix factorised, a disk does not answer), the handler of a timer puts a
@@ -10,7 +11,7 @@
 #include <corot/base.h>
 #include <stdbool.h>
 
-enum { STOP_SIGNALS = 5 };
+enum { STOP_SIGNALS = 6 };
 extern const int stop_signals[STOP_SIGNALS];
 
 /* From here on such a signal is a request, not the end. One that is ignored (nohup) stays so, but

@@ -31,6 +31,7 @@ static const char help[] =
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
     "      --skip PART      leaves a part out, by its name in the table: space, of a large mesh\n"
     "  -j, --jobs N         so many runs at once; default: the number of processors\n"
+    "      --timeout S      ends a run that takes longer than S seconds\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           budget.json on stdout in place of the table\n"
     "\n"

@@ -33,6 +33,7 @@ static const char help[] =
     "  -o, --output DIR     a folder for each run, and limit.json; default: out/MODEL-limit\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
     "  -j, --jobs N         so many runs at once; default: the number of processors\n"
+    "      --timeout S      ends a run that takes longer than S seconds\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           limit.json on stdout in place of the table\n"
     "\n"

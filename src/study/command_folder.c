@@ -42,6 +42,8 @@ int command_study_status(int argc, char **argv) {
     if (status != COROT_OK) break;
     count[record.state]++;
     if (record.state == RUN_FAILED) show("%s failed: %s\n", m->run[i].id, record.reason);
+    if (record.state == RUN_MISSING && record.reason)
+      show("%s to be tried again: %s\n", m->run[i].id, record.reason);
     run_record_free(&record);
   }
   if (status == COROT_OK)

@@ -35,6 +35,7 @@ static const char help[] =
     "                      all must have the same N\n"
     "      --dry-run       lists the runs and what has become of them; runs nothing\n"
     "      --retry-failed  those that failed before, again\n"
+    "      --timeout S     ends a run that takes longer than S seconds; it counts as failed\n"
     "  -q, --quiet         nothing on stderr but errors\n"
     "\n"
     "  status DIR          how far a study is\n"
@@ -55,16 +56,24 @@ static const char help[] =
     "    - {key: integrator.rtol, log: {from: 1e-2, to: 1e-6, per_decade: 1}}\n"
     "  repeat: 3\n"
     "\n"
-    "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 input or\n"
-    "output, 130 and 143 interrupted.\n"
+    "A run that lacked memory or disk is tried again at the end, alone, twice at the most.\n"
+    "\n"
+    "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 no memory, "
+    "or\n"
+    "reading or writing failed, 128 + N interrupted by signal N (130: Ctrl-C, 143: kill).\n"
     "\n"
     "example: corot study models/studies/integrators.yaml -o out/integrators -j 8\n";
 
 static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'}, {"jobs", required_argument, NULL, 'j'},
-    {"shard", required_argument, NULL, 's'},  {"dry-run", no_argument, NULL, 'd'},
-    {"retry-failed", no_argument, NULL, 'r'}, {"quiet", no_argument, NULL, 'q'},
-    {"help", no_argument, NULL, 'h'},         {0},
+    {"output", required_argument, NULL, 'o'},
+    {"jobs", required_argument, NULL, 'j'},
+    {"shard", required_argument, NULL, 's'},
+    {"dry-run", no_argument, NULL, 'd'},
+    {"retry-failed", no_argument, NULL, 'r'},
+    {"quiet", no_argument, NULL, 'q'},
+    {"timeout", required_argument, NULL, 't'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
 
 /* --- What the arguments say --- */
@@ -96,6 +105,9 @@ static int take_option(int answer, char **argv, arguments *a) {
     case 's':
       if (parse_shard(optarg, &a->o.shard, &a->o.nshard)) return -1;
       return usage_error("corot study", "--shard %s: expected I/N, such as 1/4", optarg);
+    case 't':
+      if (parse_seconds(optarg, &a->o.timeout)) return -1;
+      return usage_error("corot study", "--timeout %s: expected seconds > 0", optarg);
     case 'd':
       a->dry = true;
       return -1;

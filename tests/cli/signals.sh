@@ -46,7 +46,7 @@ for signal in $signals; do
   # A pipe that nobody writes to is a mesh that is never read to its end.
   what="SIG$name while the mesh is read"
   rm -f pipe.msh; mkfifo pipe.msh
-  for command in run static; do
+  for command in run $([ $name = TERM ] && echo static); do
     rm -rf mesh
     "$corot" $command model.yaml -o mesh/in/depth --set mesh.box=null --set mesh.file=pipe.msh >stdout 2>stderr &
     until_true heeds $!; kill -$name $!; ended $! mesh/in/depth $number
