@@ -7,6 +7,7 @@
    y' = f at gamma = g. M is only multiplied by, so a consistent one costs no solve. */
 #include <nvector/nvector_serial.h>
 
+#include "core/trial.h"
 #include "solve/clock.h"
 #include "solve/pencil.h"
 #include "solve/sun_compat.h"
@@ -52,7 +53,8 @@ int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void 
   const double *ut = N_VGetArrayPointer(yp), *vt = ut + n;
   double *Fu = N_VGetArrayPointer(F), *Fv = Fu + n;
 
-  corot_status status = corot_residual(data->model, data->state, t, u, v, Fu); /* r, for now */
+  corot_status status =
+      corot_residual_trial(data->model, data->state, t, u, v, Fu); /* r, for now */
   if (status) return status;
   corot_mass_multiply(data->model, vt, Fv);
   for (int i = 0; i < n; i++) {
