@@ -18,10 +18,9 @@ static const struct option options[] = {
 static int read_and_go(scenario_action *go, const char *path, int noverride, char **override,
                        run_options *o) {
   scenario *s = NULL;
-  if (scenario_read(path, noverride, override, &s)) {
-    failure(COROT_EFORMAT);
-    return EXIT_SCENARIO;
-  }
+  corot_status status = scenario_read(path, noverride, override, &s);
+  if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
+  if (status != COROT_OK) return failure(status);
   char *folder = o->dir ? NULL : folder_default(path, "");
   if (folder) o->dir = folder;
   int code = EXIT_SYSTEM;

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <app/cli.h>
@@ -30,9 +31,14 @@ static const char help[] =
     "\n"
     "  corot COMMAND --help, corot --version\n"
     "\n"
-    "Data goes to stdout, messages to stderr. Exit codes: 0 ok, 1 a check failed, 2 usage,\n"
-    "3 bad scenario or mesh, 4 the integrator gave up, 5 input or output, 130 and 143 "
-    "interrupted.\n"
+    "Data goes to stdout, messages to stderr. Exit codes:\n"
+    "\n"
+    "  0  ok                              4  the integrator gave up, or found no equilibrium\n"
+    "  1  finished, but a check failed,   5  the system refused memory, reading or writing, or\n"
+    "     or some runs did                   there are no results in a folder\n"
+    "  2  the command line makes no sense\n"
+    "  3  a scenario, study or mesh is bad or missing\n"
+    "  128 + N  interrupted by signal N, after writing what there was (130: Ctrl-C, 143: kill)\n"
     "\n"
     "example: corot run models/bar/bar.yaml -o out/bar --set integrator.rtol=1e-6\n";
 
@@ -46,6 +52,15 @@ static int print_version(int argc, char **argv) {
 static void hold_standard_streams(void) {
   for (int fd = 0; fd <= 2; fd++)
     if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDONLY) != fd) _exit(5);
+}
+
+/* OpenBLAS may wait for ever in its exit handler for threads that had no room to start. */
+static void leave_at_once_if_limited(int code) {
+  struct rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    fflush(NULL);
+    _exit(code);
+  }
 }
 
 int main(int argc, char **argv) {
@@ -62,5 +77,7 @@ int main(int argc, char **argv) {
     fprintf(stderr, "corot: standard output: %s\n", strerror(errno));
     if (code == EXIT_OK) code = EXIT_SYSTEM;
   }
+  if (ferror(stderr) && code == EXIT_OK) code = EXIT_SYSTEM; /* with nobody to tell */
+  leave_at_once_if_limited(code);
   return code;
 }
