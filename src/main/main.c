@@ -1,7 +1,9 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -54,13 +56,27 @@ static void hold_standard_streams(void) {
     if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDONLY) != fd) _exit(5);
 }
 
+static bool is_limited(void) {
+  struct rlimit limit;
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+/* Where address space is limited, each thread takes a large part of it; OpenBLAS waits for ever for
+   those it cannot start, and OpenMP, of which CHOLMOD asks for four, ends the program with exit
+   code
+   1. Both read how many they may have before main. */
+static void keep_to_one_thread(char **argv) {
+  if (!is_limited() || (getenv("OPENBLAS_NUM_THREADS") && getenv("OMP_THREAD_LIMIT"))) return;
+  setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  setenv("OMP_THREAD_LIMIT", "1", 0);
+  execv("/proc/self/exe", argv); /* where that fails, it goes on as it is */
+}
+
 /* OpenBLAS may wait for ever in its exit handler for threads that had no room to start. */
 static void leave_at_once_if_limited(int code) {
-  struct rlimit limit;
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-    fflush(NULL);
-    _exit(code);
-  }
+  if (!is_limited()) return;
+  fflush(NULL);
+  _exit(code);
 }
 
 int main(int argc, char **argv) {
@@ -71,6 +87,7 @@ int main(int argc, char **argv) {
       {"mesh", command_mesh},   {"--version", print_version}, {0},
   };
   hold_standard_streams();
+  keep_to_one_thread(argv);
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
   int code = dispatch("corot", help, table, argc, argv);
   if (fflush(stdout) != 0 || ferror(stdout)) {
