@@ -56,7 +56,7 @@ static size_t offset_of(const config_source *source, int line, int column) {
 static corot_status syntax_error(reader *r) {
   void *previous = NULL;
   const struct fy_diag_error *e = fy_diag_errors_iterate(r->diag, &previous);
-  if (!e) return config_fail_at(r->source, r->at, "cannot be parsed from here on");
+  if (!e) return no_memory(); /* libfyaml has words for everything else */
   return config_fail_at(r->source, offset_of(r->source, e->line, e->column), "%s", e->msg);
 }
 

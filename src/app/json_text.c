@@ -7,6 +7,42 @@
 
 #include "no_memory.h"
 
+static _Thread_local bool starved;
+
+static void *watched_malloc(size_t size) {
+  void *memory = malloc(size);
+  if (!memory) starved = true;
+  return memory;
+}
+
+/* For what is allocated from here on: both kinds are freed by free(). */
+static void watch(void) {
+  static bool watching; /* twice does no harm */
+  if (!watching) json_set_alloc_funcs(watched_malloc, free);
+  watching = true;
+}
+
+bool json_text_starved(void) {
+  bool answer = starved;
+  watch();
+  starved = false;
+  return answer;
+}
+
+corot_status json_text_parse(const char *path, const char *text, size_t size, json_t **out) {
+  json_error_t error;
+  bool before = json_text_starved();
+  json_t *value = json_loadb(text, size, 0, &error);
+  bool now = json_text_starved();
+  starved = before;
+  if (value) {
+    *out = value;
+    return COROT_OK;
+  }
+  if (now) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  return corot_fail(COROT_EFORMAT, "%s:%d:%d: %s", path, error.line, error.column, error.text);
+}
+
 void json_text_number(double x, size_t size, char *text) {
   char digits[40];
   for (int precision = 15; precision <= 17; precision++) {
@@ -21,6 +57,12 @@ void json_text_number(double x, size_t size, char *text) {
 json_t *json_text_with(json_t *object, const char *key, json_t *value) {
   if (!json_object_set_new(object, key, value)) return object;
   json_decref(object);
+  return NULL;
+}
+
+json_t *json_text_push(json_t *list, json_t *value) {
+  if (!json_array_append_new(list, value)) return list;
+  json_decref(list);
   return NULL;
 }
 
@@ -140,7 +182,7 @@ corot_status json_text_write(const json_t *value, FILE *out) {
 }
 
 corot_status json_text_show(const json_t *value) {
-  return value ? json_text_write(value, stdout) : no_memory();
+  return value && !json_text_starved() ? json_text_write(value, stdout) : no_memory();
 }
 
 corot_status json_text_quote(const char *s, FILE *out) {

@@ -5,6 +5,7 @@
 
 #include <corot/base.h>
 #include <jansson.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -16,12 +17,23 @@ void json_text_number(double x, size_t size, char *text);
    one check at its end. */
 json_t *json_text_with(json_t *object, const char *key, json_t *value);
 
+/* The same for a list, to which it appends. */
+json_t *json_text_push(json_t *list, json_t *value);
+
 /* A string; bytes that are not UTF-8, as file names may have, become '?'. */
 json_t *json_text_string(const char *s);
 
 /* As json_dumps of any value; the control characters that YAML does not allow as they are, are
    escaped. The caller's to free; NULL: no memory. */
 char *json_text_dump(const json_t *value, size_t flags);
+
+/* Whether jansson has been refused memory on this thread since the last call: it does not always
+   say so. Those who write what was built ask before they call it whole. */
+bool json_text_starved(void);
+
+/* Reads a value; `path` is for the message. COROT_EFORMAT, or COROT_ENOMEM, which jansson itself
+   reports as one or another error of the text. The caller's to json_decref. */
+corot_status json_text_parse(const char *path, const char *text, size_t size, json_t **out);
 
 /* Writes it to stdout, where the program looks at errors of the stream in the end. NULL, which is
    what a failed json_pack gives: COROT_ENOMEM. */

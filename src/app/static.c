@@ -119,7 +119,7 @@ static corot_status remember(equilibrium_run *r, const corot_load_step *step) {
   static const char *const stability[] = {"unknown", "stable", "unstable"};
   json_t *residual = json_array();
   for (int k = 0; k < step->nresidual; k++)
-    json_array_append_new(residual, json_real(step->residual[k]));
+    residual = json_text_push(residual, json_real(step->residual[k]));
   json_t *entry = json_pack("{s:f, s:f, s:i, s:i, s:f, s:b, s:s, s:o}", "factor", step->factor,
                             "length", step->length, "iterations", step->iterations, "rejected",
                             step->rejected, "force", step->force, "rounding", step->rounding,

@@ -189,7 +189,7 @@ static json_t *advice(const json_t *parts, double total) {
 static json_t *runs_json(const budgeting *b) {
   json_t *list = json_array();
   for (int i = 0; i < b->nrun; i++)
-    json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:o}", "run", b->label[i], "id",
+    list = json_text_push(list, json_pack("{s:s, s:s, s:s, s:o}", "run", b->label[i], "id",
                                           b->manifest->run[b->run[i]].id, "status", b->status[i],
                                           "cpu", json_text_real(b->cpu[i])));
   return list;

@@ -183,7 +183,7 @@ static json_t *result_json(const search *s, const limit_result *r) {
   json_t *trials = json_array();
   for (int i = 0; i < r->ntrial; i++) {
     const limit_trial *t = &r->trial[i];
-    json_array_append_new(
+    trials = json_text_push(
         trials, json_pack("{s:f, s:b, s:o}", "value", t->value, "stable", t->stable, "reason",
                           *t->reason ? json_text_string(t->reason) : json_null()));
   }

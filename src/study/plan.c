@@ -277,7 +277,7 @@ static json_t *column_names(const study *s) {
     }
   qsort(name, n, sizeof *name, by_name);
   json_t *list = json_array();
-  for (size_t i = 0; i < n; i++) json_array_append_new(list, json_string(name[i]));
+  for (size_t i = 0; i < n; i++) list = json_text_push(list, json_string(name[i]));
   return list;
 }
 

@@ -32,7 +32,7 @@ static corot_status read_own(const char *dir, const study_run *run, const char *
   json_t *json = NULL;
   corot_status status = access(path, F_OK) == 0 ? json_file_read(path, &json) : COROT_OK;
   free(path);
-  if (status == COROT_ENOMEM) return status;
+  if (status == COROT_ENOMEM || status == COROT_EIO) return status;
   const json_t *hash = json_object_get(json, "hash");
   if (strcmp(hash_path, "hashes.run") == 0)
     hash = json_object_get(json_object_get(json, "hashes"), "run");
@@ -193,7 +193,7 @@ corot_status timings_add(const char *dir, const study_run *run, timings *t, doub
   COROT_TRY(timings_grow(t, cpu, wall));
   json_t *list = json_array();
   for (int i = 0; i < t->n; i++)
-    json_array_append_new(list, json_pack("{s:f, s:f}", "cpu", t->cpu[i], "wall", t->wall[i]));
+    list = json_text_push(list, json_pack("{s:f, s:f}", "cpu", t->cpu[i], "wall", t->wall[i]));
   json_t *json = json_pack("{s:s, s:o}", "hash", run->hash, "runs", list);
   char *path = store_path(dir, run, "");
   corot_status status = json && path ? json_file_write(path, "timings.json", json) : no_memory();
