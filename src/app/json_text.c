@@ -35,10 +35,11 @@ corot_status json_text_parse(const char *path, const char *text, size_t size, js
   json_t *value = json_loadb(text, size, 0, &error);
   bool now = json_text_starved();
   starved = before;
-  if (value) {
+  if (value && !now) {
     *out = value;
     return COROT_OK;
   }
+  json_decref(value);
   if (now) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
   return corot_fail(COROT_EFORMAT, "%s:%d:%d: %s", path, error.line, error.column, error.text);
 }

@@ -36,7 +36,10 @@ static corot_status load(const char *path, json_t **document) {
   json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &where);
   if (!root && json_error_code(&where) == json_error_cannot_open_file)
     return corot_fail(COROT_EIO, "%s: %s", path, strerror(errno));
-  if (!root && json_text_starved()) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  if (json_text_starved()) {
+    json_decref(root);
+    return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  }
   if (!root)
     return corot_fail(COROT_EFORMAT, "%s:%d:%d: %s", path, where.line, where.column, where.text);
   if (!json_is_object(root)) {
