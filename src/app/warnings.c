@@ -14,6 +14,7 @@ const warning_kind warning_kinds[WARNING_CODES] = {
     [WARNING_UNHELD] = {"unheld", "a part has no support while another has"},
     [WARNING_PROBE] = {"probe", "the nearest node is far from the point of a probe"},
     [WARNING_RTOL] = {"rtol", "a tolerance is below what double precision can tell"},
+    [WARNING_ATOL] = {"atol", "the absolute tolerance is no small part of the motion"},
     [WARNING_LEDGER] = {"ledger", "work and energies do not add up, or the method adds energy"},
     [WARNING_DISSIPATION] = {"numerical-dissipation", "the method takes energy away"},
     [WARNING_STRAIN] = {"strain-range", "strains or turns beyond what the measure is meant for"},

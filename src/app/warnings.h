@@ -17,6 +17,7 @@ typedef enum warning_code {
   WARNING_PROBE,
   WARNING_RTOL, /* or after it */
   /* After it. */
+  WARNING_ATOL,
   WARNING_LEDGER,
   WARNING_DISSIPATION,
   WARNING_STRAIN,

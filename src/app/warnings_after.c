@@ -141,6 +141,24 @@ static corot_status find_sparse(const scenario *s, const history_facts *h, warni
   return COROT_OK;
 }
 
+/* --- The absolute tolerance --- */
+
+/* Where a stiff body hardly moves, the default of the absolute tolerance, a part of the body's
+   length, may be the larger one by far, and rtol says nothing of the error. */
+#define MOST_ATOL 0.01 /* of the displacement */
+
+static corot_status find_atol(const scenario *s, const corot_model *model, double displacement,
+                              warnings *w) {
+  double atol = warnings_atol(s, model), rtol = s->integrator.rtol;
+  if (!(displacement > 0) || !(atol > fmax(MOST_ATOL, 10 * rtol) * displacement)) return COROT_OK;
+  return warnings_add(
+      w, WARNING_ATOL,
+      "nothing moves by more than %.3g m, of which the absolute tolerance of each "
+      "step, %.2g m, is %.2g %%: the error is not held to integrator.rtol = %g, but "
+      "to that; integrator.atol.displacement: %.0e holds it",
+      displacement, atol, 100 * atol / displacement, rtol, rtol * displacement);
+}
+
 /* --- All of it --- */
 
 static bool is_given(const warnings *w, warning_code code) {
@@ -157,6 +175,7 @@ corot_status warnings_after(const scenario *s, const corot_model *model, const o
   COROT_TRY(find_jumps(s, seen, w));
   if (statics) return COROT_OK;
   COROT_TRY(find_sparse(s, &seen->history, w));
+  COROT_TRY(find_atol(s, model, seen->displacement, w));
   if (is_given(w, WARNING_RTOL)) return COROT_OK;
   return warnings_find_rtol(s, model, seen->displacement, w);
 }

@@ -121,6 +121,13 @@ static corot_status find_probes(const scenario *s, const corot_mesh *mesh, warni
 /* A displacement of this part of the length is taken for the run's until it is known. */
 #define EXPECTED_DISPLACEMENT 0.1
 
+double warnings_atol(const scenario *s, const corot_model *model) {
+  const corot_integrator_def *d = &s->integrator;
+  if (d->step > 0) return 0;
+  if (d->atol_displacement > 0) return d->atol_displacement;
+  return 0.01 * d->rtol * corot_model_length(model);
+}
+
 corot_status warnings_find_rtol(const scenario *s, const corot_model *model, double displacement,
                                 warnings *w) {
   const corot_integrator_def *d = &s->integrator;
@@ -132,8 +139,7 @@ corot_status warnings_find_rtol(const scenario *s, const corot_model *model, dou
                         "precision can tell of a correction, some %.0e; make it larger",
                         d->newton_tolerance, LEAST_TOLERANCE);
   }
-  double atol = d->atol_displacement > 0 ? d->atol_displacement : 0.01 * d->rtol * length;
-  double tolerance = d->rtol * displacement + atol;
+  double tolerance = d->rtol * displacement + warnings_atol(s, model);
   double least = LEAST_TOLERANCE * (length + displacement);
   if (tolerance >= least) return COROT_OK;
   return warnings_add(w, WARNING_RTOL,

@@ -188,7 +188,11 @@ static corot_status is_felt(multistep *m, bool *felt, double *h) {
   if (m->api->last_step(m->memory, &h_last) || m->api->next_step(m->memory, &h_next))
     return corot_driver_refuse(&m->driver, "statistics");
   *felt = h_next * jump >= 0.5;
-  if (*felt && slow_jump(m, &slow) == COROT_OK) *felt = h_next * slow >= 0.5;
+  if (*felt) {
+    corot_status status = slow_jump(m, &slow);
+    if (sun_is_fatal(status)) return status;
+    if (status == COROT_OK) *felt = h_next * slow >= 0.5;
+  }
   *h = fmax(fmin(h_last, 0.5 / jump), 100 * DBL_EPSILON * fabs(self->t));
   return COROT_OK;
 }

@@ -202,7 +202,7 @@ static double norm(int n, const double *x) {
    small there, too, and the smaller the more often; three times is where the test costs as much as
    what it may save. The absolute tolerance does not count: it may be far above all displacements,
    which are right nevertheless at the ends of the steps. */
-bool corot_rk_resolves(runge_kutta *m) {
+corot_status corot_rk_resolves(runge_kutta *m, bool *resolved) {
   const corot_integrator *self = m->driver.self;
   int n = corot_model_ndof(self->model);
   double *E = N_VGetArrayPointer(m->error), *room = E + n;
@@ -211,13 +211,16 @@ bool corot_rk_resolves(runge_kutta *m) {
   corot_rk_interpolate(m, RK_SAMPLE, room, NULL);
   difference(m, 4, 1, room, E);
   for (int pass = 0; pass < 3; pass++) {
-    if (norm(n, E) <= most) return true;
-    if (amplify(self, E, room)) return false;
+    *resolved = norm(n, E) <= most;
+    if (*resolved) return COROT_OK;
+    corot_status status = amplify(self, E, room);
+    if (status) return sun_is_fatal(status) ? status : COROT_OK;
   }
-  return norm(n, E) <= most;
+  *resolved = norm(n, E) <= most;
+  return COROT_OK;
 }
 
-void corot_rk_clear_slopes(runge_kutta *m) {
+corot_status corot_rk_clear_slopes(runge_kutta *m) {
   const corot_integrator *self = m->driver.self;
   int n = corot_model_ndof(self->model);
   double h = m->end.t - m->start.t, *E = N_VGetArrayPointer(m->error), *x = E + n;
@@ -225,9 +228,12 @@ void corot_rk_clear_slopes(runge_kutta *m) {
     double *slope = N_VGetArrayPointer(m->slope[k / 2]) + k % 2 * n;
     difference(m, k, k % 2 ? 1 / (h * h) : 1 / h, slope, E);
     for (int pass = 0; pass < 3; pass++) {
-      if (corot_slow_part(self, E, x)) break; /* all of it, then */
+      corot_status status = corot_slow_part(self, E, x);
+      if (sun_is_fatal(status)) return status;
+      if (status) break; /* all of it, then */
       for (int i = 0; i < n; i++) E[i] -= x[i];
     }
     for (int i = 0; i < n; i++) slope[i] -= E[i];
   }
+  return COROT_OK;
 }

@@ -55,7 +55,7 @@ static corot_status transient(runge_kutta *m, double h, double *radian) {
   *radian = INFINITY;
   m->inside_known = false;
   m->nfe++;
-  if (corot_driver_rhs(m->start.t + delta, m->start.y, m->error, d)) return COROT_OK;
+  if (corot_driver_rhs(m->start.t + delta, m->start.y, m->error, d)) return d->fatal;
   for (int i = 0; i < n; i++) change[i] = (change[i] - a[i]) / delta;
 
   COROT_TRY(imbalance(self, a, w, room));
@@ -72,5 +72,5 @@ corot_status corot_rk_first_step(runge_kutta *m, double *h) {
   if (!m->driver.self->pencil || !(*h > 0)) return COROT_OK;
   corot_status status = transient(m, *h, &radian);
   if (status == COROT_OK) *h = fmin(*h, radian);
-  return status > 0 ? COROT_OK : status;
+  return sun_is_fatal(status) ? status : COROT_OK;
 }

@@ -192,7 +192,7 @@ static const double lobatto[RK_MOST_POINTS - 1][RK_MOST_POINTS][2] = {
 };
 
 /* The slopes at both ends as they stand, and whether they will do. */
-static void find_slopes(runge_kutta *m) {
+static corot_status find_slopes(runge_kutta *m) {
   size_t n = corot_model_ndof(m->driver.self->model);
   for (int k = 0; k < 2; k++) {
     const rk_end *e = k ? &m->end : &m->start;
@@ -200,7 +200,8 @@ static void find_slopes(runge_kutta *m) {
     memcpy(slope, N_VGetArrayPointer(e->y) + n, n * sizeof *slope);
     memcpy(slope + n, N_VGetArrayPointer(e->rate) + n, n * sizeof *slope);
   }
-  m->resolved = !m->stages.n || corot_rk_resolves(m);
+  m->resolved = true;
+  return m->stages.n ? corot_rk_resolves(m, &m->resolved) : COROT_OK;
 }
 
 /* Power of the state y at t; where that cannot be evaluated, at the end of the step. */
@@ -226,7 +227,7 @@ static corot_status find_power_at(runge_kutta *m, rk_end *e, double *power) {
 static corot_status look_inside(runge_kutta *m) {
   double *u = N_VGetArrayPointer(m->error), h = m->end.t - m->start.t;
   const double(*rule)[2] = lobatto[m->npoint - 2];
-  if (!m->resolved) corot_rk_clear_slopes(m);
+  if (!m->resolved) COROT_TRY(corot_rk_clear_slopes(m));
   for (int k = 0; k < m->npoint; k++) {
     bool at_end = k == 0 || k == m->npoint - 1;
     if (at_end && m->resolved) {
@@ -264,7 +265,7 @@ static corot_status add_stages(runge_kutta *m, double *work) {
    rule, whose order is the method's or above; else that of the stages. */
 static corot_status measure_work(runge_kutta *m) {
   double work[2] = {m->work_end[0], m->work_end[1]}, h = m->end.t - m->start.t;
-  find_slopes(m);
+  COROT_TRY(find_slopes(m));
   m->inside_known = false;
   bool rates = m->stages.n && (!m->resolved || m->order <= 2);
   if (rates) corot_rk_find_rates(m);
@@ -340,7 +341,8 @@ corot_status corot_rk_work(corot_integrator *self, double t, double *dissipated,
 static corot_status cross(runge_kutta *m, double t_stop) {
   driver *d = &m->driver;
   double h = m->first_step; /* not known before the first step */
-  if (h == 0 && d->self->nst > 0) m->api->next_step(m->memory, &h);
+  if (h == 0 && d->self->nst > 0 && m->api->next_step(m->memory, &h))
+    return corot_driver_refuse(d, "statistics");
   t_stop = corot_integrator_sight(d->self, h, t_stop);
   if (m->stale) COROT_TRY(begin_afresh(m));
   COROT_TRY(find_rate(m, &m->start, false));

@@ -120,10 +120,10 @@ void corot_rk_interpolate(const runge_kutta *m, double s, double *u, double *v);
 
 /* Whether what this polynomial has in modes too fast for the step is below the tolerance, see
    rk_stages.c. */
-bool corot_rk_resolves(runge_kutta *m);
+corot_status corot_rk_resolves(runge_kutta *m, bool *resolved);
 
 /* In those modes the slopes give way to the slopes of the polynomial through the stages. */
-void corot_rk_clear_slopes(runge_kutta *m);
+corot_status corot_rk_clear_slopes(runge_kutta *m);
 
 /* Shortens h, the step to be taken after a change of r, to what a transient it brings asks for: see
    rk_start.c. m->start.rate is that of the new r. */

@@ -4,7 +4,7 @@
 # Pulled slowly: even one cell across will do, and nothing is to be said.
 cat >pull.yaml <<'YAML'
 title: a bar that is pulled
-mesh: {box: {size: [0.1, 0.1, 0.4], cells: [1, 1, 4]}}
+mesh: {box: {size: [0.1, 0.1, 0.4], cells: [1, 1, 4], split: kuhn}}
 material: {lambda: 1.0e5, mu: 1.0e5, density: 1000.0}
 boundary: [{group: zmin, fix: [x, y, z]}]
 loads: [{group: zmax, traction: [0.0, 0.0, 1.0e3], amplitude: [[0.0, 0.0], [0.5, 1.0]]}]
@@ -39,9 +39,9 @@ with open(sys.argv[3], "w") as f:
     f.write("".join("%d 4 2 1 1 %s\n" % (i + 1, " ".join(t)) for i, t in enumerate(tets)))
     f.write("$EndElements\n")
 PY
-"$corot" mesh box --size 0.1,0.1,0.1 --cells 1,1,1 -o one.msh 2>stderr || complain "no box"
-"$corot" mesh box --size 0.1,0.1,0.1 --cells 1,1,1 --origin 0.1,0,0 -o other.msh 2>stderr ||
-  complain "no other box"
+block() { "$corot" mesh box --size 0.1,0.1,0.1 --cells 1,1,1 --split kuhn "$@" 2>stderr; }
+block -o one.msh || complain "no box"
+block --origin 0.1,0,0 -o other.msh || complain "no other box"
 python3 blocks.py one.msh other.msh two.msh || complain "no two blocks"
 sed 's/^mesh:.*/mesh: {file: two.msh}/; s/^boundary.*/boundary: [{group: wall, fix: [x, y, z]}]/
      s/^loads.*/loads: [{gravity: [0.0, 0.0, -1.0]}]/; s/0.1, 0.1, 0.4/0.1, 0.1, 0.1/
@@ -107,6 +107,12 @@ lacks rtol check pull.yaml --set "$(constant newmark 0.01)"
 lacks rtol check pull.yaml --set 'integrator={method: erk, order: 8, rtol: 1e-14}'
 has rtol $(run pull.yaml) --set 'integrator={method: erk, order: 8, rtol: 1e-14}' --set time.end=0.1
 json 'sum(w["code"] == "rtol" for w in d["warnings"]) == 1'
+
+# A body that hardly moves: the absolute tolerance is all there is.
+has atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]'
+lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]' --set integrator.atol.displacement=1e-10
+lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,1]' --set "$(constant newmark 0.01)"
+lacks atol $(run pull.yaml) --set 'loads.0.traction=[0,0,100]'
 
 # Energy: lost to the method, or never there.
 has numerical-dissipation $(run swing.yaml) --set "$(constant backward-euler 0.01)"

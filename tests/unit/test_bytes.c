@@ -43,9 +43,9 @@ static corot_status create(const variant *v, const corot_mesh *mesh, corot_model
 }
 
 /* Lists of materials, loads, motions and kinks have room for one entry more, and that of the kinks
-   for those that coincide; these few bytes are not counted. Of a state each byte is, but where a
-   hierarchy rounds up to whole vectors. */
-enum { SPARE = 280 };
+   for those that coincide, some ten at most here; these few bytes are not counted. Of a state each
+   byte is, but where a hierarchy rounds up to whole vectors. */
+enum { SPARE = 640 };
 
 static void assert_bytes(const char *what, size_t said, size_t slack) {
   size_t held = alloc_live_bytes();

@@ -4,7 +4,7 @@
 
 /* The bar made steel and slender, and its load 1 MPa. */
 #define STEEL                                                                              \
-  "mesh={box: {size: [0.02, 0.02, 0.2], cells: [1, 1, 8]}}",                               \
+  "mesh={box: {size: [0.02, 0.02, 0.2], cells: [1, 1, 8], split: kuhn}}",                  \
       "groups={base: {plane: {axis: z, at: 0.0}}, top: {plane: {axis: z, at: 0.2}}}",      \
       "material={E: 2.1e11, nu: 0.3, density: 7850, damping: {lambda: 2.0e6, mu: 2.0e6}}", \
       "probes={corner: {point: [0, 0, 0.2]}}", "time={end: 10, output: 0.5}"
