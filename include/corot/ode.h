@@ -74,12 +74,14 @@ void corot_state_enter(corot_state *state, double t);
 void corot_state_stand_still(corot_state *state, double t, double factor);
 
 /* r(t, u, v) [N]. COROT_RETRY when a tet is inverted (det F <= 0 or not a number; not asked of
-   cauchy, which is linear): the message and corot_state_inverted() name it. */
+   cauchy, which is linear): the message and corot_state_inverted() name it. COROT_EINVAL when that
+   comes from a component of u or v that is not a number, which the message names. */
 corot_status corot_residual(const corot_model *model, corot_state *state, double t, const double *u,
                             const double *v, double *r);
 
 /* The same as a first-order system for y = (u, v) [2n]: ydot = (v, M^-1 r). y and ydot may not
-   overlap. COROT_EINVAL with consistent mass, which takes a factor of M: see corot/solve.h. */
+   overlap. COROT_EINVAL with consistent mass, which takes a factor of M: see corot/solve.h; and
+   when a component of y is not a number. */
 corot_status corot_rhs(const corot_model *model, corot_state *state, double t, const double *y,
                        double *ydot);
 

@@ -5,14 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "say.h"
 #include "suggest.h"
 
 int usage_error(const char *program, const char *format, ...) {
   va_list args;
   va_start(args, format);
-  fprintf(stderr, "%s: ", program);
-  vfprintf(stderr, format, args);
-  fprintf(stderr, "\nTry '%s --help'.\n", program);
+  say("%s: ", program);
+  say_to(stderr, format, args);
+  say("\nTry '%s --help'.\n", program);
   va_end(args);
   return EXIT_USAGE;
 }
@@ -54,7 +55,7 @@ int dispatch(const char *program, const char *help, const command *table, int ar
 }
 
 int failure(corot_status status) {
-  fprintf(stderr, "%s\n", corot_error());
+  say_error();
   switch (status) {
     case COROT_EINVAL:
     case COROT_EFORMAT:
@@ -76,6 +77,14 @@ bool parse_three(const char *text, double number[3]) {
     text = end + 1;
   }
   memcpy(number, x, sizeof x);
+  return true;
+}
+
+bool parse_seconds(const char *text, double *seconds) {
+  char *end;
+  double x = strtod(text, &end);
+  if (end == text || *end || !(x > 0 && x < 1e9)) return false;
+  *seconds = x;
   return true;
 }
 

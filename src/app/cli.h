@@ -48,6 +48,9 @@ int failure(corot_status status);
 /* Three numbers separated by commas. */
 bool parse_three(const char *text, double number[3]);
 
+/* A number > 0, below 1e9. */
+bool parse_seconds(const char *text, double *seconds);
+
 /* A whole number from 1 to `most`. */
 bool parse_count(const char *text, int most, int *number);
 

@@ -4,6 +4,7 @@
 #include "cli.h"
 #include "facts.h"
 #include "json_text.h"
+#include "say.h"
 
 static const char help[] =
     "usage: corot check MODEL.yaml [--set KEY=VALUE]... [--resolved | --json]\n"
@@ -27,16 +28,27 @@ static const struct option options[] = {
 
 typedef enum report { REPORT_TEXT, REPORT_RESOLVED, REPORT_JSON } report;
 
+typedef struct found {
+  const scenario *scenario;
+  const facts *facts;
+} found;
+
+static corot_status write_facts(const void *what, FILE *out) {
+  const found *f = what;
+  facts_print(f->scenario, f->facts, out);
+  return COROT_OK;
+}
+
 static int print_report(const scenario *s, const facts *f, report kind) {
+  corot_status status;
   if (kind == REPORT_TEXT) {
-    facts_print(s, f, stdout);
-    return EXIT_OK;
+    status = show_all(write_facts, &(found){s, f});
+  } else {
+    json_t *value = kind == REPORT_JSON ? facts_json(s, f) : json_incref(s->resolved);
+    status = json_text_show(value);
+    json_decref(value);
   }
-  json_t *value = kind == REPORT_JSON ? facts_json(s, f) : json_incref(s->resolved);
-  if (!value) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
-  json_text_write(value, stdout);
-  json_decref(value);
-  return EXIT_OK;
+  return status == COROT_OK ? EXIT_OK : failure(status);
 }
 
 static int check(const char *path, int noverride, char **override, report kind) {

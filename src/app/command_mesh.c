@@ -8,6 +8,7 @@
 #include "cli.h"
 #include "facts.h"
 #include "json_text.h"
+#include "say.h"
 #include "warnings.h"
 
 static const char help[] =
@@ -97,8 +98,7 @@ static int write_box(const box_arguments *a) {
   corot_status status = corot_mesh_box(&a->box, &mesh);
   if (status == COROT_EINVAL) return usage_error("corot mesh box", "%s", corot_error());
   if (status == COROT_OK) status = corot_mesh_write(mesh, a->file);
-  if (status == COROT_OK)
-    fprintf(stderr, "%s: %d nodes, %d tets\n", a->file, mesh->nnode, mesh->ntet);
+  if (status == COROT_OK) say("%s: %d nodes, %d tets\n", a->file, mesh->nnode, mesh->ntet);
   corot_mesh_destroy(mesh);
   return status == COROT_OK ? EXIT_OK : failure(status);
 }
@@ -154,20 +154,20 @@ static corot_status find_mesh_facts(const corot_mesh *mesh, mesh_facts *f) {
 
 static void print_info(const char *path, const corot_mesh *mesh, const mesh_facts *f) {
   corot_mesh_quality q = corot_mesh_measure(mesh);
-  printf("file      %s\n", path);
-  printf("nodes     %d\n", mesh->nnode);
-  printf("tets      %d\n", mesh->ntet);
-  printf("parts     %d\n", f->npart);
-  printf("box       [%g, %g] x [%g, %g] x [%g, %g] m\n", q.min[0], q.max[0], q.min[1], q.max[1],
-         q.min[2], q.max[2]);
-  printf("volume    %.6g m^3; of a tet %.3g to %.3g\n", q.volume, q.volume_min, q.volume_max);
-  printf("edges     %.4g to %.4g m\n", q.edge_min, q.edge_max);
-  printf("dihedral  %.1f to %.1f degrees\n", q.dihedral_min, q.dihedral_max);
-  printf("shape     mean %.3f, worst %.3f (tet %d); 3 inradius / circumradius, 1 is regular\n",
-         q.shape_mean, q.shape_min, q.shape_worst);
+  show("file      %s\n", path);
+  show("nodes     %d\n", mesh->nnode);
+  show("tets      %d\n", mesh->ntet);
+  show("parts     %d\n", f->npart);
+  show("box       [%g, %g] x [%g, %g] x [%g, %g] m\n", q.min[0], q.max[0], q.min[1], q.max[1],
+       q.min[2], q.max[2]);
+  show("volume    %.6g m^3; of a tet %.3g to %.3g\n", q.volume, q.volume_min, q.volume_max);
+  show("edges     %.4g to %.4g m\n", q.edge_min, q.edge_max);
+  show("dihedral  %.1f to %.1f degrees\n", q.dihedral_min, q.dihedral_max);
+  show("shape     mean %.3f, worst %.3f (tet %d); 3 inradius / circumradius, 1 is regular\n",
+       q.shape_mean, q.shape_min, q.shape_worst);
   for (int i = 0; i < mesh->ngroup; i++) {
     const corot_group *g = &mesh->group[i];
-    printf("group     %s: %d nodes, %d triangles, %d tets\n", g->name, g->nnode, g->ntri, g->ntet);
+    show("group     %s: %d nodes, %d triangles, %d tets\n", g->name, g->nnode, g->ntri, g->ntet);
   }
   warnings_print(&f->warnings, 0, "warning   ", stdout);
 }
@@ -205,10 +205,9 @@ static json_t *info_json(const char *path, const corot_mesh *mesh, const mesh_fa
 
 static int print_info_json(const char *path, const corot_mesh *mesh, const mesh_facts *f) {
   json_t *info = info_json(path, mesh, f);
-  if (!info) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
-  json_text_write(info, stdout);
+  corot_status status = json_text_show(info);
   json_decref(info);
-  return EXIT_OK;
+  return status == COROT_OK ? EXIT_OK : failure(status);
 }
 
 int command_mesh_info(int argc, char **argv) {

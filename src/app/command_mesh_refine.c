@@ -5,6 +5,7 @@
 
 #include "cli.h"
 #include "refine.h"
+#include "say.h"
 
 static const char program[] = "corot mesh refine";
 
@@ -63,8 +64,8 @@ static int take_option(arguments *a, int answer, char **argv) {
 
 static void report(const char *file, const corot_mesh *mesh) {
   corot_mesh_quality q = corot_mesh_measure(mesh);
-  fprintf(stderr, "%s: %d nodes, %d tets; shape mean %.3f, worst %.3f\n", file, mesh->nnode,
-          mesh->ntet, q.shape_mean, q.shape_min);
+  say("%s: %d nodes, %d tets; shape mean %.3f, worst %.3f\n", file, mesh->nnode, mesh->ntet,
+      q.shape_mean, q.shape_min);
 }
 
 static int refine(const arguments *a) {

@@ -1,12 +1,12 @@
 #include "command_scenario.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
 #include "folder.h"
+#include "stop.h"
 
 static const struct option options[] = {
     {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
@@ -14,25 +14,17 @@ static const struct option options[] = {
     {"help", no_argument, NULL, 'h'},         {0},
 };
 
-static void heed_signals(void) {
-  struct sigaction action = {.sa_handler = run_interrupt, .sa_flags = SA_RESTART};
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
-}
-
 static int read_and_go(scenario_action *go, const char *path, int noverride, char **override,
                        run_options *o) {
   scenario *s = NULL;
-  if (scenario_read(path, noverride, override, &s)) {
-    failure(COROT_EFORMAT);
-    return EXIT_SCENARIO;
-  }
+  corot_status status = scenario_read(path, noverride, override, &s);
+  if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
+  if (status != COROT_OK) return failure(status);
   char *folder = o->dir ? NULL : folder_default(path, "");
   if (folder) o->dir = folder;
   int code = EXIT_SYSTEM;
   if (o->dir) {
-    heed_signals();
+    stop_heed();
     code = go(s, o);
   } else {
     failure(COROT_ENOMEM);

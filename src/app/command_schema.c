@@ -24,10 +24,9 @@ static const struct option options[] = {
 
 static int print_json(void) {
   json_t *text = schema_json();
-  if (!text) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
-  json_text_write(text, stdout);
+  corot_status status = json_text_show(text);
   json_decref(text);
-  return EXIT_OK;
+  return status == COROT_OK ? EXIT_OK : failure(status);
 }
 
 static int no_such_key(const char *typed) {

@@ -56,13 +56,17 @@ static size_t offset_of(const config_source *source, int line, int column) {
 static corot_status syntax_error(reader *r) {
   void *previous = NULL;
   const struct fy_diag_error *e = fy_diag_errors_iterate(r->diag, &previous);
-  if (!e) return config_fail_at(r->source, r->at, "cannot be parsed from here on");
+  if (!e) return no_memory(); /* libfyaml has words for everything else */
   return config_fail_at(r->source, offset_of(r->source, e->line, e->column), "%s", e->msg);
 }
 
 static corot_status copy_token(reader *r, struct fy_token *token, const char **text) {
   size_t length = 0;
   const char *s = token ? fy_token_get_text(token, &length) : "";
+  /* it can only be written between double quotes, and libfyaml's mark is behind the first */
+  if (s && memchr(s, '\0', length))
+    return config_fail_at(r->source, r->at > 0 ? r->at - 1 : 0,
+                          "text cannot hold the character U+0000");
   *text = s ? config_copy(r->tree, s, length) : NULL;
   return *text ? COROT_OK : no_memory();
 }

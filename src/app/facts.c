@@ -309,9 +309,9 @@ json_t *facts_groups(const corot_mesh *mesh) {
   json_t *list = json_array();
   for (int i = 0; i < mesh->ngroup; i++) {
     const corot_group *g = &mesh->group[i];
-    json_array_append_new(
-        list, json_pack("{s:o, s:i, s:i, s:i}", "name", json_text_string(g->name), "nodes",
-                        g->nnode, "triangles", g->ntri, "tets", g->ntet));
+    list =
+        json_text_push(list, json_pack("{s:o, s:i, s:i, s:i}", "name", json_text_string(g->name),
+                                       "nodes", g->nnode, "triangles", g->ntri, "tets", g->ntet));
   }
   return list;
 }
@@ -321,7 +321,7 @@ static json_t *probes_json(const scenario *s, const corot_mesh *mesh) {
   for (int i = 0; i < s->nprobe; i++) {
     int node = probe_node(&s->probe[i], mesh);
     const double *x = mesh->x[node];
-    json_array_append_new(
+    list = json_text_push(
         list, json_pack("{s:s, s:i, s:[f, f, f], s:f}", "name", s->probe[i].name, "node", node, "x",
                         x[0], x[1], x[2], "distance", probe_distance(&s->probe[i], x)));
   }

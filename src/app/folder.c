@@ -176,8 +176,11 @@ corot_status file_replace_durably(const char *path, const void *data, size_t siz
 
   corot_status status = write_whole(temporary, data, size, true);
   if (status == COROT_OK) status = put_in_place(temporary, path);
-  if (status == COROT_OK) status = synchronise_folder_of(path);
-  if (status != COROT_OK) unlink(temporary);
+  if (status != COROT_OK) {
+    unlink(temporary);
+  } else if ((status = synchronise_folder_of(path)) != COROT_OK) {
+    unlink(path); /* what is said to have failed must not be found */
+  }
   free(temporary);
   return status;
 }

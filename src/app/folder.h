@@ -32,7 +32,8 @@ corot_status file_close(int fd, const char *path);
 /* Puts a file in place as a whole: `temporary` is written, then renamed to `path`. */
 corot_status file_replace(const char *path, const char *temporary, const void *data, size_t size);
 
-/* The same, and on the disk before it returns; the temporary file is PATH.tmp. */
+/* The same, and on the disk before it returns; the temporary file is PATH.tmp. If all but the last,
+   the rename, is known to be on the disk, the file is removed again. */
 corot_status file_replace_durably(const char *path, const void *data, size_t size);
 
 #endif

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/reader.h"
+#include "escape.h"
 #include "folder.h"
 
 void csv_free(csv *t) {
@@ -38,7 +39,7 @@ static char *take_cell(char **at, bool *row_ends, bool *file_ends) {
   if (*from == '\r' && from[1] == '\n') from++;
   *at = *from ? from + 1 : from;
   *to = '\0';
-  return cell;
+  return escape_csv_undo(cell);
 }
 
 /* Takes a row of exactly n cells. *n < 0: of as many as there are, at most `most`; *n is set.

@@ -22,19 +22,8 @@ static json_t *positive(double x) { return x > 0 ? json_text_real(x) : json_null
 
 static json_t *integer(long i) { return json_integer(i); }
 
-/* NULL gives null. Bytes that are not UTF-8, as a file name or a cut message may have, give '?'. */
-static json_t *text(const char *s) {
-  if (!s) return json_null();
-  json_t *string = json_string(s);
-  char *copy = string ? NULL : malloc(strlen(s) + 1);
-  if (!copy) return string;
-  strcpy(copy, s);
-  for (char *c = copy; *c; c++)
-    if (*c & 0x80) *c = '?';
-  string = json_string(copy);
-  free(copy);
-  return string;
-}
+/* NULL gives null. */
+static json_t *text(const char *s) { return s ? json_text_string(s) : json_null(); }
 
 static json_t *vector(const double x[3]) {
   return json_pack("[o, o, o]", json_text_real(x[0]), json_text_real(x[1]), json_text_real(x[2]));
@@ -170,7 +159,7 @@ static json_t *observed_part(const run_summary *run) {
                    json_text_real(o->turned.turned), "stress_jumps", json_text_real(o->jumps));
 }
 
-static json_t *versions_part(void) {
+json_t *result_versions(void) {
   return json_pack("{s:s, s:s, s:s}", "corot", corot_version(), "sundials",
                    corot_sundials_version(), "compiler", COMPILER);
 }
@@ -179,20 +168,21 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
                          json_t **out) {
   const hashes *h = &run->hashes;
   json_t *result = json_pack(
-      "{s:o, s:s, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
-      "s:o,"
+      "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
+      "s:o, s:o,"
       " s:o, s:{s:s, s:s, s:s}, s:O}",
-      "title", text(s->title), "status", run->status, "reason", text(run->reason), "exit_code",
-      run->exit_code, "t_reached", json_text_real(run->t_reached), "t_end",
-      json_text_real(s->t_end), "warnings", warnings_json(run->warnings), "strain",
-      corot_model_strain(run->model), "mesh", mesh_part(s, run->model), "frames",
-      run->statics ? json_null() : frames_part(s, run), "integrator",
+      "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
+      run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
+      json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
+      warnings_json(run->warnings), "strain", corot_model_strain(run->model), "mesh",
+      mesh_part(s, run->model), "frames", run->statics ? json_null() : frames_part(s, run),
+      "integrator",
       run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
       timings_part(run), "memory", memory_part(run), "probes", probes_part(o), "energy",
       energy_part(o), "extremes", extremes_part(o), "observed", observed_part(run), "versions",
-      versions_part(), "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
+      result_versions(), "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
       "scenario", s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
@@ -200,7 +190,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
 }
 
 corot_status result_text(const json_t *result, char **text) {
-  char *dump = json_dumps(result, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+  char *dump = json_text_dump(result, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
   char *whole = dump ? malloc(strlen(dump) + 2) : NULL;
   if (whole) {
     size_t length = strlen(dump);

@@ -14,6 +14,7 @@
 #ifndef COROT_APP_RESULT_H
 #define COROT_APP_RESULT_H
 
+#include "failure.h"
 #include "hash.h"
 #include "outputs.h"
 #include "warnings.h"
@@ -40,6 +41,7 @@ typedef struct run_summary {
   const char *status; /* "ok", "failed", "interrupted" */
   const char *reason; /* NULL: ok */
   int exit_code;
+  run_failure failure;
   double t_reached; /* [s] */
   const corot_model *model;
   size_t state_bytes;
@@ -56,6 +58,9 @@ typedef struct run_summary {
 
 /* The caller's to json_decref. */
 corot_status result_make(const scenario *s, const outputs *o, const run_summary *run, json_t **out);
+
+/* A part of result.json; NULL: no memory. */
+json_t *result_versions(void);
 
 /* The text of it, as it stands in the file; the caller's to free. */
 corot_status result_text(const json_t *result, char **text);

@@ -11,8 +11,10 @@
 #include "progress.h"
 #include "result.h"
 #include "run_common.h"
+#include "say.h"
 #include "schedule.h"
 #include "static.h"
+#include "stop.h"
 
 typedef struct run {
   const scenario *scenario;
@@ -31,6 +33,7 @@ typedef struct run {
   double before; /* where the last step began [s] */
   double shown;  /* time of the last row of the tables [s]; -1: there is none */
   frame_totals frames;
+  run_failure failure;
   warnings warnings;
   observed seen;                                                   /* in the end */
   double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
@@ -131,12 +134,18 @@ static corot_status record_step(run *r) {
   return status > 0 ? COROT_OK : status;
 }
 
-/* Writes the output times up to t, with the frames as they were during the step. */
+/* Writes the output times up to t, with the frames as they were during the step. A request to stop
+   leaves those that remain: the answer ends at the last that was written, but not before the first.
+ */
 static corot_status write_outputs(run *r, double t) {
   double started = wall_clock(), due;
   corot_status status = COROT_OK;
-  while (status == COROT_OK && schedule_take_output(r->schedule, t, &due))
-    status = write_moment(r, due, due == r->scenario->t_end);
+  bool cut = false;
+  while (status == COROT_OK && !cut && schedule_take_output(r->schedule, t, &due)) {
+    cut = stop_signal() && r->shown >= 0;
+    if (!cut) status = write_moment(r, due, due == r->scenario->t_end);
+  }
+  if (cut) r->t = r->shown;
   r->output_s += wall_clock() - started;
   return status;
 }
@@ -204,7 +213,7 @@ static corot_status handle_events(run *r, step_row *row) {
 
 static corot_status integrate(run *r) {
   COROT_TRY(write_outputs(r, 0));
-  while (!schedule_over(r->schedule, r->t) && !run_stop_signal()) {
+  while (!schedule_over(r->schedule, r->t) && !stop_signal()) {
     corot_step step;
     double stop = schedule_stop(r->schedule, corot_frame_clock_stop(r->clock));
     prepare_step(r);
@@ -213,6 +222,7 @@ static corot_status integrate(run *r) {
     r->t = step.t;
     COROT_TRY(record_step(r));
     COROT_TRY(write_outputs(r, step.t));
+    stop_reached(r->t);
 
     step_row row = {
         .t = step.t, .h = step.h, .order = step.order, .error = step.error, .newton = step.newton};
@@ -237,6 +247,7 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
                               : "failed",
       .reason = code == 0 ? NULL : reason,
       .exit_code = code,
+      .failure = r->failure,
       .t_reached = reached(r),
       .model = r->model,
       .state_bytes = corot_state_bytes(r->state),
@@ -257,12 +268,12 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
 static void tell(const run *r, const run_summary *summary) {
   const char *path = r->scenario->path, *dir = r->options->dir;
   if (summary->reason)
-    fprintf(stderr, "%s: stopped at t = %.6g s of %g s: %s\n", path, summary->t_reached,
-            r->scenario->t_end, summary->reason);
+    say("%s: stopped at t = %.6g s of %g s: %s\n", path, summary->t_reached, r->scenario->t_end,
+        summary->reason);
   if (r->options->quiet) return;
-  fprintf(stderr, "%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n",
-          path, summary->t_reached, summary->statistics.nst, summary->statistics.nfactor,
-          summary->wall_s, summary->t_reached / summary->wall_s, dir);
+  say("%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n", path,
+      summary->t_reached, summary->statistics.nst, summary->statistics.nfactor, summary->wall_s,
+      summary->t_reached / summary->wall_s, dir);
 }
 
 /* Closes the books after a run that ended with `status`; returns the exit code. */
@@ -271,10 +282,10 @@ static int conclude(run *r, corot_status status) {
   int code = run_exit_code(status);
   if (code != 0) {
     snprintf(reason, sizeof reason, "%s", corot_error());
-  } else if (run_stop_signal() && !schedule_over(r->schedule, r->t)) {
+  } else if (stop_signal() && !schedule_over(r->schedule, r->t)) {
     code = run_interrupted(sizeof reason, reason);
   }
-  run_forget_signal();
+  stop_heeded();
   progress_clear(&r->progress);
 
   /* What could be written before can be written now; if it cannot, the first reason stands. */
@@ -284,16 +295,20 @@ static int conclude(run *r, corot_status status) {
   if (late == COROT_OK) late = closed;
   if (code == 0 && late != COROT_OK) {
     code = run_exit_code(late);
+    status = late;
     snprintf(reason, sizeof reason, "%s", corot_error());
   }
 
   run_summary summary;
+  r->failure = run_failure_of(status, code);
+  stop_forget();
+  stop_release();
   late = run_warn_after(r->scenario, r->model, r->state, r->outputs, false, r->options,
                         &r->warnings, &r->seen);
   corot_status summed = summarize(r, reason, code, &summary);
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
-  if (late != COROT_OK) fprintf(stderr, "%s\n", corot_error());
+  if (late != COROT_OK) say_error();
   tell(r, &summary);
   return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
 }
@@ -309,16 +324,11 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
   r.cpu_at_start = cpu_clock();
 
   int code;
-  corot_status status = prepare(&r);
+  corot_status status = run_begin(s, options);
+  if (status == COROT_OK) status = run_preparing(prepare(&r));
+  if (status == COROT_OK) status = open_outputs(&r);
   if (status != COROT_OK) {
-    fprintf(stderr, "%s\n", corot_error());
-    bool lost = status == COROT_EINTEGRATE; /* no equilibrium to start from */
-    code = lost ? EXIT_INTEGRATOR : status == COROT_ENOMEM ? EXIT_SYSTEM : EXIT_SCENARIO;
-    if (lost && run_stop_signal()) code = EXIT_SIGNAL + run_stop_signal();
-    run_forget_signal();
-  } else if ((status = open_outputs(&r)) != COROT_OK) {
-    fprintf(stderr, "%s\n", corot_error());
-    code = run_exit_code(status);
+    code = run_end_early(s, options, &r.warnings, status);
   } else {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
     code = conclude(&r, integrate(&r));

@@ -1,35 +1,20 @@
 #include "run_common.h"
 
 #include <locale.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "cli.h"
+#include "folder.h"
+#include "result_brief.h"
+#include "say.h"
+#include "stop.h"
 
-static volatile sig_atomic_t stop_signal;
-
-/* Programs that run others may send a signal twice, to the process and to its group: the second is
-   one only if it comes some time after the first. */
-void run_interrupt(int signal_number) {
-  static struct timespec first;
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (!stop_signal) {
-    stop_signal = signal_number;
-    first = now;
-  } else if (now.tv_sec - first.tv_sec > 1) {
-    signal(signal_number, SIG_DFL);
-    raise(signal_number);
-  }
-}
-int run_stop_signal(void) { return stop_signal; }
-void run_forget_signal(void) { stop_signal = 0; }
+void run_interrupt(int signal_number) { stop_request(signal_number); }
 
 int run_interrupted(size_t size, char *reason) {
-  snprintf(reason, size, "interrupted by signal %d", (int)stop_signal);
-  return EXIT_SIGNAL + stop_signal;
+  snprintf(reason, size, "interrupted by signal %d", stop_signal());
+  return EXIT_SIGNAL + stop_signal();
 }
 
 int run_exit_code(corot_status status) {
@@ -37,6 +22,60 @@ int run_exit_code(corot_status status) {
   if (status == COROT_EINVAL || status == COROT_EFORMAT) return EXIT_SCENARIO;
   if (status == COROT_ENOMEM || status == COROT_EIO) return EXIT_SYSTEM;
   return EXIT_INTEGRATOR;
+}
+
+run_failure run_failure_of(corot_status status, int code) {
+  if (code == EXIT_OK) return (run_failure){NULL, false};
+  if (code > EXIT_SIGNAL) return (run_failure){"interrupted", true};
+  if (status == COROT_ENOMEM) return (run_failure){"memory", true};
+  if (status == COROT_EIO) return (run_failure){"io", true};
+  if (code == EXIT_SCENARIO) return (run_failure){"scenario", false};
+  return (run_failure){"integrator", false};
+}
+
+corot_status run_begin(const scenario *s, const run_options *options) {
+  char *text = NULL;
+  COROT_TRY(result_for_stop(s, &text));
+  corot_status status = stop_prepare(options->dir, text);
+  free(text);
+  return status;
+}
+
+static corot_status leave_brief(const scenario *s, const brief_result *what, const char *dir) {
+  char *text = NULL;
+  COROT_TRY(result_brief(s, what, &text));
+  corot_status status = folder_make(dir);
+  if (status == COROT_OK) status = folder_clean(dir);
+  if (status == COROT_OK) status = result_write(dir, text);
+  free(text);
+  return status;
+}
+
+corot_status run_preparing(corot_status status) {
+  bool other = status == COROT_OK || status == COROT_ENOMEM || status == COROT_EINTEGRATE;
+  return other ? status : COROT_EFORMAT;
+}
+
+int run_end_early(const scenario *s, const run_options *options, const warnings *warned,
+                  corot_status status) {
+  char reason[1024];
+  int code = run_exit_code(status);
+  snprintf(reason, sizeof reason, "%s", corot_error());
+  say("%s\n", reason);
+  if (stop_signal() && code == EXIT_INTEGRATOR) {
+    stop_heeded();
+    code = run_interrupted(sizeof reason, reason);
+    say("%s: %s\n", s->path, reason);
+  }
+  stop_forget();
+  stop_release();
+  brief_result what = {.status = code > EXIT_SIGNAL ? "interrupted" : "failed",
+                       .reason = reason,
+                       .exit_code = code,
+                       .failure = run_failure_of(status, code),
+                       .warnings = warned};
+  if (code != EXIT_SCENARIO) leave_brief(s, &what, options->dir); /* if it cannot, all is said */
+  return code;
 }
 
 static const char head[] = "warning: ";
@@ -78,7 +117,7 @@ int run_in_c_locale(int (*action)(const scenario *, const run_options *), const 
                     const run_options *options) {
   locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!plain) {
-    fprintf(stderr, "out of memory\n");
+    say("out of memory\n");
     return EXIT_SYSTEM;
   }
   locale_t before = uselocale(plain);

@@ -10,11 +10,22 @@ enum { EXIT_SIGNAL = 128 }; /* and the number of the signal that ended the run *
 
 int run_exit_code(corot_status status);
 
-/* The signal that asked for an end; 0: none did. */
-int run_stop_signal(void);
-void run_forget_signal(void);
+/* Why a run that ended with this status and exit code is not ok. */
+run_failure run_failure_of(corot_status status, int code);
 
-/* The words and the exit code of a run that heeded it. */
+/* Prepares for an end without notice (stop.h). */
+corot_status run_begin(const scenario *s, const run_options *options);
+
+/* The status of a preparation, in which all is the fault of scenario or mesh but lack of memory,
+   and that there is no equilibrium to start from. */
+corot_status run_preparing(corot_status status);
+
+/* The end of a run that failed before its first output: says why, and leaves a result.json unless
+   it is the scenario's fault; `warned` is what was warned of before. Returns the exit code. */
+int run_end_early(const scenario *s, const run_options *options, const warnings *warned,
+                  corot_status status);
+
+/* The words and the exit code of a run that heeds a request to stop. */
 int run_interrupted(size_t size, char *reason);
 
 /* The warnings of what there is before the first step, told on stderr unless the options ask for

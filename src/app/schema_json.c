@@ -133,11 +133,12 @@ static json_t *map_schema(const char *path) {
     const char *dot = strrchr(k->path, '.');
     const char *name = dot ? dot + 1 : k->path;
     properties = json_text_with(properties, name, key_schema(k));
-    if (k->status == SCHEMA_REQUIRED) json_array_append_new(required, json_string(name));
+    if (k->status == SCHEMA_REQUIRED) required = json_text_push(required, json_string(name));
     if (k->status == SCHEMA_ONE_OF)
-      json_array_append_new(one_of, json_pack("{s:[s]}", "required", name));
+      one_of = json_text_push(one_of, json_pack("{s:[s]}", "required", name));
   }
   json_t *s = json_text_with(of_type("object"), "properties", properties);
+  if (!required || !one_of) s = json_text_with(s, "required", NULL); /* no memory */
   if (json_array_size(required)) s = json_text_with(s, "required", json_incref(required));
   if (json_array_size(one_of)) s = json_text_with(s, "oneOf", json_incref(one_of));
   json_decref(required);

@@ -10,6 +10,8 @@
 #include "json_text.h"
 #include "reactions.h"
 #include "run_common.h"
+#include "say.h"
+#include "stop.h"
 
 typedef struct equilibrium_run {
   const scenario *scenario;
@@ -29,6 +31,7 @@ typedef struct equilibrium_run {
   double factor, work;                   /* reached; by loads and supports [J] */
   json_t *steps;
   json_t *reactions_at_end;
+  run_failure failure;
   warnings warnings;
   observed seen;                                         /* in the end */
   double wall_at_start, cpu_at_start, setup_s, output_s; /* [s] */
@@ -52,7 +55,7 @@ static corot_status allocate(equilibrium_run *r) {
 
 static bool is_stopped(void *data) {
   (void)data;
-  return run_stop_signal() != 0;
+  return stop_signal() != 0;
 }
 
 static corot_status prepare(equilibrium_run *r) {
@@ -134,7 +137,7 @@ static corot_status remember(equilibrium_run *r, const corot_load_step *step) {
   static const char *const stability[] = {"unknown", "stable", "unstable"};
   json_t *residual = json_array();
   for (int k = 0; k < step->nresidual; k++)
-    json_array_append_new(residual, json_real(step->residual[k]));
+    residual = json_text_push(residual, json_real(step->residual[k]));
   json_t *entry = json_pack("{s:f, s:f, s:i, s:i, s:f, s:b, s:s, s:o}", "factor", step->factor,
                             "length", step->length, "iterations", step->iterations, "rejected",
                             step->rejected, "force", step->force, "rounding", step->rounding,
@@ -157,10 +160,11 @@ static void tell_step(const equilibrium_run *r, const corot_load_step *step) {
 
 static corot_status find_equilibrium(equilibrium_run *r) {
   COROT_TRY(write_equilibrium(r, false));
-  while (r->factor < 1 && !run_stop_signal()) {
+  while (r->factor < 1 && !stop_signal()) {
     corot_load_step step;
     COROT_TRY(corot_statics_step(r->statics, &step));
     r->factor = corot_statics_at(r->statics, r->u);
+    stop_reached(r->factor * r->scenario->t_end);
     tell_step(r, &step);
     COROT_TRY(remember(r, &step));
     COROT_TRY(write_equilibrium(r, r->factor == 1));
@@ -189,6 +193,7 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
                                      : "failed",
       .reason = code == 0 ? NULL : reason,
       .exit_code = code,
+      .failure = r->failure,
       .t_reached = r->factor * r->scenario->t_end,
       .model = r->model,
       .state_bytes = corot_state_bytes(r->state) + corot_statics_bytes(r->statics),
@@ -211,40 +216,43 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
 static void tell(const equilibrium_run *r, const char *reason, const run_summary *summary) {
   const corot_statics_counts *n = &summary->statics->counts;
   const char *path = r->scenario->path;
-  if (*reason) fprintf(stderr, "%s: stopped at load factor %.6g: %s\n", path, r->factor, reason);
+  if (*reason) say("%s: stopped at load factor %.6g: %s\n", path, r->factor, reason);
   if (r->options->quiet) return;
-  fprintf(stderr,
-          "%s: load factor %.6g in %ld load step%s, %ld Newton iterations, %ld factorisations, "
-          "%.3g s; %s\n",
-          path, r->factor, n->nstep, n->nstep == 1 ? "" : "s", n->nni, n->nfactor, summary->wall_s,
-          r->options->dir);
+  say("%s: load factor %.6g in %ld load step%s, %ld Newton iterations, %ld factorisations, "
+      "%.3g s; %s\n",
+      path, r->factor, n->nstep, n->nstep == 1 ? "" : "s", n->nni, n->nfactor, summary->wall_s,
+      r->options->dir);
 }
 
 /* Closes the books; returns the exit code. */
 static int conclude(equilibrium_run *r, corot_status status) {
   char reason[1024] = "";
   int code = run_exit_code(status);
-  if (run_stop_signal() && r->factor < 1)
+  if (stop_signal() && r->factor < 1)
     code = run_interrupted(sizeof reason, reason);
   else if (code != 0)
     snprintf(reason, sizeof reason, "%s", corot_error());
-  run_forget_signal();
+  stop_heeded();
 
   corot_status late = outputs_close(r->outputs), closed = reactions_close(r->reactions);
   if (late == COROT_OK) late = closed;
   r->reactions_at_end = reactions_last(r->reactions);
   if (code == 0 && late != COROT_OK) {
     code = run_exit_code(late);
+    status = late;
     snprintf(reason, sizeof reason, "%s", corot_error());
   }
   run_summary summary;
   statics_summary statics;
+  r->failure = run_failure_of(status, code);
+  stop_forget();
+  stop_release();
   late = run_warn_after(r->scenario, r->model, r->state, r->outputs, true, r->options, &r->warnings,
                         &r->seen);
   corot_status summed = summarize(r, reason, code, &statics, &summary);
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
-  if (late != COROT_OK) fprintf(stderr, "%s\n", corot_error());
+  if (late != COROT_OK) say_error();
   tell(r, reason, &summary);
   return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
 }
@@ -254,19 +262,11 @@ static int search(const scenario *s, const run_options *options) {
   r.wall_at_start = wall_clock();
   r.cpu_at_start = cpu_clock();
 
-  int code;
-  corot_status status = prepare(&r);
-  if (status != COROT_OK) {
-    fprintf(stderr, "%s\n", corot_error());
-    code = status == COROT_ENOMEM       ? EXIT_SYSTEM
-           : status == COROT_EINTEGRATE ? EXIT_INTEGRATOR
-                                        : EXIT_SCENARIO;
-  } else if ((status = open_outputs(&r)) != COROT_OK) {
-    fprintf(stderr, "%s\n", corot_error());
-    code = run_exit_code(status);
-  } else {
-    code = conclude(&r, find_equilibrium(&r));
-  }
+  corot_status status = run_begin(s, options);
+  if (status == COROT_OK) status = run_preparing(prepare(&r));
+  if (status == COROT_OK) status = open_outputs(&r);
+  int code = status == COROT_OK ? conclude(&r, find_equilibrium(&r))
+                                : run_end_early(s, options, &r.warnings, status);
   release(&r);
   return code;
 }

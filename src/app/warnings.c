@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "escape.h"
 #include "json_text.h"
 
 const warning_kind warning_kinds[WARNING_CODES] = {
@@ -60,6 +61,9 @@ json_t *warnings_json(const warnings *w) {
 }
 
 void warnings_print(const warnings *w, int from, const char *head, FILE *out) {
-  for (int i = from; i < w->n; i++)
-    fprintf(out, "%s%s [%s]\n", head, w->item[i].text, warning_kinds[w->item[i].code].word);
+  for (int i = from; i < w->n; i++) {
+    fputs(head, out);
+    escape_line(w->item[i].text, out);
+    fprintf(out, " [%s]\n", warning_kinds[w->item[i].code].word);
+  }
 }

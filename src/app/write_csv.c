@@ -1,17 +1,21 @@
 #include "write_csv.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "escape.h"
 #include "folder.h"
+#include "no_memory.h"
 #include "number_text.h"
 
-enum { CELL = NUMBER_TEXT }; /* with its comma */
-enum { BATCH = 8192 };       /* bytes of rows of every step that are handed on together */
+enum {
+  CELL = NUMBER_TEXT, /* with its comma */
+  ROW = 1024,         /* a row of a fixed number of columns, to spare */
+  BATCH = 8192        /* bytes of rows of every step that are handed on together */
+};
 
 struct table {
   int fd;
@@ -87,40 +91,37 @@ static corot_status end_row(table *t) {
   return t->length < t->batch ? COROT_OK : flush(t);
 }
 
-/* NAME.COMPONENT as a cell: in quotes, with quotes doubled, where the name would break the table.
- */
-static void add_title(table *t, const char *name, const char *component) {
-  bool quote = strpbrk(name, ",\"\r\n") != NULL;
-  char *c = t->row + t->length;
-  if (quote) *c++ = '"';
-  for (; *name; name++) {
-    if (*name == '"') *c++ = '"';
-    *c++ = *name;
-  }
-  c += sprintf(c, ".%s", component);
-  if (quote) *c++ = '"';
-  *c++ = ',';
-  t->length = (size_t)(c - t->row);
+/* "t", NAME.COMPONENT for each name and component, and the columns that `after` lists, if any; the
+   caller's to free. */
+static corot_status make_header(int n, const char *const *name, const char *const component[3],
+                                const char *after, char **header) {
+  char *title = NULL;
+  size_t size = 0, longest = 0;
+  for (int i = 0; i < n; i++) longest = strlen(name[i]) > longest ? strlen(name[i]) : longest;
+  title = malloc(longest + CELL);
+  FILE *out = title ? open_memstream(header, &size) : NULL;
+  if (out) fputc('t', out);
+  for (int i = 0; out && i < n; i++)
+    for (int c = 0; c < 3; c++) {
+      snprintf(title, longest + CELL, "%s.%s", name[i], component[c]);
+      fputc(',', out);
+      escape_csv(title, out);
+    }
+  if (out && *after) fprintf(out, ",%s", after);
+  free(title);
+  if (out && fclose(out) == 0) return COROT_OK;
+  free(*header);
+  *header = NULL;
+  return no_memory();
 }
 
-/* For t, three cells a name, be they numbers or titles, and those of `after`. */
-static size_t room_for(int n, const char *const *name, const char *after) {
-  size_t capacity = CELL + 3 * CELL * (size_t)n + strlen(after) + 1;
-  for (const char *c = after; *c; c++) capacity += *c == ',' ? CELL : 0;
-  for (int i = 0; i < n; i++) capacity += 3 * 2 * strlen(name[i]);
-  return capacity;
-}
-
-/* Opens a table of t, three columns for each name, and those that `after` lists, if any. */
-static corot_status open_with_names(const char *dir, const char *file, int n,
-                                    const char *const *name, const char *const component[3],
-                                    const char *after, table **out) {
+/* Opens a table with this header, for rows of up to `capacity` bytes. */
+static corot_status open_with_header(const char *dir, const char *name, const char *header,
+                                     size_t capacity, table **out) {
   table *t = NULL;
-  COROT_TRY(table_open(dir, file, BATCH + room_for(n, name, after), &t));
-  add_text(t, "t");
-  for (int i = 0; i < n; i++)
-    for (int c = 0; c < 3; c++) add_title(t, name[i], component[c]);
-  if (*after) add_text(t, after);
+  size_t needed = strlen(header) + 2;
+  COROT_TRY(table_open(dir, name, BATCH + (needed > capacity ? needed : capacity), &t));
+  add_text(t, header);
   corot_status status = end_row(t);
   if (status != COROT_OK) {
     table_close(t);
@@ -128,6 +129,24 @@ static corot_status open_with_names(const char *dir, const char *file, int n,
   }
   *out = t;
   return COROT_OK;
+}
+
+/* Bytes for t, three numbers a name, and those of the columns `after`. */
+static size_t room_for(int n, const char *after) {
+  size_t cells = 1 + 3 * (size_t)n;
+  for (const char *c = after; *c; c++) cells += *c == ',';
+  return CELL * (*after ? cells + 1 : cells);
+}
+
+/* Opens a table of t, three columns for each name, and those that `after` lists, if any. */
+static corot_status open_with_names(const char *dir, const char *file, int n,
+                                    const char *const *name, const char *const component[3],
+                                    const char *after, table **out) {
+  char *header = NULL;
+  COROT_TRY(make_header(n, name, component, after, &header));
+  corot_status status = open_with_header(dir, file, header, room_for(n, after), out);
+  free(header);
+  return status;
 }
 
 static const char *const displacement_words[] = {"ux", "uy", "uz"};
@@ -196,23 +215,8 @@ corot_status compare_row(table *compare, double t, int nmeasure, const force_err
   return end_row(compare);
 }
 
-/* Opens a table whose header is known beforehand. */
-static corot_status open_with_header(const char *dir, const char *name, const char *header,
-                                     table **out) {
-  table *t = NULL;
-  COROT_TRY(table_open(dir, name, 1024, &t));
-  add_text(t, header);
-  corot_status status = end_row(t);
-  if (status != COROT_OK) {
-    table_close(t);
-    return status;
-  }
-  *out = t;
-  return COROT_OK;
-}
-
 corot_status energy_open(const char *dir, table **energy) {
-  return open_with_header(dir, "energy.csv", "t," ENERGY_COLUMNS, energy);
+  return open_with_header(dir, "energy.csv", "t," ENERGY_COLUMNS, ROW, energy);
 }
 
 static void add_energies(table *t, const ledger *row) {
@@ -243,7 +247,7 @@ corot_status history_row(table *history, const ledger *row, int nprobe, const in
 corot_status steps_open(const char *dir, table **steps) {
   return open_with_header(dir, "steps.csv",
                           "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy,reason",
-                          steps);
+                          ROW, steps);
 }
 
 const char *const frame_reason_words[FRAME_REASONS] = {

@@ -1,6 +1,7 @@
 /* Forces, derivatives, matrices and energy of a hierarchical model from those of its parts. */
 #include "core/kernel.h"
 #include "core/levels.h"
+#include "core/trial.h"
 
 /* What a part's evaluation returned; its inverted tet is named by level, and remembered as its
    first descendant. */
@@ -95,11 +96,11 @@ static corot_status coarse_force(const corot_model *m, corot_state *s, double t)
   const level_fields *f = &ls->on_coarse;
   int n = l->coarse->ndof;
   if (l->same) return COROT_OK;
-  corot_status status = corot_residual(l->coarse, ls->coarse, t, f->u, f->v, ls->r);
+  corot_status status = corot_residual_trial(l->coarse, ls->coarse, t, f->u, f->v, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->coarse, status));
   add_scaled(n, 1, ls->r, f->sum);
   if (one_way(m)) return COROT_OK;
-  status = corot_residual(l->linear, ls->linear, t, f->u, f->v, ls->r);
+  status = corot_residual_trial(l->linear, ls->linear, t, f->u, f->v, ls->r);
   COROT_TRY(part_status(l, s, 0, ls->linear, status));
   add_scaled(n, -1, ls->r, f->sum);
   return COROT_OK;

@@ -3,6 +3,7 @@
 
 #include "core/kernel.h"
 #include "core/levels.h"
+#include "core/trial.h"
 
 /* Adds to s->r the element forces of nodes first to last - 1, each node's own in the order of the
    tets. Returns the sum of these r, which is finite only if they are. */
@@ -67,8 +68,8 @@ static void external_derivative(const corot_model *m, const corot_state *s, doub
   corot_loads_derivative(m, &now, (const double(*)[4])s->u, (const double(*)[4])s->du, f);
 }
 
-corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
-                            const double *v, double *r) {
+corot_status corot_residual_trial(const corot_model *m, corot_state *s, double t, const double *u,
+                                  const double *v, double *r) {
   corot_state_displace(m, s, t, u);
   bool damped = m->damped && !s->still;
   if (damped) corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
@@ -81,14 +82,53 @@ corot_status corot_residual(const corot_model *m, corot_state *s, double t, cons
   return COROT_OK;
 }
 
+/* The first component of x [n] that is not a number; -1: all are. */
+static int find_nan(int n, const double *x) {
+  int any = 0;
+  for (int i = 0; i < n; i++) any |= x[i] != x[i];
+  for (int i = 0; any && i < n; i++)
+    if (x[i] != x[i]) return i;
+  return -1;
+}
+
+static corot_status refuse_nan(const corot_model *m, char name, int dof) {
+  for (int n = 0; n < m->mesh->nnode; n++)
+    for (int c = 0; c < 3; c++)
+      if (m->dof[n][c] == dof)
+        return corot_fail(COROT_EINVAL, "%c[%d], the %c component at node %d, is not a number",
+                          name, dof, "xyz"[c], n);
+  return corot_fail(COROT_EINVAL, "%c[%d] is not a number", name, dof);
+}
+
+/* The status of an evaluation, of which NaN is the more telling reason to fail. It is looked for
+   where it must have led to a failure, or where it passes through. */
+static corot_status blame_nan(const corot_model *m, const double *u, const double *v,
+                              corot_status status) {
+  int at = status ? find_nan(m->ndof, u) : -1;
+  if (at >= 0) return refuse_nan(m, 'u', at);
+  at = v ? find_nan(m->ndof, v) : -1;
+  return at >= 0 ? refuse_nan(m, 'v', at) : status;
+}
+
+corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
+                            const double *v, double *r) {
+  corot_status status = corot_residual_trial(m, s, t, u, v, r);
+  return status ? blame_nan(m, u, s->still ? NULL : v, status) : COROT_OK;
+}
+
 corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
                        double *ydot) {
+  return blame_nan(m, y, y + m->ndof, corot_rhs_trial(m, s, t, y, ydot));
+}
+
+corot_status corot_rhs_trial(const corot_model *m, corot_state *s, double t, const double *y,
+                             double *ydot) {
   int n = m->ndof;
   if (m->mass_pair)
     return corot_fail(COROT_EINVAL,
                       "the right-hand side takes a factor of the consistent mass: "
                       "use corot_residual and corot_mass_solve");
-  COROT_TRY(corot_residual(m, s, t, y, y + n, ydot + n));
+  COROT_TRY(corot_residual_trial(m, s, t, y, y + n, ydot + n));
   memcpy(ydot, y + n, n * sizeof *ydot);
   for (int i = 0; i < n; i++) ydot[n + i] *= m->inverse_mass[i];
   return COROT_OK;

@@ -1,8 +1,11 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <app/cli.h>
@@ -30,9 +33,14 @@ static const char help[] =
     "\n"
     "  corot COMMAND --help, corot --version\n"
     "\n"
-    "Data goes to stdout, messages to stderr. Exit codes: 0 ok, 1 a check failed, 2 usage,\n"
-    "3 bad scenario or mesh, 4 the integrator gave up, 5 input or output, 130 and 143 "
-    "interrupted.\n"
+    "Data goes to stdout, messages to stderr. Exit codes:\n"
+    "\n"
+    "  0  ok                              4  the integrator gave up, or found no equilibrium\n"
+    "  1  finished, but a check failed,   5  the system refused memory, reading or writing, or\n"
+    "     or some runs did                   there are no results in a folder\n"
+    "  2  the command line makes no sense\n"
+    "  3  a scenario, study or mesh is bad or missing\n"
+    "  128 + N  interrupted by signal N, after writing what there was (130: Ctrl-C, 143: kill)\n"
     "\n"
     "example: corot run models/bar/bar.yaml -o out/bar --set integrator.rtol=1e-6\n";
 
@@ -48,6 +56,29 @@ static void hold_standard_streams(void) {
     if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDONLY) != fd) _exit(5);
 }
 
+static bool is_limited(void) {
+  struct rlimit limit;
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+/* Where address space is limited, each thread takes a large part of it; OpenBLAS waits for ever for
+   those it cannot start, and OpenMP, of which CHOLMOD asks for four, ends the program with exit
+   code
+   1. Both read how many they may have before main. */
+static void keep_to_one_thread(char **argv) {
+  if (!is_limited() || (getenv("OPENBLAS_NUM_THREADS") && getenv("OMP_THREAD_LIMIT"))) return;
+  setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  setenv("OMP_THREAD_LIMIT", "1", 0);
+  execv("/proc/self/exe", argv); /* where that fails, it goes on as it is */
+}
+
+/* OpenBLAS may wait for ever in its exit handler for threads that had no room to start. */
+static void leave_at_once_if_limited(int code) {
+  if (!is_limited()) return;
+  fflush(NULL);
+  _exit(code);
+}
+
 int main(int argc, char **argv) {
   static const command table[] = {
       {"run", command_run},     {"static", command_static},   {"check", command_check},
@@ -56,11 +87,14 @@ int main(int argc, char **argv) {
       {"mesh", command_mesh},   {"--version", print_version}, {0},
   };
   hold_standard_streams();
+  keep_to_one_thread(argv);
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
   int code = dispatch("corot", help, table, argc, argv);
   if (fflush(stdout) != 0 || ferror(stdout)) {
     fprintf(stderr, "corot: standard output: %s\n", strerror(errno));
     if (code == EXIT_OK) code = EXIT_SYSTEM;
   }
+  if (ferror(stderr) && code == EXIT_OK) code = EXIT_SYSTEM; /* with nobody to tell */
+  leave_at_once_if_limited(code);
   return code;
 }

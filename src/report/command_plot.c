@@ -6,6 +6,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "precision.h"
+#include "say.h"
 #include "suggest.h"
 
 static const char help[] =
@@ -74,8 +75,8 @@ static void tell(const study_table *t, int error) {
   for (int i = 0; i < t->ncell; i++) {
     const study_cell *c = &t->cell[i];
     if (study_cell_rated(c, error)) continue;
-    fprintf(stderr, "no point: %s, tolerance %g: %s%s%s\n", t->series[c->series], c->tolerance,
-            word[c->status], *c->reason ? ": " : "", c->reason);
+    say("no point: %s, tolerance %g: %s%s%s\n", t->series[c->series], c->tolerance, word[c->status],
+        *c->reason ? ": " : "", c->reason);
   }
 }
 
@@ -93,7 +94,7 @@ static int plot(const char *dir, const wish *w, const study_table *t) {
   corot_status status = precision_write(&p, base);
   if (status == COROT_OK) {
     tell(t, error);
-    printf("%s.svg\n%s.csv\n%s.gp\n%s.py\n", base, base, base, base);
+    show("%s.svg\n%s.csv\n%s.gp\n%s.py\n", base, base, base, base);
   }
   free(base);
   return status == COROT_OK ? EXIT_OK : failure(status);

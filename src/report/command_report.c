@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "folder.h"
 #include "report.h"
+#include "say.h"
 
 static const char help[] =
     "usage: corot report DIR [-o FILE.html]\n"
@@ -37,7 +38,7 @@ int command_report(int argc, char **argv) {
   char *path = output ? NULL : folder_path(argv[optind], "report.html");
   if (!output && !path) return failure(COROT_ENOMEM);
   corot_status status = report_write(argv[optind], output ? output : path);
-  if (status == COROT_OK) puts(output ? output : path);
+  if (status == COROT_OK) show("%s\n", output ? output : path);
   free(path);
   return status == COROT_OK ? EXIT_OK : failure(status);
 }

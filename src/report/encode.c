@@ -1,14 +1,13 @@
 #include "encode.h"
 
+#include <app/escape.h>
 #include <math.h>
 #include <string.h>
-
-#include "markup.h"
 
 void encode_text(const char *text, FILE *out) {
   fputc('"', out);
   for (const char *s = text ? text : ""; *s;) {
-    int length = markup_character(s);
+    int length = escape_character(s);
     if (!length)
       fputc('?', out);
     else if (length == 1 && strchr("<>&\"'\\\t\n", *s))

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "folder.h"
+#include "json_text.h"
 
 const json_t *lookup(const json_t *at, const char *path) {
   while (at && *path) {
@@ -31,9 +32,14 @@ const char *lookup_text(const json_t *document, const char *path) {
 
 static corot_status load(const char *path, json_t **document) {
   json_error_t where;
+  json_text_starved(); /* from here on */
   json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &where);
   if (!root && json_error_code(&where) == json_error_cannot_open_file)
     return corot_fail(COROT_EIO, "%s: %s", path, strerror(errno));
+  if (json_text_starved()) {
+    json_decref(root);
+    return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  }
   if (!root)
     return corot_fail(COROT_EFORMAT, "%s:%d:%d: %s", path, where.line, where.column, where.text);
   if (!json_is_object(root)) {

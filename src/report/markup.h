@@ -1,4 +1,4 @@
-/* Text for SVG and HTML. */
+/* Text for SVG and HTML, by way of app/escape.h. */
 #ifndef COROT_REPORT_MARKUP_H
 #define COROT_REPORT_MARKUP_H
 
@@ -11,9 +11,6 @@ void markup_text(FILE *out, const char *text);
 
 /* The same of at most `most` characters, of which the last is then an ellipsis. */
 void markup_text_cut(FILE *out, const char *text, int most);
-
-/* Length in bytes of the character at `text`; 0 where there is none that XML could hold. */
-int markup_character(const char *text);
 
 /* Characters, not bytes. */
 int markup_length(const char *text);

@@ -1,5 +1,6 @@
 #include "precision.h"
 
+#include <app/escape.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,17 +76,6 @@ static corot_status draw(const precision *p, const points *all, const char *path
   return save_text(path, write_svg, &c);
 }
 
-/* A cell of text, in quotes where it would break the table. */
-static void csv_text(const char *text, FILE *out) {
-  bool quote = strpbrk(text, ",\"\r\n") != NULL;
-  if (quote) fputc('"', out);
-  for (; *text; text++) {
-    if (*text == '"') fputc('"', out);
-    fputc(*text, out);
-  }
-  if (quote) fputc('"', out);
-}
-
 static void csv_number(double x, FILE *out) {
   if (isfinite(x)) fprintf(out, "%.17g", x);
 }
@@ -100,15 +90,15 @@ static corot_status write_csv(const void *what, FILE *out) {
     const study_cell *c = &t->cell[i];
     const double value[] = {c->tolerance, c->cost[p->cost], c->error[p->error]};
     fprintf(out, "%d,", c->series);
-    csv_text(t->series[c->series], out);
+    escape_csv(t->series[c->series], out);
     for (int k = 0; k < 3; k++) fputc(',', out), csv_number(value[k], out);
     bool below = c->status == STUDY_DONE && c->unrated[p->error];
     fprintf(out, ",%s,", below ? "below-floor" : status[c->status]);
     csv_number(c->low[p->cost], out), fputc(',', out);
     csv_number(c->high[p->cost], out), fputc(',', out);
     csv_number(t->floor[p->error], out), fputc(',', out);
-    csv_text(c->id, out), fputc(',', out);
-    csv_text(c->reason, out), fputc('\n', out);
+    escape_csv(c->id, out), fputc(',', out);
+    escape_csv(c->reason, out), fputc('\n', out);
   }
   return COROT_OK;
 }

@@ -1,25 +1,7 @@
 #include "precision_scripts.h"
 
+#include <app/escape.h>
 #include <math.h>
-
-/* Text between single quotes: gnuplot doubles those inside; a line break would end the command. */
-static void gnuplot_text(const char *text, FILE *out) {
-  fputc('\'', out);
-  for (; *text; text++) {
-    if (*text == '\'') fputc('\'', out);
-    fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
-  }
-  fputc('\'', out);
-}
-
-static void python_text(const char *text, FILE *out) {
-  fputc('"', out);
-  for (; *text; text++) {
-    if (*text == '"' || *text == '\\') fputc('\\', out);
-    fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
-  }
-  fputc('"', out);
-}
 
 corot_status precision_gnuplot(const void *what, FILE *out) {
   const precision_script *s = what;
@@ -31,9 +13,9 @@ corot_status precision_gnuplot(const void *what, FILE *out) {
       "#   gnuplot -e \"output='figure.svg'\" FILE\n"
       "if (!exists('output')) output = ",
       out);
-  gnuplot_text(s->name, out);
+  escape_gnuplot(s->name, out);
   fputs(".'-gnuplot.svg'\ncsv = ", out);
-  gnuplot_text(s->name, out);
+  escape_gnuplot(s->name, out);
   fputs(
       ".'.csv'\n"
       "set terminal svg size 720,560 font 'sans,13' background 'white' noenhanced\n"
@@ -45,19 +27,19 @@ corot_status precision_gnuplot(const void *what, FILE *out) {
       "set key below maxcols 3\n"
       "set title ",
       out);
-  gnuplot_text(t->title, out);
+  escape_gnuplot(t->title, out);
   fputs("\nset xlabel ", out);
-  gnuplot_text(study_cost_label[s->diagram->cost], out);
+  escape_gnuplot(study_cost_label[s->diagram->cost], out);
   study_error_label(t->error_name[error], sizeof label, label);
   fputs("\nset ylabel ", out);
-  gnuplot_text(label, out);
+  escape_gnuplot(label, out);
   fputs("\nrated(series, x) = $1 == series && strcol(6) eq 'rated' ? x : NaN\n", out);
   if (isfinite(t->floor[error]))
     fprintf(out, "floor = %.17g\n", STUDY_FLOOR_FACTOR * t->floor[error]);
   fputs("plot \\\n", out);
   for (int k = 0; k < t->nseries; k++) {
     fprintf(out, "  csv using (rated(%d, $4)):5 with linespoints title ", k);
-    gnuplot_text(t->series[k], out);
+    escape_gnuplot(t->series[k], out);
     fputs(k + 1 < t->nseries ? ", \\\n" : "", out);
   }
   if (isfinite(t->floor[error]))
@@ -77,7 +59,7 @@ corot_status precision_matplotlib(const void *what, FILE *out) {
       "import matplotlib\nmatplotlib.use(\"Agg\")\nimport matplotlib.pyplot as plt\n\n"
       "here = pathlib.Path(__file__).parent\nname = ",
       out);
-  python_text(s->name, out);
+  escape_python(s->name, out);
   fputs(
       "\nseries = {}\n"
       "with open(here / (name + \".csv\"), newline=\"\") as table:\n"
@@ -99,12 +81,12 @@ corot_status precision_matplotlib(const void *what, FILE *out) {
     fprintf(out, "axes.axhline(%.17g, color=\"gray\", linestyle=\"dashed\", label=\"floor\")\n",
             floor);
   fputs("axes.set_title(", out);
-  python_text(t->title, out);
+  escape_python(t->title, out);
   fputs(")\naxes.set_xlabel(", out);
-  python_text(study_cost_label[s->diagram->cost], out);
+  escape_python(study_cost_label[s->diagram->cost], out);
   study_error_label(t->error_name[s->diagram->error], sizeof label, label);
   fputs(")\naxes.set_ylabel(", out);
-  python_text(label, out);
+  escape_python(label, out);
   fputs(
       ")\naxes.grid(True, which=\"both\", alpha=0.3)\naxes.legend(fontsize=\"small\")\n"
       "figure.savefig(sys.argv[1] if len(sys.argv) > 1 else here / (name + \"-matplotlib.pdf\"))\n",

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/trial.h"
 #include "solve/clock.h"
 #include "solve/fixed.h"
 
@@ -22,7 +23,7 @@ static corot_status evaluate(corot_integrator *self, const stage *g, double *nor
     f->apart[i] = f->trial[i] - f->W[i];
   }
   corot_mass_multiply(self->model, f->apart, f->inertia);
-  corot_status status = corot_residual(self->model, self->state, g->t, u, v, f->G);
+  corot_status status = corot_residual_trial(self->model, self->state, g->t, u, v, f->G);
   for (int i = 0; i < f->n; i++) {
     f->G[i] = g->s * f->inertia[i] - g->k * f->G[i];
     sum += f->G[i] * f->G[i] / f->lumped[i];

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <suitesparse/cholmod.h>
 
+#include "solve/blas_room.h"
 #include "solve/linsol.h"
 
 typedef struct cholesky {
@@ -58,6 +59,7 @@ static bool analyze(cholesky *c, int *order) {
 
 static corot_status cholesky_create(const corot_csc *pattern, const linsol_plan *plan,
                                     void **solver) {
+  if (strcmp(plan->def.factor, "supernodal") == 0) COROT_TRY(corot_blas_room());
   cholesky *c = calloc(1, sizeof *c);
   if (!c) return corot_fail(COROT_ENOMEM, "no memory for cholmod");
   c->pattern = pattern;

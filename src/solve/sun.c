@@ -10,6 +10,7 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
+#include "core/trial.h"
 #include "solve/clock.h"
 #include "solve/pencil.h"
 #include "solve/sun_status.h"
@@ -123,11 +124,11 @@ corot_status corot_rate(const corot_sun_data *data, double t, N_Vector y, N_Vect
   const double *u = N_VGetArrayPointer(y), *v = u + n;
   double *du = N_VGetArrayPointer(ydot), *dv = du + n;
   if (corot_model_mass_kind(data->model) == COROT_MASS_LUMPED)
-    return corot_rhs(data->model, data->state, t, u, du);
+    return corot_rhs_trial(data->model, data->state, t, u, du);
   if (!data->mass)
     return corot_fail(COROT_EINVAL,
                       "corot_sun_rhs: consistent mass needs a corot_mass_solver in corot_sun_data");
-  COROT_TRY(corot_residual(data->model, data->state, t, u, v, dv));
+  COROT_TRY(corot_residual_trial(data->model, data->state, t, u, v, dv));
   memcpy(du, v, n * sizeof *du);
   return corot_mass_solve(data->mass, dv, dv);
 }

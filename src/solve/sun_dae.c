@@ -7,6 +7,7 @@
    y' = f at gamma = g. M is only multiplied by, so a consistent one costs no solve. */
 #include <nvector/nvector_serial.h>
 
+#include "core/trial.h"
 #include "solve/clock.h"
 #include "solve/pencil.h"
 #include "solve/sun_status.h"
@@ -54,7 +55,7 @@ corot_status corot_defect(const corot_sun_data *data, double t, N_Vector y, N_Ve
   const double *ut = N_VGetArrayPointer(yp), *vt = ut + n;
   double *Fu = N_VGetArrayPointer(F), *Fv = Fu + n;
 
-  COROT_TRY(corot_residual(data->model, data->state, t, u, v, Fu)); /* r, for now */
+  COROT_TRY(corot_residual_trial(data->model, data->state, t, u, v, Fu)); /* r, for now */
   corot_mass_multiply(data->model, vt, Fv);
   for (int i = 0; i < n; i++) {
     Fv[i] -= Fu[i];

@@ -187,7 +187,7 @@ static json_t *runs_json(const budgeting *b) {
   json_t *list = json_array();
   for (int i = 0; i < b->nrun; i++) {
     const budget_run *run = &b->run[i];
-    json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:o, s:b}", "run", run->label, "id",
+    list = json_text_push(list, json_pack("{s:s, s:s, s:s, s:o, s:b}", "run", run->label, "id",
                                           b->manifest->run[run->at].id, "status", run->status,
                                           "cpu", json_text_real(run->cpu), "spare", run->spare));
   }

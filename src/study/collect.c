@@ -1,5 +1,6 @@
 #include "collect.h"
 
+#include <app/escape.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
 #include <app/warnings.h>
@@ -51,7 +52,7 @@ static corot_status look_reference(measuring *g, int index, table_reference *t) 
         measure_run(g, &g->m->run[r->run[1]], record[1].result, index, &t->floor, &ignored);
     t->known = measured == COROT_OK;
     status = note(measured, &t->note);
-    if (t->known) t->floor_json = errors_json(g->yardstick, &t->floor);
+    if (t->known && !(t->floor_json = errors_json(g->yardstick, &t->floor))) status = no_memory();
   }
   run_record_free(&record[0]);
   run_record_free(&record[1]);
@@ -76,7 +77,7 @@ static corot_status measure_cell(measuring *g, const table_reference *references
   t->measured = true;
   t->error_json = errors_json(g->yardstick, &t->error);
   t->unrated = errors_unrated(g->yardstick, &t->error, &r->floor);
-  return COROT_OK;
+  return t->error_json && t->unrated ? COROT_OK : no_memory();
 }
 
 static bool has_text(const json_t *list, const char *text) {
@@ -124,11 +125,11 @@ static corot_status look_cell(measuring *g, const table_reference *references, i
 
 static const char *const state_words[] = {"missing", "done", "failed"};
 
-static void set_pair(json_t *object, const char *name, const error_pair *e) {
+static json_t *set_pair(json_t *object, const char *name, const error_pair *e) {
   char end[160];
   snprintf(end, sizeof end, "%s_end", name);
-  json_object_set_new(object, name, json_text_real(e->max));
-  json_object_set_new(object, end, json_text_real(e->end));
+  object = json_text_with(object, name, json_text_real(e->max));
+  return json_text_with(object, end, json_text_real(e->end));
 }
 
 static void error_name(const yardstick *y, int i, size_t size, char *name) {
@@ -143,7 +144,7 @@ json_t *errors_json(const yardstick *y, const errors *e) {
   char name[128];
   for (int i = 0; i < e->n; i++) {
     error_name(y, i, sizeof name, name);
-    set_pair(object, name, &e->of[i]);
+    object = set_pair(object, name, &e->of[i]);
   }
   return object;
 }
@@ -154,7 +155,7 @@ json_t *errors_unrated(const yardstick *y, const errors *e, const errors *floor)
   for (int i = 0; i < e->n && i < floor->n; i++) {
     if (is_rated(&e->of[i], &floor->of[i], false)) continue;
     error_name(y, i, sizeof name, name);
-    json_array_append_new(list, json_string(name));
+    list = json_text_push(list, json_string(name));
   }
   return list;
 }
@@ -219,22 +220,22 @@ static json_t *series_json(const table_rows *t) {
   json_t *list = json_array();
   for (int i = 0; i < t->n; i++)
     if (i == 0 || strcmp(t->row[i].cell->series, t->row[i - 1].cell->series) != 0)
-      json_array_append_new(list, json_string(t->row[i].cell->series));
+      list = json_text_push(list, json_string(t->row[i].cell->series));
   return list;
 }
 
 static json_t *columns_json(const manifest *m) {
   json_t *list = json_array();
-  for (int i = 0; i < m->ncolumn; i++) json_array_append_new(list, json_string(m->column[i]));
+  for (int i = 0; i < m->ncolumn; i++) list = json_text_push(list, json_string(m->column[i]));
   return list;
 }
 
 static corot_status make_table(const manifest *m, const table_rows *t, json_t *space,
                                json_t **out) {
   json_t *cells = json_array(), *references = json_array();
-  for (int i = 0; i < t->n; i++) json_array_append_new(cells, cell_json(t, &t->row[i]));
+  for (int i = 0; i < t->n; i++) cells = json_text_push(cells, cell_json(t, &t->row[i]));
   for (int i = 0; i < m->nreference; i++)
-    json_array_append_new(references, reference_json(m, &t->reference[i]));
+    references = json_text_push(references, reference_json(m, &t->reference[i]));
   bool whole =
       (int)json_array_size(cells) == t->n && (int)json_array_size(references) == m->nreference;
   json_t *table = json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}", "title",
@@ -329,8 +330,11 @@ static void warn(const json_t *table, FILE *out) {
   int nbelow = 0;
   for (size_t i = 0; i < json_array_size(references); i++) {
     const json_t *r = json_array_get(references, i);
-    if (!json_is_true(json_object_get(r, "agree")))
-      fprintf(out, "reference %zu: %s\n", i, json_string_value(json_object_get(r, "note")));
+    if (!json_is_true(json_object_get(r, "agree"))) {
+      fprintf(out, "reference %zu: ", i);
+      escape_terminal(json_string_value(json_object_get(r, "note")), out);
+      fputc('\n', out);
+    }
   }
   for (size_t i = 0; i < json_array_size(cells); i++)
     nbelow += json_is_true(json_object_get(json_array_get(cells, i), "below_floor"));
@@ -342,6 +346,7 @@ static void warn(const json_t *table, FILE *out) {
 
 corot_status collect_study(const manifest *m, const char *dir, FILE *remarks) {
   json_t *table = NULL;
+  json_text_starved(); /* an earlier lack of memory is none of this table */
   COROT_TRY(collect_table(m, dir, &table));
   corot_status status = json_file_write(dir, "table.json", table);
   if (status == COROT_OK) status = table_write_csv(table, dir);

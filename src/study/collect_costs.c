@@ -41,12 +41,11 @@ json_t *costs_json(const costs *c) {
   for (int i = 0; i < NNAMED; i++) {
     double value = at_offset(c, named[i].offset);
     bool count = i >= 6;
-    json_object_set_new(
+    json = json_text_with(
         json, named[i].name,
         count && isfinite(value) ? json_integer((json_int_t)value) : json_text_real(value));
   }
-  json_object_set_new(json, "repeats", json_integer(c->repeats));
-  return json;
+  return json_text_with(json, "repeats", json_integer(c->repeats));
 }
 
 static int by_value(const void *a, const void *b) {

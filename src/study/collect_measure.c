@@ -1,5 +1,6 @@
 /* Trajectories from the folders of runs, and the model they belong to. */
 #include <app/hash.h>
+#include <app/json_text.h>
 #include <app/no_memory.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,8 +31,10 @@ static corot_status check_mesh(const yardstick *y, const json_t *result) {
 
 /* The scenario as the run recorded it; its files are found from the base. */
 static corot_status read_scenario(const manifest *m, const json_t *result, scenario **out) {
-  char *text = json_dumps(json_object_get(result, "scenario"), JSON_REAL_PRECISION(17));
-  if (!text) return corot_fail(COROT_EFORMAT, "its result has no scenario");
+  const json_t *said = json_object_get(result, "scenario");
+  if (!said) return corot_fail(COROT_EFORMAT, "its result has no scenario");
+  char *text = json_text_dump(said, JSON_REAL_PRECISION(17));
+  if (!text) return no_memory();
   corot_status status = scenario_read_text(m->base, text, strlen(text), 0, NULL, out);
   free(text);
   return status;

@@ -53,7 +53,7 @@ json_t *collect_fits(const table_rows *t) {
     }
     if (!t->row[i].cell->tolerance_key) continue;
     power_fit f = fit_power(n, tolerance, error);
-    json_array_append_new(list, fit_json(&t->row[i], &f));
+    list = json_text_push(list, fit_json(&t->row[i], &f));
   }
   free(tolerance);
   return list;
@@ -99,12 +99,12 @@ static json_t *ranking(const table_rows *t, double target, ranked *best) {
     const table_row *r = cheapest(t, i, next, target);
     if (r) best[n++] = (ranked){r, cost_named(&r->cost, t->cost)};
   }
-  if (n == 0) return NULL;
+  if (n == 0) return json_null();
   qsort(best, n, sizeof *best, by_cost);
   json_t *list = json_array();
   for (size_t i = 0; i < n; i++) {
     const study_cell *c = best[i].row->cell;
-    json_array_append_new(
+    list = json_text_push(
         list, json_pack("{s:s, s:s, s:o, s:o, s:s?}", "series", c->series, "id",
                         best[i].row->run->id, "cost", json_text_real(best[i].cost), "tolerance",
                         json_text_real(c->tolerance), "tolerance_key", c->tolerance_key));
@@ -118,7 +118,7 @@ json_t *collect_rankings(const table_rows *t) {
   json_t *list = best ? json_array() : NULL;
   for (size_t i = 0; list && i < sizeof target / sizeof *target; i++) {
     json_t *entry = ranking(t, target[i], best);
-    if (entry) json_array_append_new(list, entry);
+    if (!json_is_null(entry)) list = json_text_push(list, entry);
   }
   free(best);
   return list;

@@ -43,6 +43,7 @@ static const char help[] =
     "                       the part is at least so large; 3, in any case; default: 3 where it\n"
     "                       takes minutes rather than hours\n"
     "  -j, --jobs N         so many runs at once; default: the number of processors\n"
+    "      --timeout S      ends a run that takes longer than S seconds\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           budget.json on stdout in place of the table\n"
     "\n"
@@ -101,11 +102,11 @@ static int make_budget(void *context, const scenario *s, const variants_argument
   if (signal_number) return variants_interrupted(signal_number);
   int code = complete(budget);
   if (a->json)
-    json_text_write(budget, stdout);
+    status = json_text_show(budget);
   else
     budget_print(budget, stdout);
   json_decref(budget);
-  status = study_page(a->options.dir, a->options.quiet);
+  if (status == COROT_OK) status = study_page(a->options.dir, a->options.quiet);
   return status == COROT_OK ? code : failure(status);
 }
 

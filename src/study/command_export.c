@@ -56,7 +56,7 @@ static corot_status write_runs(const manifest *m, const char *path, const char *
   char *folder = realpath(dir, NULL);
   corot_status status = COROT_OK;
   if (program && study_path && folder)
-    write(m, &(export_target){program, study_path, folder}, stdout);
+    status = write(m, &(export_target){program, study_path, folder}, stdout);
   else
     status = corot_fail(COROT_EIO, "%s: its absolute name cannot be found", path);
   free(program);

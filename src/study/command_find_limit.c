@@ -6,6 +6,7 @@
 #include <app/cli.h>
 #include <app/json_text.h>
 #include <app/read_csv.h>
+#include <app/say.h>
 
 #include "command_study.h"
 #include "json_file.h"
@@ -32,6 +33,7 @@ static const char help[] =
     "  -o, --output DIR     a folder for each run, and limit.json; default: out/MODEL-limit\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
     "  -j, --jobs N         so many runs at once; default: the number of processors\n"
+    "      --timeout S      ends a run that takes longer than S seconds\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           limit.json on stdout in place of the table\n"
     "\n"
@@ -181,7 +183,7 @@ static json_t *result_json(const search *s, const limit_result *r) {
   json_t *trials = json_array();
   for (int i = 0; i < r->ntrial; i++) {
     const limit_trial *t = &r->trial[i];
-    json_array_append_new(
+    trials = json_text_push(
         trials, json_pack("{s:f, s:b, s:o}", "value", t->value, "stable", t->stable, "reason",
                           *t->reason ? json_text_string(t->reason) : json_null()));
   }
@@ -194,16 +196,16 @@ static json_t *result_json(const search *s, const limit_result *r) {
 
 static void print_result(const search *s, const limit_result *r) {
   for (int i = 0; i < r->ntrial; i++)
-    printf("%12.6g  %s%s\n", r->trial[i].value,
-           r->trial[i].stable ? "stable" : "unstable: ", r->trial[i].reason);
+    show("%12.6g  %s%s\n", r->trial[i].value,
+         r->trial[i].stable ? "stable" : "unstable: ", r->trial[i].reason);
   if (r->stable == 0)
-    printf("%s: not even %g is stable\n", s->key, r->unstable);
+    show("%s: not even %g is stable\n", s->key, r->unstable);
   else if (isinf(r->unstable))
-    printf("%s: stable up to %g, the largest that was tried\n", s->key, r->stable);
+    show("%s: stable up to %g, the largest that was tried\n", s->key, r->stable);
   else
-    printf("%s: stable up to %.4g, unstable from %.4g on\n", s->key, r->stable, r->unstable);
+    show("%s: stable up to %.4g, unstable from %.4g on\n", s->key, r->stable, r->unstable);
   if (r->nreturn > 0)
-    printf("%d larger values are stable again: this limit is not the only one\n", r->nreturn);
+    show("%d larger values are stable again: this limit is not the only one\n", r->nreturn);
 }
 
 static int conclude(const search *s, const limit_result *r) {
@@ -211,7 +213,7 @@ static int conclude(const search *s, const limit_result *r) {
   corot_status status = found ? json_file_write(s->arguments->options.dir, "limit.json", found)
                               : corot_fail(COROT_ENOMEM, "out of memory");
   if (status == COROT_OK && s->arguments->json)
-    json_text_write(found, stdout);
+    status = json_text_show(found);
   else if (status == COROT_OK)
     print_result(s, r);
   json_decref(found);

@@ -1,7 +1,9 @@
 #include "command_folder.h"
 
 #include <app/cli.h>
+#include <app/escape.h>
 #include <app/folder.h>
+#include <app/say.h>
 #include <app/suggest.h>
 #include <errno.h>
 #include <stdio.h>
@@ -31,6 +33,7 @@ int command_study_status(int argc, char **argv) {
   const char *dir = NULL;
   int code = only_folder("status", argc, argv, &dir), count[3] = {0};
   if (code >= 0) return code;
+  char title[200];
   manifest *m = NULL;
   corot_status status = manifest_read(dir, &m);
   for (int i = 0; status == COROT_OK && i < m->nrun; i++) {
@@ -38,15 +41,18 @@ int command_study_status(int argc, char **argv) {
     status = store_look(dir, &m->run[i], &record);
     if (status != COROT_OK) break;
     count[record.state]++;
-    if (record.state == RUN_FAILED) printf("%s failed: %s\n", m->run[i].id, record.reason);
+    if (record.state == RUN_FAILED) show("%s failed: %s\n", m->run[i].id, record.reason);
+    if (record.state == RUN_MISSING && record.reason)
+      show("%s to be tried again: %s\n", m->run[i].id, record.reason);
     run_record_free(&record);
   }
   if (status == COROT_OK)
-    printf("%s: %d cells, %d runs: %d done, %d failed, %d missing\n", m->title, m->ncell, m->nrun,
-           count[RUN_DONE], count[RUN_FAILED], count[RUN_MISSING]);
+    show("%s: %d cells, %d runs: %d done, %d failed, %d missing\n",
+         escape_line_cut(m->title, sizeof title, title), m->ncell, m->nrun, count[RUN_DONE],
+         count[RUN_FAILED], count[RUN_MISSING]);
   if (status == COROT_OK && strcmp(m->version, corot_version()) != 0)
-    printf("runs by corot %s; this is %s, and would do all of them again\n", m->version,
-           corot_version());
+    show("runs by corot %s; this is %s, and would do all of them again\n", m->version,
+         corot_version());
   manifest_destroy(m);
   return status == COROT_OK ? EXIT_OK : failure(status);
 }
@@ -68,6 +74,8 @@ int command_study_collect(int argc, char **argv) {
   return status == COROT_OK ? EXIT_OK : failure(status);
 }
 
+static corot_status write_table(const void *table, FILE *out) { return table_print(table, out); }
+
 int command_study_table(int argc, char **argv) {
   const char *dir = NULL;
   int code = only_folder("table", argc, argv, &dir);
@@ -76,7 +84,7 @@ int command_study_table(int argc, char **argv) {
   json_t *table = NULL;
   corot_status status = path ? json_file_read(path, &table) : COROT_ENOMEM;
   free(path);
-  if (status == COROT_OK) status = table_print(table, stdout);
+  if (status == COROT_OK) status = show_all(write_table, table);
   json_decref(table);
   return status == COROT_OK ? EXIT_OK : failure(status);
 }

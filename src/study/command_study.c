@@ -1,7 +1,9 @@
 #include "command_study.h"
 
 #include <app/cli.h>
+#include <app/escape.h>
 #include <app/folder.h>
+#include <app/say.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,6 +35,7 @@ static const char help[] =
     "                      all must have the same N\n"
     "      --dry-run       lists the runs and what has become of them; runs nothing\n"
     "      --retry-failed  those that failed before, again\n"
+    "      --timeout S     ends a run that takes longer than S seconds; it counts as failed\n"
     "  -q, --quiet         nothing on stderr but errors\n"
     "\n"
     "  status DIR          how far a study is\n"
@@ -53,16 +56,24 @@ static const char help[] =
     "    - {key: integrator.rtol, log: {from: 1e-2, to: 1e-6, per_decade: 1}}\n"
     "  repeat: 3\n"
     "\n"
-    "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 input or\n"
-    "output, 130 and 143 interrupted.\n"
+    "A run that lacked memory or disk is tried again at the end, alone, twice at the most.\n"
+    "\n"
+    "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 no memory, "
+    "or\n"
+    "reading or writing failed, 128 + N interrupted by signal N (130: Ctrl-C, 143: kill).\n"
     "\n"
     "example: corot study models/studies/integrators.yaml -o out/integrators -j 8\n";
 
 static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'}, {"jobs", required_argument, NULL, 'j'},
-    {"shard", required_argument, NULL, 's'},  {"dry-run", no_argument, NULL, 'd'},
-    {"retry-failed", no_argument, NULL, 'r'}, {"quiet", no_argument, NULL, 'q'},
-    {"help", no_argument, NULL, 'h'},         {0},
+    {"output", required_argument, NULL, 'o'},
+    {"jobs", required_argument, NULL, 'j'},
+    {"shard", required_argument, NULL, 's'},
+    {"dry-run", no_argument, NULL, 'd'},
+    {"retry-failed", no_argument, NULL, 'r'},
+    {"quiet", no_argument, NULL, 'q'},
+    {"timeout", required_argument, NULL, 't'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
 
 /* --- What the arguments say --- */
@@ -94,6 +105,9 @@ static int take_option(int answer, char **argv, arguments *a) {
     case 's':
       if (parse_shard(optarg, &a->o.shard, &a->o.nshard)) return -1;
       return usage_error("corot study", "--shard %s: expected I/N, such as 1/4", optarg);
+    case 't':
+      if (parse_seconds(optarg, &a->o.timeout)) return -1;
+      return usage_error("corot study", "--timeout %s: expected seconds > 0", optarg);
     case 'd':
       a->dry = true;
       return -1;
@@ -113,10 +127,14 @@ static int take_option(int answer, char **argv, arguments *a) {
 
 /* --- Running --- */
 
+enum { TITLE = 200 }; /* bytes of it that a message shows */
+
 static void announce(const manifest *m, const execute_options *o) {
   int nown = 0; /* runs are numbered as cells first need them */
   for (int i = 0; i < m->ncell; i++) nown += m->cell[i].run == nown;
-  fprintf(stderr, "%s: %d cells, %d runs; %s\n", m->title, m->ncell, m->nrun, o->dir);
+  char title[TITLE];
+  say("%s: %d cells, %d runs; %s\n", escape_line_cut(m->title, sizeof title, title), m->ncell,
+      m->nrun, o->dir);
   if (nown < m->ncell)
     fprintf(stderr, "%d cells are the same run as another; each run is made once\n",
             m->ncell - nown);
@@ -124,8 +142,8 @@ static void announce(const manifest *m, const execute_options *o) {
 
 static int conclude(const execute_options *o, const execute_totals *t, int signal_number) {
   if (!o->quiet || t->nfailed + t->nlost > 0)
-    fprintf(stderr, "%s: %d of %d runs done (%d now), %d failed\n", o->dir, t->ndone, t->nrun,
-            t->nnew, t->nfailed);
+    say("%s: %d of %d runs done (%d now), %d failed\n", o->dir, t->ndone, t->nrun, t->nnew,
+        t->nfailed);
   if (signal_number) {
     fputs("interrupted; the same command goes on from here\n", stderr);
     return 128 + signal_number;
@@ -143,8 +161,8 @@ static void tell_version(const char *dir) {
   manifest *before = NULL;
   if (manifest_read(dir, &before) != COROT_OK) return;
   if (strcmp(before->version, corot_version()) != 0)
-    fprintf(stderr, "%s: made by corot %s; this is %s, and does all of it again\n", dir,
-            before->version, corot_version());
+    say("%s: made by corot %s; this is %s, and does all of it again\n", dir, before->version,
+        corot_version());
   manifest_destroy(before);
 }
 
@@ -160,7 +178,7 @@ static int execute_here(const manifest *m, const execute_options *o) {
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
     status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
-    if (status == COROT_OK && !o->quiet) fprintf(stderr, "corot study table %s\n", o->dir);
+    if (status == COROT_OK && !o->quiet) say("corot study table %s\n", o->dir);
     if (status == COROT_OK) status = study_page(o->dir, o->quiet);
     if (status != COROT_OK) code = failure(status);
   }

@@ -2,6 +2,7 @@
 
 #include <app/clock.h>
 #include <app/no_memory.h>
+#include <app/say.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,6 +18,8 @@ execute_options execute_defaults(void) {
   int njob = processors < 1 ? 1 : processors > POOL_MAX ? POOL_MAX : (int)processors;
   return (execute_options){.njob = njob, .shard = 1, .nshard = 1, .progress = true};
 }
+
+enum { MOST_RETRIES = 2 }; /* of one run, before the next call of the program */
 
 /* --- What there is to do --- */
 
@@ -74,7 +77,7 @@ static void tell_failure(execution *e, const task *t, const char *reason) {
   enum { MOST = 8 };
   if (e->ntold >= MOST || e->o->expects_failures) return;
   clear_progress(e);
-  fprintf(stderr, "%s/runs/%s: %s\n", e->o->dir, t->run->id, reason);
+  say("%s/runs/%s: %s\n", e->o->dir, t->run->id, reason);
   if (++e->ntold == MOST) fputs("(further failures are recorded, but not shown)\n", stderr);
 }
 
@@ -99,7 +102,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
       argv[n++] = run->set[k];
     }
     if (more) argv[n++] = "--set", argv[n++] = more;
-    status = pool_start(i, argv, messages);
+    status = pool_start(i, argv, messages, e->o->timeout);
   }
   free(argv);
   free(messages);
@@ -121,10 +124,14 @@ static void read_messages(const char *path, size_t size, char *text) {
 }
 
 /* Why a run has left no result. */
-static void explain(int ended, size_t size, char *reason) {
+static void explain(int ended, double timeout, size_t size, char *reason) {
   char said[1024];
   snprintf(said, sizeof said, "%.*s", (int)sizeof said - 1, reason);
-  if (ended < 0)
+  if (abs(ended) % 128 == SIGXCPU && store_is_timeout(ended))
+    snprintf(reason, size, "it has used up its limit of CPU time");
+  else if (store_is_timeout(ended))
+    snprintf(reason, size, "not over after the %g s that each run has", timeout);
+  else if (ended < 0)
     snprintf(reason, size, "killed by signal %d (%s)%s%s", -ended, strsignal(-ended),
              *said ? ": " : "", said);
   else if (ended == 0)
@@ -133,12 +140,6 @@ static void explain(int ended, size_t size, char *reason) {
              "or mesh changed since the study began?");
   else if (!*said)
     snprintf(reason, size, "exit code %d", ended);
-}
-
-/* From outside, or for want of disk or memory: not the run's own fault. */
-static bool is_lost(int ended) {
-  return ended == 0 || ended == 5 || ended > 127 || ended == -SIGINT || ended == -SIGTERM ||
-         ended == -SIGKILL;
 }
 
 /* Books a run that has ended, by what its folder says. */
@@ -155,17 +156,16 @@ static corot_status conclude(execution *e, int i, int ended) {
   corot_status status = COROT_OK;
   if (record.state == RUN_FAILED) snprintf(reason, sizeof reason, "%s", record.reason);
   if (record.state == RUN_MISSING) {
-    explain(ended, sizeof reason, reason);
-    if (!is_lost(ended)) {
-      status = store_fail(e->o->dir, t->run, ended, reason);
-      record.state = RUN_FAILED;
-    }
+    explain(ended, e->o->timeout, sizeof reason, reason);
+    status = store_fail(e->o->dir, t->run, ended, reason);
+    if (!store_failure(ended).retry) record.state = RUN_FAILED;
   }
   t->state = record.state;
   t->lost = record.state == RUN_MISSING;
+  t->again = t->lost && ended != 0 && e->nretry < MOST_RETRIES && !pool_signal();
   e->nnew += record.state == RUN_DONE;
   e->nfailed += record.state == RUN_FAILED;
-  if (record.state != RUN_DONE && !pool_signal()) tell_failure(e, t, reason);
+  if (record.state != RUN_DONE && !pool_signal() && !t->again) tell_failure(e, t, reason);
   run_record_free(&record);
   return status;
 }
@@ -215,6 +215,24 @@ static corot_status run_all(execution *e) {
   return COROT_OK;
 }
 
+/* What was lost for want of memory or disk is tried again with the machine to itself. */
+static corot_status retry_lost(execution *e) {
+  while (e->nretry++ < MOST_RETRIES) {
+    int due = 0;
+    for (int i = 0; i < e->ntask; i++) due += e->task[i].again;
+    if (due == 0) break;
+    execution_begin(e, "runs once more", due);
+    for (int i = 0; i < e->ntask && !pool_signal(); i++) {
+      if (!e->task[i].again) continue;
+      execution_show(e);
+      COROT_TRY(store_clear(e->o->dir, e->task[i].run));
+      COROT_TRY(execution_start(e, i, "", NULL));
+      COROT_TRY(wait_one(e));
+    }
+  }
+  return COROT_OK;
+}
+
 /* --- All of it --- */
 
 static void add_up(const execution *e, execute_totals *totals) {
@@ -231,6 +249,7 @@ static corot_status execute(execution *e) {
   COROT_TRY(look_all(e));
   COROT_TRY(pool_open(e->o->njob));
   corot_status status = run_all(e);
+  if (status == COROT_OK) status = retry_lost(e);
   if (status == COROT_OK && !pool_signal()) status = execution_time(e);
   clear_progress(e);
   e->signal_number = pool_signal();

@@ -10,6 +10,7 @@ typedef struct execute_options {
   int njob;              /* runs at once */
   int shard, nshard;     /* this one of so many parts of the runs, 1 to nshard */
   bool retry_failed;     /* those that failed before, too */
+  double timeout;        /* for each run [s]; 0: none */
   bool progress;         /* a line on stderr, if that is a terminal */
   bool quiet;            /* nothing on stderr but errors */
   bool expects_failures; /* of runs: they are no errors then, and not told */

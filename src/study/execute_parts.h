@@ -11,8 +11,9 @@ typedef struct task {
   const study_run *run;
   bool is_cell; /* else a reference */
   run_state state;
-  bool due;  /* to be run now */
-  bool lost; /* has been run, without a result or a reason of its own */
+  bool due;   /* to be run now */
+  bool lost;  /* has been run, without a result or a reason of its own */
+  bool again; /* lost, and to be run once more now */
 } task;
 
 typedef struct execution {
@@ -20,7 +21,7 @@ typedef struct execution {
   const execute_options *o;
   int ntask;
   task *task; /* [ntask] the runs of this shard */
-  int nnew, nfailed, ntold;
+  int nnew, nfailed, ntold, nretry;
   int signal_number;
   bool progress;
   const char *what; /* is going on */

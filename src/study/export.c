@@ -1,87 +1,104 @@
 #include "export.h"
 
-#include <app/json_text.h>
+#include <app/escape.h>
+#include <app/no_memory.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* As one word for a shell. */
-static void write_quoted(const char *text, FILE *out) {
-  fputc('\'', out);
-  for (; *text; text++) {
-    if (*text == '\'')
-      fputs("'\\''", out);
-    else
-      fputc(*text, out);
-  }
-  fputc('\'', out);
+/* The beginning of a comment. */
+static void write_title(const manifest *m, FILE *out) {
+  char title[200];
+  fprintf(out, "# %s", escape_line_cut(m->title, sizeof title, title));
 }
 
 static void write_sets(const study_run *run, FILE *out) {
   for (int k = 0; k < run->nset; k++) {
     fputs(k > 0 ? " --set " : "--set ", out);
-    write_quoted(run->set[k], out);
+    escape_shell(run->set[k], out);
   }
 }
 
-void export_commands(const manifest *m, const export_target *t, FILE *out) {
+static corot_status refuse(const char *name, const char *why) {
+  char line[512];
+  return corot_fail(COROT_EINVAL, "%s: %s", escape_line_cut(name, sizeof line, line), why);
+}
+
+corot_status export_commands(const manifest *m, const export_target *t, FILE *out) {
+  const char *const name[] = {t->program, m->base, t->dir};
+  for (int i = 0; i < 3; i++)
+    if (strpbrk(name[i], "\n\r"))
+      return refuse(name[i], "a list of one command a line cannot hold a name with a line break");
   for (int i = 0; i < m->nrun; i++) {
-    write_quoted(t->program, out);
+    escape_shell(t->program, out);
     fputs(" run ", out);
-    write_quoted(m->base, out);
+    escape_shell(m->base, out);
     fputs(" --quiet --output ", out);
-    write_quoted(t->dir, out);
+    escape_shell(t->dir, out);
     fprintf(out, "/runs/%s ", m->run[i].id);
     write_sets(&m->run[i], out);
     fputc('\n', out);
   }
+  return COROT_OK;
 }
 
 /* Schedulers commonly refuse larger arrays. */
 static int task_count(const manifest *m) { return m->nrun < 1000 ? m->nrun : 1000; }
 
-void export_slurm(const manifest *m, const export_target *t, FILE *out) {
+corot_status export_slurm(const manifest *m, const export_target *t, FILE *out) {
   int ntask = task_count(m);
   fputs("#!/bin/sh\n", out);
-  fprintf(out, "# %s: %d runs in %d tasks. When all are over: corot study collect ", m->title,
-          m->nrun, ntask);
-  write_quoted(t->dir, out);
-  fprintf(out, "\n#SBATCH --job-name=%s\n#SBATCH --array=1-%d\n", m->name, ntask);
+  write_title(m, out);
+  fprintf(out, ": %d runs in %d tasks. When all are over: corot study collect ", m->nrun, ntask);
+  escape_line(t->dir, out);
+  fputs("\n#SBATCH --job-name=", out);
+  escape_name(m->name, out);
+  fprintf(out, "\n#SBATCH --array=1-%d\n", ntask);
   fputs("#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n", out);
   fputs("exec ", out);
-  write_quoted(t->program, out);
+  escape_shell(t->program, out);
   fputs(" study ", out);
-  write_quoted(t->study, out);
+  escape_shell(t->study, out);
   fputs(" --quiet --jobs 1 --output ", out);
-  write_quoted(t->dir, out);
+  escape_shell(t->dir, out);
   fprintf(out, " --shard \"$SLURM_ARRAY_TASK_ID/%d\"\n", ntask);
+  return COROT_OK;
 }
 
-static void write_dictionary(const manifest *m, FILE *out) {
+static corot_status write_dictionary(const manifest *m, FILE *out) {
   fputs("RUNS = {\n", out);
   for (int i = 0; i < m->nrun; i++) {
     char *text = NULL;
     size_t size = 0;
     FILE *sets = open_memstream(&text, &size);
-    if (!sets) break;
+    if (!sets) return no_memory();
     write_sets(&m->run[i], sets);
-    fclose(sets);
+    if (fclose(sets) != 0) {
+      free(text);
+      return no_memory();
+    }
     fprintf(out, "    \"%s\": ", m->run[i].id);
-    json_text_quote(text, out);
+    escape_python(text, out);
     fputs(",\n", out);
     free(text);
   }
   fputs("}\n", out);
+  return COROT_OK;
 }
 
-void export_snakemake(const manifest *m, const export_target *t, FILE *out) {
-  fprintf(out, "# %s: %d runs. snakemake --snakefile THIS --cores all\n", m->title, m->nrun);
+corot_status export_snakemake(const manifest *m, const export_target *t, FILE *out) {
+  if (strpbrk(t->dir, "{}\n\r"))
+    return refuse(t->dir,
+                  "Snakemake cannot write to a folder with a brace or a line break in its name");
+  write_title(m, out);
+  fprintf(out, ": %d runs. snakemake --snakefile THIS --cores all\n", m->nrun);
   fputs("PROGRAM = ", out);
-  json_text_quote(t->program, out);
+  escape_python(t->program, out);
   fputs("\nBASE = ", out);
-  json_text_quote(m->base, out);
+  escape_python(m->base, out);
   fputs("\nDIR = ", out);
-  json_text_quote(t->dir, out);
+  escape_python(t->dir, out);
   fputc('\n', out);
-  write_dictionary(m, out);
+  COROT_TRY(write_dictionary(m, out));
   fputs(
       "\nrule all:\n"
       "    input: DIR + \"/table.json\"\n"
@@ -97,4 +114,5 @@ void export_snakemake(const manifest *m, const export_target *t, FILE *out) {
       "    output: DIR + \"/table.json\"\n"
       "    shell: \"{PROGRAM:q} study collect {DIR:q}\"\n",
       out);
+  return COROT_OK;
 }

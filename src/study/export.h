@@ -9,7 +9,8 @@ typedef struct export_target {
   const char *program, *study, *dir; /* absolute paths */
 } export_target;
 
-typedef void export_format(const manifest *m, const export_target *t, FILE *out);
+/* COROT_EINVAL: the format cannot hold one of the names. */
+typedef corot_status export_format(const manifest *m, const export_target *t, FILE *out);
 
 /* One command a line, in any order, as for xargs or GNU parallel. */
 export_format export_commands;

@@ -19,15 +19,6 @@ static corot_status read_text(FILE *file, const char *path, char **text, size_t 
   return COROT_OK;
 }
 
-static corot_status parse(const char *path, const char *text, size_t size, json_t **out) {
-  json_error_t error;
-  json_t *value = json_loadb(text, size, 0, &error);
-  if (!value)
-    return corot_fail(COROT_EFORMAT, "%s:%d:%d: %s", path, error.line, error.column, error.text);
-  *out = value;
-  return COROT_OK;
-}
-
 corot_status json_file_read(const char *path, json_t **out) {
   FILE *file = fopen(path, "re");
   if (!file) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
@@ -35,7 +26,7 @@ corot_status json_file_read(const char *path, json_t **out) {
   size_t size = 0;
   corot_status status = read_text(file, path, &text, &size);
   fclose(file);
-  if (status == COROT_OK) status = parse(path, text, size, out);
+  if (status == COROT_OK) status = json_text_parse(path, text, size, out);
   free(text);
   return status;
 }
@@ -45,8 +36,8 @@ corot_status json_file_write(const char *dir, const char *name, const json_t *va
   size_t size = 0;
   FILE *out = path ? open_memstream(&text, &size) : NULL;
   corot_status status = COROT_OK;
-  if (out) json_text_write(value, out);
-  if (!out || fclose(out) != 0)
+  bool written = out && json_text_write(value, out) == COROT_OK && !json_text_starved();
+  if (!out || fclose(out) != 0 || !written)
     status = corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
   if (status == COROT_OK) status = file_replace_durably(path, text, size);
   free(text);

@@ -277,7 +277,7 @@ static json_t *column_names(const study *s) {
     }
   qsort(name, n, sizeof *name, by_name);
   json_t *list = json_array();
-  for (size_t i = 0; i < n; i++) json_array_append_new(list, json_string(name[i]));
+  for (size_t i = 0; i < n; i++) list = json_text_push(list, json_string(name[i]));
   return list;
 }
 
@@ -320,6 +320,7 @@ static corot_status plan(planner *p, manifest **out) {
 }
 
 corot_status plan_study(const study *s, manifest **out) {
+  json_text_starved(); /* from here on */
   planner p = {
       .study = s,
       .runs = json_array(),
@@ -330,12 +331,18 @@ corot_status plan_study(const study *s, manifest **out) {
       .mesh_at = json_object(),
       .tightest = INFINITY,
   };
-  corot_status status = plan(&p, out);
+  manifest *m = NULL;
+  corot_status status = plan(&p, &m);
+  if (status == COROT_OK && json_text_starved()) status = no_memory(); /* some key may be missing */
   json_decref(p.runs);
   json_decref(p.cells);
   json_decref(p.references);
   json_decref(p.run_at);
   json_decref(p.reference_at);
   json_decref(p.mesh_at);
+  if (status == COROT_OK)
+    *out = m;
+  else
+    manifest_destroy(m);
   return status;
 }

@@ -1,8 +1,8 @@
 /* Processes that run side by side, each a program of its own: what becomes of one is no matter to
    the others, nor to us. There is one pool at a time.
 
-   While it exists SIGINT and SIGTERM are handed on to all of them. If this process dies, so do
-   they (Linux). */
+   While it exists the signals that ask for an end (app/stop.h) are handed on to all of them. If
+   this process dies, so do they (Linux). */
 #ifndef COROT_STUDY_POOL_H
 #define COROT_STUDY_POOL_H
 
@@ -24,8 +24,9 @@ bool pool_is_empty(void);
 int pool_signal(void);
 
 /* Starts this program anew with arguments of its own (argv[0] its name, NULL at the end). What it
-   prints goes to the file `messages`. `job` is for pool_wait. */
-corot_status pool_start(int job, const char *const *argv, const char *messages);
+   prints goes to the file `messages`. `job` is for pool_wait. After `timeout` seconds (0: never) it
+   gets SIGALRM, and again every few seconds. */
+corot_status pool_start(int job, const char *const *argv, const char *messages, double timeout);
 
 /* Waits until one has ended. Stores its job and how it ended: an exit code, or minus the number of
    the signal that killed it. */

@@ -15,32 +15,30 @@ static bool is_plain(const char *text) {
   return length > 0 && strspn(text, safe) == length && text[0] != ' ' && text[length - 1] != ' ';
 }
 
-static void write_word(const char *text, bool quoted, FILE *out) {
-  if (quoted || !is_plain(text))
-    json_text_quote(text, out);
-  else
-    fputs(text, out);
+static corot_status write_word(const char *text, bool quoted, FILE *out) {
+  if (quoted || !is_plain(text)) return json_text_quote(text, out);
+  fputs(text, out);
+  return COROT_OK;
 }
 
-static void write_value(const config_node *value, FILE *out) {
+static corot_status write_value(const config_node *value, FILE *out) {
   if (value->kind == CONFIG_SCALAR) {
-    if (config_is_null(value))
-      fputs("null", out);
-    else
-      write_word(value->text, value->quoted, out);
-    return;
+    if (!config_is_null(value)) return write_word(value->text, value->quoted, out);
+    fputs("null", out);
+    return COROT_OK;
   }
   bool map = value->kind == CONFIG_MAP;
   fputc(map ? '{' : '[', out);
   for (const config_node *c = value->child; c; c = c->next) {
     if (c != value->child) fputs(", ", out);
     if (map) {
-      write_word(c->key, false, out);
+      COROT_TRY(write_word(c->key, false, out));
       fputs(": ", out);
     }
-    write_value(c, out);
+    COROT_TRY(write_value(c, out));
   }
   fputc(map ? '}' : ']', out);
+  return COROT_OK;
 }
 
 corot_status study_value_text(config *tree, const config_node *value, const char **text) {
@@ -48,8 +46,8 @@ corot_status study_value_text(config *tree, const config_node *value, const char
   size_t size = 0;
   FILE *out = open_memstream(&buffer, &size);
   if (!out) return no_memory();
-  write_value(value, out);
-  bool written = fclose(out) == 0;
+  bool written = write_value(value, out) == COROT_OK;
+  written &= fclose(out) == 0;
   *text = written ? config_copy(tree, buffer, size) : NULL;
   free(buffer);
   return *text ? COROT_OK : no_memory();

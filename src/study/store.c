@@ -1,8 +1,12 @@
 #include "store.h"
 
+#include <app/cli.h>
 #include <app/folder.h>
+#include <app/json_text.h>
 #include <app/no_memory.h>
+#include <app/stop.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -28,7 +32,7 @@ static corot_status read_own(const char *dir, const study_run *run, const char *
   json_t *json = NULL;
   corot_status status = access(path, F_OK) == 0 ? json_file_read(path, &json) : COROT_OK;
   free(path);
-  if (status == COROT_ENOMEM) return status;
+  if (status == COROT_ENOMEM || status == COROT_EIO) return status;
   const json_t *hash = json_object_get(json, "hash");
   if (strcmp(hash_path, "hashes.run") == 0)
     hash = json_object_get(json_object_get(json, "hashes"), "run");
@@ -42,11 +46,9 @@ static corot_status read_own(const char *dir, const study_run *run, const char *
 
 /* --- Runs --- */
 
-/* Exit code 5: the system refused something, which it may grant another time. */
-static bool is_lasting(const json_t *result) {
-  json_int_t code = json_integer_value(json_object_get(result, "exit_code"));
-  const char *status = json_string_value(json_object_get(result, "status"));
-  return status && strcmp(status, "failed") == 0 && code != 5;
+/* Whether the same would happen again. */
+static bool is_lasting(const json_t *said) {
+  return json_is_false(json_object_get(json_object_get(said, "failure"), "retry"));
 }
 
 static corot_status keep_reason(const json_t *json, run_record *record) {
@@ -55,7 +57,7 @@ static corot_status keep_reason(const json_t *json, run_record *record) {
   record->reason = malloc(strlen(reason) + 1);
   if (!record->reason) return no_memory();
   strcpy(record->reason, reason);
-  record->state = RUN_FAILED;
+  if (is_lasting(json)) record->state = RUN_FAILED;
   return COROT_OK;
 }
 
@@ -72,7 +74,8 @@ corot_status store_look(const char *dir, const study_run *run, run_record *recor
     looked = keep_reason(result, &r);
   } else {
     looked = read_own(dir, run, "failure.json", "hash", &failure);
-    if (failure) looked = keep_reason(failure, &r);
+    if (looked == COROT_OK && (failure || status))
+      looked = keep_reason(failure ? failure : result, &r);
   }
   json_decref(result);
   json_decref(failure);
@@ -106,10 +109,45 @@ corot_status store_clear(const char *dir, const study_run *run) {
   return remove_own(dir, run, "failure.json");
 }
 
+bool store_is_timeout(int ended) {
+  return ended == -SIGALRM || ended == 128 + SIGALRM || ended == -SIGXCPU || ended == 128 + SIGXCPU;
+}
+
+static bool is_request(int number) {
+  for (int i = 0; i < STOP_SIGNALS; i++)
+    if (stop_signals[i] == number) return true;
+  return number == SIGKILL; /* by the system, for want of memory, or by hand */
+}
+
+run_failure store_failure(int ended) {
+  if (store_is_timeout(ended)) return (run_failure){"timeout", false};
+  if (is_request(-ended) || ended > 127) return (run_failure){"interrupted", true};
+  if (ended < 0) return (run_failure){"crash", false};
+  if (ended == EXIT_SYSTEM || ended == 127) return (run_failure){"io", true};
+  if (ended == EXIT_INTEGRATOR) return (run_failure){"integrator", false};
+  return (run_failure){"scenario", ended == 0}; /* 0: it was changed meanwhile */
+}
+
+/* What a run that did not get as far as its hash said itself. */
+static bool says_memory(const char *dir, const study_run *run) {
+  char *path = store_path(dir, run, "result.json");
+  json_t *result = NULL;
+  corot_status status = path ? json_file_read(path, &result) : COROT_ENOMEM;
+  const json_t *failure = json_object_get(result, "failure");
+  const char *kind = json_string_value(json_object_get(failure, "kind"));
+  bool memory = status == COROT_OK && kind && strcmp(kind, "memory") == 0;
+  json_decref(result);
+  free(path);
+  return memory;
+}
+
 corot_status store_fail(const char *dir, const study_run *run, int ended, const char *reason) {
+  run_failure why = store_failure(ended);
+  if (ended == EXIT_SYSTEM && says_memory(dir, run)) why.kind = "memory";
   char *path = store_path(dir, run, "");
-  json_t *failure = json_pack("{s:s, s:s, s:i}", "hash", run->hash, "reason", reason,
-                              ended < 0 ? "signal" : "exit_code", abs(ended));
+  json_t *failure =
+      json_pack("{s:s, s:o, s:o, s:i}", "hash", run->hash, "reason", json_text_string(reason),
+                "failure", run_failure_json(why), ended < 0 ? "signal" : "exit_code", abs(ended));
   corot_status status =
       path && failure ? json_file_write(path, "failure.json", failure) : no_memory();
   json_decref(failure);
@@ -155,7 +193,7 @@ corot_status timings_add(const char *dir, const study_run *run, timings *t, doub
   COROT_TRY(timings_grow(t, cpu, wall));
   json_t *list = json_array();
   for (int i = 0; i < t->n; i++)
-    json_array_append_new(list, json_pack("{s:f, s:f}", "cpu", t->cpu[i], "wall", t->wall[i]));
+    list = json_text_push(list, json_pack("{s:f, s:f}", "cpu", t->cpu[i], "wall", t->wall[i]));
   json_t *json = json_pack("{s:s, s:o}", "hash", run->hash, "runs", list);
   char *path = store_path(dir, run, "");
   corot_status status = json && path ? json_file_write(path, "timings.json", json) : no_memory();

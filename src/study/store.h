@@ -2,7 +2,9 @@
 
      study.json            what it consists of (manifest.h)
      runs/ID/              one run each, as `corot run` leaves it; result.json says that it is over
-     runs/ID/failure.json  why there is no result.json: {"hash", "reason", "exit_code" | "signal"}
+     runs/ID/failure.json  why there is no result.json: {"hash", "reason", "exit_code" | "signal",
+                           "failure": {"kind", "retry"}} as in result.json; the kind is "crash" or
+                           "timeout", too
      runs/ID/timings.json  timed repetitions: {"hash", "runs": [{"cpu", "wall"}, ...]} [s]
      runs/ID/messages.txt  what the run had to say, if anything
      table.json, table.csv, index.sqlite   collected from them (collect.h)
@@ -13,10 +15,13 @@
 #ifndef COROT_STUDY_STORE_H
 #define COROT_STUDY_STORE_H
 
+#include <app/failure.h>
+#include <stdbool.h>
+
 #include "manifest.h"
 
 typedef enum run_state {
-  RUN_MISSING, /* not begun, or lost on the way */
+  RUN_MISSING, /* not begun, or lost on the way: trying again may help */
   RUN_DONE,
   RUN_FAILED, /* for a reason of its own: the same would happen again */
 } run_state;
@@ -24,7 +29,7 @@ typedef enum run_state {
 /* What the folder says of a run. */
 typedef struct run_record {
   run_state state;
-  char *reason;   /* of a failure; NULL otherwise */
+  char *reason;   /* of a failure, or why it was lost; NULL otherwise */
   json_t *result; /* result.json of one that is done; NULL otherwise */
 } run_record;
 
@@ -36,6 +41,12 @@ char *store_path(const char *dir, const study_run *run, const char *name);
 
 /* Makes the folder of a run and takes away what earlier attempts said. */
 corot_status store_clear(const char *dir, const study_run *run);
+
+/* What a run died of, by how it ended: an exit code, or minus a signal's number. */
+run_failure store_failure(int ended);
+
+/* The time limit of the study, or that of the system for a process. */
+bool store_is_timeout(int ended);
 
 /* Records that it failed: an exit code, or minus a signal's number. */
 corot_status store_fail(const char *dir, const study_run *run, int ended, const char *reason);

@@ -1,4 +1,5 @@
 /* Whose folder it is, and who is at work there. */
+#include <app/escape.h>
 #include <app/folder.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -36,9 +37,10 @@ static corot_status take_lock(const char *dir, const char *name, int mode, int *
 
 static corot_status check_owner(const char *dir, const manifest *m, const manifest *before) {
   if (strcmp(before->identity, m->identity) == 0) return COROT_OK;
+  char title[200];
   if (strcmp(before->title, m->title) != 0)
     return corot_fail(COROT_EINVAL, "%s: belongs to the study \"%s\"; choose another folder", dir,
-                      before->title);
+                      escape_line_cut(before->title, sizeof title, title));
   return corot_fail(COROT_EINVAL,
                     "%s: holds this study for another base, or for %s as it was before it was "
                     "changed; choose another folder",

@@ -1,54 +1,46 @@
+#include <app/escape.h>
 #include <app/folder.h>
+#include <app/no_memory.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "flat.h"
 
-/* In quotes, with quotes doubled, where it would break the table. */
-static void write_text(const char *text, FILE *out) {
-  if (!strpbrk(text, ",\"\r\n")) {
-    fputs(text, out);
-    return;
-  }
-  fputc('"', out);
-  for (; *text; text++) {
-    if (*text == '"') fputc('"', out);
-    fputc(*text, out);
-  }
-  fputc('"', out);
-}
-
-static void write_value(const json_t *value, FILE *out) {
+static corot_status write_value(const json_t *value, FILE *out) {
   if (json_is_integer(value)) {
     fprintf(out, "%lld", (long long)json_integer_value(value));
   } else if (json_is_real(value)) {
     fprintf(out, "%.17g", json_real_value(value));
   } else if (json_is_string(value)) {
-    write_text(json_string_value(value), out);
+    escape_csv(json_string_value(value), out);
   } else if (json_is_boolean(value)) {
     fputs(json_is_true(value) ? "true" : "false", out);
   } else if (value && !json_is_null(value)) {
     char *text = json_dumps(value, JSON_COMPACT);
-    if (text) write_text(text, out);
+    if (!text) return no_memory();
+    escape_csv(text, out);
     free(text);
   }
+  return COROT_OK;
 }
 
-static void write_table(const json_t *table, const flat *f, FILE *out) {
+static corot_status write_table(const json_t *table, const flat *f, FILE *out) {
   const json_t *cells = json_object_get(table, "cells");
   for (int k = 0; k < f->n; k++) {
     if (k > 0) fputc(',', out);
-    write_text(f->column[k].name, out);
+    escape_csv(f->column[k].name, out);
   }
   fputc('\n', out);
   for (size_t i = 0; i < json_array_size(cells); i++) {
     for (int k = 0; k < f->n; k++) {
       if (k > 0) fputc(',', out);
-      write_value(flat_value(json_array_get(cells, i), &f->column[k]), out);
+      COROT_TRY(write_value(flat_value(json_array_get(cells, i), &f->column[k]), out));
     }
     fputc('\n', out);
   }
+  return COROT_OK;
 }
 
 corot_status table_write_csv(const json_t *table, const char *dir) {
@@ -57,8 +49,8 @@ corot_status table_write_csv(const json_t *table, const char *dir) {
   char *text = NULL, *path = folder_path(dir, "table.csv");
   size_t size = 0;
   FILE *out = path ? open_memstream(&text, &size) : NULL;
-  if (out) write_table(table, &f, out);
-  corot_status status = out && fclose(out) == 0
+  bool written = out && write_table(table, &f, out) == COROT_OK;
+  corot_status status = out && fclose(out) == 0 && written
                             ? file_replace_durably(path, text, size)
                             : corot_fail(COROT_ENOMEM, "%s/table.csv: out of memory", dir);
   free(text);

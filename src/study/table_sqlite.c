@@ -1,3 +1,4 @@
+#include <app/escape.h>
 #include <app/folder.h>
 #include <errno.h>
 #include <sqlite3.h>
@@ -12,15 +13,6 @@ static corot_status complain(sqlite3 *db, const char *path) {
   return corot_fail(COROT_EIO, "%s: %s", path, sqlite3_errmsg(db));
 }
 
-static void write_name(const char *name, FILE *out) {
-  fputc('"', out);
-  for (; *name; name++) {
-    if (*name == '"') fputc('"', out);
-    fputc(*name, out);
-  }
-  fputc('"', out);
-}
-
 /* The statements that make the table and fill a row of it; the caller's to free. */
 static corot_status make_statements(const flat *f, char **create, char **insert) {
   size_t size;
@@ -29,7 +21,7 @@ static corot_status make_statements(const flat *f, char **create, char **insert)
   fputs("create table runs (", out);
   for (int k = 0; k < f->n; k++) {
     if (k > 0) fputs(", ", out);
-    write_name(f->column[k].name, out);
+    escape_sql_name(f->column[k].name, out);
   }
   fputs(")", out);
   if (fclose(out) != 0) return corot_fail(COROT_ENOMEM, "out of memory");

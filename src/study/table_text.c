@@ -1,5 +1,6 @@
 #include "table_text.h"
 
+#include <app/escape.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -40,7 +41,7 @@ static void write_cell(const json_t *cell, const column *c, char text[CELL]) {
   bool error = c->group && strcmp(c->group, "error") == 0;
   bool doubtful = error && is_unrated(cell, c->key);
   if (json_is_string(value))
-    snprintf(text, CELL, "%s", json_string_value(value));
+    escape_line_cut(json_string_value(value), CELL, text);
   else if (json_is_integer(value))
     snprintf(text, CELL, "%lld", (long long)json_integer_value(value));
   else if (json_is_real(value))
@@ -148,7 +149,9 @@ static void print_fits(const json_t *list, FILE *out) {
   if (json_array_size(list) > 0) fputs("\nerror = constant * tolerance^exponent\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *f = json_array_get(list, i);
-    fprintf(out, "  %s: ", text_at(f, "series"));
+    fputs("  ", out);
+    escape_line(text_at(f, "series"), out);
+    fputs(": ", out);
     if (json_is_number(json_object_get(f, "exponent")))
       fprintf(out, "exponent %.2f, constant %.2g, within a factor of %.2g, over %s: ",
               number_at(f, "exponent"), number_at(f, "constant"), pow(10, number_at(f, "residual")),
@@ -167,7 +170,8 @@ static void print_rankings(const json_t *table, FILE *out) {
     fprintf(out, "  %.0e: ", number_at(entry, "error"));
     for (size_t k = 0; k < json_array_size(best); k++) {
       const json_t *b = json_array_get(best, k);
-      fprintf(out, "%s%s", k > 0 ? ", " : "", text_at(b, "series"));
+      fputs(k > 0 ? ", " : "", out);
+      escape_line(text_at(b, "series"), out);
       if (json_is_number(json_object_get(b, "tolerance")))
         fprintf(out, " at %.3g", number_at(b, "tolerance"));
       fprintf(out, " (%.3g)", number_at(b, "cost"));
@@ -180,7 +184,8 @@ corot_status table_print(const json_t *table, FILE *out) {
   if (!json_is_array(json_object_get(table, "cells")) ||
       !json_is_array(json_object_get(table, "columns")))
     return corot_fail(COROT_EFORMAT, "table.json: not a table of a study");
-  fprintf(out, "%s\n\n", text_at(table, "title"));
+  escape_line(text_at(table, "title"), out);
+  fputs("\n\n", out);
   print_cells(table, out);
   if (json_is_string(json_object_get(table, "shared")))
     fprintf(out, "\n%s\n", text_at(table, "shared"));

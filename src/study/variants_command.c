@@ -11,7 +11,8 @@
 static const struct option common[] = {
     {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
     {"jobs", required_argument, NULL, 'j'},   {"quiet", no_argument, NULL, 'q'},
-    {"json", no_argument, NULL, 'J'},         {"help", no_argument, NULL, 'h'},
+    {"json", no_argument, NULL, 'J'},         {"timeout", required_argument, NULL, 'T'},
+    {"help", no_argument, NULL, 'h'},
 };
 
 enum { NCOMMON = sizeof common / sizeof *common, NOPTION = 32 };
@@ -31,6 +32,9 @@ static int take_option(const variants_command *c, int answer, char **argv,
     case 'j':
       if (parse_count(optarg, POOL_MAX, &a->options.njob)) return -1;
       return usage_error(c->program, "--jobs %s: expected 1 to %d", optarg, POOL_MAX);
+    case 'T':
+      if (parse_seconds(optarg, &a->options.timeout)) return -1;
+      return usage_error(c->program, "--timeout %s: expected seconds > 0", optarg);
     case 'q':
       a->options.quiet = true;
       return -1;

@@ -36,4 +36,29 @@ sleep 0.2
 case $(cat code) in 0 | 5) ;; *) complain "closed pipe: $(cat code)" ;; esac
 "$corot" schema >&- 2>stderr
 [ $? = 5 ] || complain "closed stdout"
+
+# Exit codes are those of --help, whatever the command.
+expect 0 --help
+for word in '  0  ok' '1  finished, but' '2  the command line' '3  a scenario, study or mesh' '4  the integrator' '5  the system' '128 + N'; do out "$word"; done
+for command in "run" "static" "check" "budget" "study" "study export --format commands" \
+  "find-limit --key time.end --from 1 --to 2" "mesh info" "mesh refine -o new.msh"; do
+  expect 3 $command missing.yaml; no_out; err "missing.yaml"
+  expect 2 $command --no-such-option missing.yaml; no_out
+done
+for command in "report" "plot" "study status" "study collect" "study table" "study csv"; do
+  expect 5 $command missing; no_out; err "missing"
+  expect 2 $command; no_out
+done
+for command in run static check budget; do expect 3 $command model.yaml --set mesh.box=null --set mesh.file=missing.msh; err "missing.msh"; done
+expect 4 run model.yaml -o stuck --set integrator.max_steps=2
+if [ -w /dev/full ]; then
+  for command in "--help" "--version" "schema" "schema --json" "check model.yaml" "check model.yaml --json" "run model.yaml -o full --json" \
+    "run --help"; do
+    "$corot" $command >/dev/full 2>stderr
+    [ $? = 5 ] || complain "corot $command to a full disk"
+    err "standard output"
+  done
+  "$corot" run model.yaml -o full 2>/dev/full >stdout
+  [ $? = 5 ] || complain "messages to a full disk"
+fi
 exit $failed
