@@ -179,7 +179,7 @@ int command_mesh_info(int argc, char **argv) {
   const char *path = argv[optind];
   corot_mesh *mesh = NULL;
   corot_status status = corot_mesh_read(path, &mesh);
-  if (status != COROT_OK) return failure(status == COROT_EIO ? COROT_EFORMAT : status);
+  if (status != COROT_OK) return failure(read_failure(status, path));
   int code = EXIT_OK;
   if (json)
     code = print_info_json(path, mesh);

@@ -19,7 +19,7 @@ static int read_and_go(scenario_action *go, const char *path, int noverride, cha
                        run_options *o) {
   scenario *s = NULL;
   corot_status status = scenario_read(path, noverride, override, &s);
-  if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
+  status = read_failure(status, path);
   if (status != COROT_OK) return failure(status);
   char *folder = o->dir ? NULL : folder_default(path, "");
   if (folder) o->dir = folder;

@@ -106,8 +106,18 @@ static char *escape_controls(char *text) {
   return escaped;
 }
 
+char *json_text_dump_plain(const json_t *value, size_t flags) {
+  bool before = json_text_starved();
+  char *text = value ? json_dumps(value, flags | JSON_ENCODE_ANY) : NULL;
+  bool now = json_text_starved();
+  starved = before;
+  if (text && !now) return text;
+  free(text);
+  return NULL;
+}
+
 char *json_text_dump(const json_t *value, size_t flags) {
-  char *text = json_dumps(value, flags | JSON_ENCODE_ANY);
+  char *text = json_text_dump_plain(value, flags);
   return text ? escape_controls(text) : NULL;
 }
 

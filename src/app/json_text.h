@@ -23,7 +23,11 @@ json_t *json_text_push(json_t *list, json_t *value);
 /* A string; bytes that are not UTF-8, as file names may have, become '?'. */
 json_t *json_text_string(const char *s);
 
-/* As json_dumps of any value; the control characters that YAML does not allow as they are, are
+/* As json_dumps of any value, but NULL for want of memory, where jansson may leave something out
+   and say nothing. The caller's to free. */
+char *json_text_dump_plain(const json_t *value, size_t flags);
+
+/* The same; the control characters that YAML does not allow as they are, are
    escaped. The caller's to free; NULL: no memory. */
 char *json_text_dump(const json_t *value, size_t flags);
 

@@ -16,7 +16,7 @@ static char *yardstick_key(const json_t *result) {
     json_object_del(solid, solution[i]);
   const json_t *hash = json_object_get(json_object_get(result, "hashes"), "mesh");
   json_t *both = json_pack("{s:o, s:O}", "solid", solid, "mesh", hash);
-  char *text = json_dumps(both, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+  char *text = json_text_dump_plain(both, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   json_decref(both);
   return text;
 }

@@ -111,9 +111,9 @@ corot_status drift_measure(yardstick *y, const scenario *s, const char *dir, dri
   if (!path) return COROT_ENOMEM;
   books b = {.by_impulse = has_known_impulse(y->model, s)};
   FILE *file = fopen(path, "re");
-  corot_status status =
-      file ? read_table(y, file, path, &b)
-           : corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+  corot_status status = file ? read_table(y, file, path, &b)
+                             : corot_fail(errno == ENOENT ? COROT_EFORMAT : COROT_EIO,
+                                          "%s: cannot open it: %s", path, strerror(errno));
   if (file) fclose(file);
   free(path);
   COROT_TRY(status);

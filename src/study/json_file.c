@@ -37,7 +37,7 @@ corot_status json_file_write(const char *dir, const char *name, const json_t *va
   FILE *out = path ? open_memstream(&text, &size) : NULL;
   corot_status status = COROT_OK;
   bool written = out && json_text_write(value, out) == COROT_OK && !json_text_starved();
-  if (!out || fclose(out) != 0 || !written)
+  if (!out || fclose(out) != 0 || !written || !text)
     status = corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
   if (status == COROT_OK) status = file_replace_durably(path, text, size);
   free(text);

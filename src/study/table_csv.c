@@ -1,5 +1,6 @@
 #include <app/escape.h>
 #include <app/folder.h>
+#include <app/json_text.h>
 #include <app/no_memory.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -18,7 +19,7 @@ static corot_status write_value(const json_t *value, FILE *out) {
   } else if (json_is_boolean(value)) {
     fputs(json_is_true(value) ? "true" : "false", out);
   } else if (value && !json_is_null(value)) {
-    char *text = json_dumps(value, JSON_COMPACT);
+    char *text = json_text_dump_plain(value, JSON_COMPACT);
     if (!text) return no_memory();
     escape_csv(text, out);
     free(text);

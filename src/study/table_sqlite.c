@@ -1,5 +1,6 @@
 #include <app/escape.h>
 #include <app/folder.h>
+#include <app/json_text.h>
 #include <errno.h>
 #include <sqlite3.h>
 #include <stdio.h>
@@ -41,7 +42,7 @@ static int bind_value(sqlite3_stmt *row, int at, const json_t *value) {
   if (json_is_string(value))
     return sqlite3_bind_text(row, at, json_string_value(value), -1, SQLITE_TRANSIENT);
   if (!value || json_is_null(value)) return sqlite3_bind_null(row, at);
-  char *text = json_dumps(value, JSON_COMPACT);
+  char *text = json_text_dump_plain(value, JSON_COMPACT);
   int code = text ? sqlite3_bind_text(row, at, text, -1, SQLITE_TRANSIENT) : SQLITE_NOMEM;
   free(text);
   return code;

@@ -1,6 +1,6 @@
 /* A library to preload (LD_PRELOAD) that lets one call of a whole process fail: its libraries and
-   its children included. Of two kinds: "alloc" (malloc and its kin, anonymous mmap) and "io" (files,
-   folders, locks, streams, processes). For Linux with glibc.
+   its children included. Of two kinds: "alloc" (malloc and its kin, anonymous mmap) and "io"
+   (files, folders, locks, streams, processes). For Linux with glibc.
 
    FAULTS_STATE names a file of the size of `struct state`, which the driver makes: all processes of
    a trial count in it. What happens before main (loader, constructors of other libraries) is not
@@ -34,11 +34,11 @@ enum { ALLOC = 1, IO = 2, MOST_SITES = 1 << 17, MOST_FRAMES = 40 };
 
 /* As driver.py has it. */
 struct state {
-  int64_t kind;         /* which calls count */
-  int64_t at;           /* the call that fails, from 1; 0: none, and sites are recorded */
+  int64_t kind; /* which calls count */
+  int64_t at;   /* the call that fails, from 1; 0: none, and sites are recorded */
   _Atomic int64_t count;
-  _Atomic int64_t fired; /* the process in which it failed */
-  char where[8192];     /* what failed, and its back-trace, one frame a line */
+  _Atomic int64_t fired;     /* the process in which it failed */
+  char where[8192];          /* what failed, and its back-trace, one frame a line */
   uint64_t site[MOST_SITES]; /* [count] a hash of the back-trace of each call */
 };
 
@@ -170,9 +170,7 @@ void *__libc_memalign(size_t alignment, size_t size);
 
 void *malloc(size_t size) { return NO_MEMORY("malloc") ? NULL : __libc_malloc(size); }
 
-void *calloc(size_t n, size_t size) {
-  return NO_MEMORY("calloc") ? NULL : __libc_calloc(n, size);
-}
+void *calloc(size_t n, size_t size) { return NO_MEMORY("calloc") ? NULL : __libc_calloc(n, size); }
 
 void *realloc(void *old, size_t size) {
   return NO_MEMORY("realloc") ? NULL : __libc_realloc(old, size);
@@ -203,17 +201,15 @@ int posix_memalign(void **out, size_t alignment, size_t size) {
 /* --- What is called in the end --- */
 
 /* A function that fails with `failure` and one of the reasons, before it has done anything. */
-#define FAILS(result, name, parameters, arguments, failure, ...)      \
-  typedef result type_##name parameters;                              \
-  static type_##name *real_##name(void) {                             \
-    static type_##name *found;                                        \
-    if (!found) *(void **)&found = dlsym(RTLD_NEXT, #name);           \
-    return found;                                                     \
-  }                                                                   \
-  result name parameters;                                             \
-  result name parameters {                                            \
-    return REFUSED(#name, __VA_ARGS__) ? failure : real_##name() arguments; \
-  }
+#define FAILS(result, name, parameters, arguments, failure, ...) \
+  typedef result type_##name parameters;                         \
+  static type_##name *real_##name(void) {                        \
+    static type_##name *found;                                   \
+    if (!found) *(void **)&found = dlsym(RTLD_NEXT, #name);      \
+    return found;                                                \
+  }                                                              \
+  result name parameters;                                        \
+  result name parameters { return REFUSED(#name, __VA_ARGS__) ? failure : real_##name() arguments; }
 
 /* --- Files and folders --- */
 
@@ -291,31 +287,31 @@ int close(int fd) {
 }
 
 typedef int type_open(const char *path, int flags, ...);
-#define OPENS(name)                                                        \
-  int name(const char *path, int flags, ...);                              \
-  int name(const char *path, int flags, ...) {                             \
-    static type_open *real;                                                \
-    if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                  \
-    va_list list;                                                          \
-    va_start(list, flags);                                                 \
-    mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(list, mode_t) : 0; \
-    va_end(list);                                                          \
-    if (inside) return real(path, flags, mode);                            \
+#define OPENS(name)                                                            \
+  int name(const char *path, int flags, ...);                                  \
+  int name(const char *path, int flags, ...) {                                 \
+    static type_open *real;                                                    \
+    if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                      \
+    va_list list;                                                              \
+    va_start(list, flags);                                                     \
+    mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(list, mode_t) : 0;    \
+    va_end(list);                                                              \
+    if (inside) return real(path, flags, mode);                                \
     return REFUSED(#name, EACCES, EMFILE, EIO) ? -1 : real(path, flags, mode); \
   }
 OPENS(open)
 OPENS(open64)
 
 typedef int type_openat(int fd, const char *path, int flags, ...);
-#define OPENS_AT(name)                                                     \
-  int name(int fd, const char *path, int flags, ...);                      \
-  int name(int fd, const char *path, int flags, ...) {                     \
-    static type_openat *real;                                              \
-    if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                  \
-    va_list list;                                                          \
-    va_start(list, flags);                                                 \
-    mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(list, mode_t) : 0; \
-    va_end(list);                                                          \
+#define OPENS_AT(name)                                                             \
+  int name(int fd, const char *path, int flags, ...);                              \
+  int name(int fd, const char *path, int flags, ...) {                             \
+    static type_openat *real;                                                      \
+    if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                          \
+    va_list list;                                                                  \
+    va_start(list, flags);                                                         \
+    mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(list, mode_t) : 0;        \
+    va_end(list);                                                                  \
     return REFUSED(#name, EACCES, EMFILE, EIO) ? -1 : real(fd, path, flags, mode); \
   }
 OPENS_AT(openat)
@@ -328,15 +324,15 @@ static bool locks(int command) {
 }
 
 typedef int type_fcntl(int fd, int command, ...);
-#define CONTROLS(name)                                        \
-  int name(int fd, int command, ...);                         \
-  int name(int fd, int command, ...) {                        \
-    static type_fcntl *real;                                  \
-    if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);     \
-    va_list list;                                             \
-    va_start(list, command);                                  \
-    void *argument = va_arg(list, void *);                    \
-    va_end(list);                                             \
+#define CONTROLS(name)                                                                  \
+  int name(int fd, int command, ...);                                                   \
+  int name(int fd, int command, ...) {                                                  \
+    static type_fcntl *real;                                                            \
+    if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                               \
+    va_list list;                                                                       \
+    va_start(list, command);                                                            \
+    void *argument = va_arg(list, void *);                                              \
+    va_end(list);                                                                       \
     return locks(command) && REFUSED(#name, ENOLCK) ? -1 : real(fd, command, argument); \
   }
 CONTROLS(fcntl)
@@ -363,18 +359,18 @@ FAILS(FILE *, fdopen, (int fd, const char *m), (fd, m), NULL, EMFILE)
 /* Streams in memory fail as memory does. What a stream does fails for good: its mark of an error
    is set, as the C library does. */
 static bool stream_fails(FILE *f, const char *what, const int *reason) {
-  if (f == stderr || f->_fileno < 0 || !refused(what, reason)) return false;
+  if (f == stderr || fileno(f) < 0 || !refused(what, reason)) return false;
   f->_flags |= _IO_ERR_SEEN;
   return true;
 }
-#define STREAM(result, name, parameters, arguments, stream, failure, ...)  \
-  typedef result type_##name parameters;                                   \
-  result name parameters;                                                  \
-  result name parameters {                                                 \
-    static type_##name *real;                                              \
-    if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                  \
+#define STREAM(result, name, parameters, arguments, stream, failure, ...)           \
+  typedef result type_##name parameters;                                            \
+  result name parameters;                                                           \
+  result name parameters {                                                          \
+    static type_##name *real;                                                       \
+    if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                           \
     if (stream_fails(stream, #name, (const int[]){__VA_ARGS__, 0})) return failure; \
-    return real arguments;                                                 \
+    return real arguments;                                                          \
   }
 
 #undef putc
@@ -384,7 +380,8 @@ STREAM(char *, fgets, (char *to, int n, FILE *f), (to, n, f), f, NULL, EIO)
 STREAM(int, fgetc, (FILE * f), (f), f, EOF, EIO)
 STREAM(int, getc, (FILE * f), (f), f, EOF, EIO)
 STREAM(ssize_t, getline, (char **to, size_t *n, FILE *f), (to, n, f), f, -1, EIO)
-STREAM(size_t, fwrite, (const void *d, size_t s, size_t n, FILE *f), (d, s, n, f), f, 0, ENOSPC, EIO)
+STREAM(size_t, fwrite, (const void *d, size_t s, size_t n, FILE *f), (d, s, n, f), f, 0, ENOSPC,
+       EIO)
 STREAM(int, fputs, (const char *s, FILE *f), (s, f), f, EOF, ENOSPC, EIO)
 STREAM(int, fputc, (int c, FILE *f), (c, f), f, EOF, ENOSPC, EIO)
 STREAM(int, putc, (int c, FILE *f), (c, f), f, EOF, ENOSPC, EIO)
@@ -426,14 +423,14 @@ static int print(FILE *f, const char *what, const char *format, va_list list) {
   return stream_fails(f, what, (const int[]){ENOSPC, EIO, 0}) ? -1 : real(f, format, list);
 }
 
-#define PRINTS(name, before, stream)                 \
-  int name(BEFORE_##before const char *format, ...); \
+#define PRINTS(name, before, stream)                  \
+  int name(BEFORE_##before const char *format, ...);  \
   int name(BEFORE_##before const char *format, ...) { \
-    va_list list;                                    \
-    va_start(list, format);                          \
-    int answer = print(stream, #name, format, list); \
-    va_end(list);                                    \
-    return answer;                                   \
+    va_list list;                                     \
+    va_start(list, format);                           \
+    int answer = print(stream, #name, format, list);  \
+    va_end(list);                                     \
+    return answer;                                    \
   }
 #define BEFORE_NOTHING
 #define BEFORE_STREAM FILE *f,
