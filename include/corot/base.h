@@ -9,7 +9,9 @@ extern "C" {
 #define COROT_VERSION "0.1.0"
 
 /* Status of a call: 0 ok, >0 recoverable (retry with a smaller step), <0 fatal.
-   The signs are those of a SUNDIALS callback, so a status can be returned to one as is. */
+   The signs are those of a SUNDIALS callback, so a status can be returned by one as is; but not by
+   the solve of a SUNLinearSolver, of which the integrators take values they do not know (and all of
+   these are) for a success. */
 typedef enum corot_status {
   COROT_OK = 0,
   COROT_RETRY = 1,       /* e.g. an inverted element: the step was too long */

@@ -13,8 +13,9 @@ extern "C" {
 /* How a step of a fixed-step method is solved. */
 typedef enum corot_solution {
   COROT_SOLUTION_NEWTON, /* with backtracking, to a tolerance */
-  COROT_SOLUTION_LINEAR, /* one solve: exact while the frames are held and both bases are R, else
-                            Newton's first iteration, with a matrix of its own each step */
+  COROT_SOLUTION_LINEAR, /* one solve: exact, with one matrix, while the frames are held if
+                            corot_model_matrices_by_frames, else Newton's first iteration, with a
+                            matrix of its own each step */
 } corot_solution;
 
 /* How to integrate. Zero means "choose" wherever the comment says so. Methods:
@@ -80,19 +81,30 @@ typedef struct corot_step {
 } corot_step;
 
 /* Advances by one step. With error control it does not go past t_stop and lands on it if it comes
-   near; where t_stop is t up to rounding it is reached without a step. A fixed-step method keeps to
-   its own grid, whatever t_stop.
+   near; where t_stop is t up to rounding it is reached without a step. Nor does it go past
+   corot_model_horizon(). A fixed-step method keeps to its own grid, whatever t_stop.
    COROT_EINTEGRATE: the integrator gave up; the message names its reason and the element, if one
    was inverted. The state last reached remains readable. */
 corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, corot_step *step);
 
-/* u and v [n] at any t within the last step, by the method's own interpolant; NULL skips one. After
-   a restart only the end of that step is left. */
+/* u and v [n] at any t within the last step; NULL skips one. After a restart only the end of that
+   step is left. cvode and ida: the method's own interpolant. arkode and erk: Hermite's polynomial of
+   degree 5 through u, v and the acceleration at both ends, v its derivative (to order 3, Hermite's
+   cubic through v and the acceleration); of arkode, in the modes too fast for the step, by a
+   polynomial through the displacements of the stages, so that it is right for stiff bodies, too. */
 corot_status corot_integrator_at(corot_integrator *integrator, double t, double *u, double *v);
 
-/* Work integrals from the start to t, t within the last step: dissipated and external work [J]. */
+/* Work integrals from the start to t, t within the last step: dissipated and external work [J].
+   cvode and ida: integrated with the solution. arkode and erk: by Lobatto's rule along the
+   interpolant, or where it is not all resolved by the table's own sum over the stages. */
 corot_status corot_integrator_work(corot_integrator *integrator, double t, double *dissipated,
                                    double *external);
+
+/* Energies and powers at the end of the last step, with the frames of that step if it is asked
+   before they are updated; `u` and `v` [n] are those of corot_integrator_at there. cvode, ida and the
+   methods of constant step have them from the step; with the others it is one corot_energy. */
+corot_status corot_integrator_energy(corot_integrator *integrator, const double *u, const double *v,
+                                     corot_energies *energies);
 
 /* What to do with the history of the solution when r has jumped between steps. */
 typedef enum corot_history {
@@ -103,6 +115,13 @@ typedef enum corot_history {
 
 /* To be called after a change of the held frames, at the end of a step. */
 corot_status corot_integrator_changed(corot_integrator *integrator, corot_history history);
+
+/* Call this at a kink of a load or motion (corot_model_kinks), at the end of the step that stops
+   there and after corot_state_enter: COROT_HISTORY_AUTO, with the matrices kept, which know of
+   positions only. A multistep method begins again where r has jumped and the next step feels it; a
+   Runge-Kutta method takes the new r, and a shorter step where the kink excites vibrations above
+   the tolerance which that step would not resolve. A method of constant step has nothing to do. */
+corot_status corot_integrator_kink(corot_integrator *integrator);
 
 /* --- Frames that follow the body between steps ------------------------------------------------ */
 
@@ -177,6 +196,7 @@ typedef struct corot_statistics {
   long nje;     /* Jacobian evaluations (K and D) */
   long nli;     /* linear iterations; 0 for direct solvers */
   long nfactor, nsolve, nfresh, nindefinite, nclamped, nfallback; /* of the pencil */
+  long nlsfail; /* linear solves that failed: the step was repeated with a shorter one, or ended */
   long nfeQ;     /* evaluations of the work integrands */
   long nrestart; /* restarts after a change */
   double hlast;  /* last step [s] */

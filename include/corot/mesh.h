@@ -69,17 +69,35 @@ void corot_mesh_destroy(corot_mesh *mesh);
    "FILE: byte N: ..." (binary); an unsound element is named by its number in the file. */
 corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
 
+/* How the cells of a box are cut into tets. A bent box of KUHN's cells, whose diagonals all point the
+   same way, drifts sideways by up to a third of its deflection. */
+typedef enum corot_box_split {
+  /* Kuhn's: the six tets of a cell are the paths from its low to its high corner along the axes. */
+  COROT_BOX_KUHN,
+  /* Kuhn's cell, mirrored in each axis along which its index is odd. Where a count is even, the mesh
+     is its own mirror image in that axis; where it is odd it is not, and drift is left, of about a
+     tenth of KUHN's for 3 x 3 cells. */
+  COROT_BOX_ALTERNATING,
+  /* The same, with the middle one of an odd number of cells cut in halves first, so that the mesh is
+     its own mirror image in all three axes: nothing drifts. */
+  COROT_BOX_SYMMETRIC,
+} corot_box_split;
+
 /* A box of nx*ny*nz cells, each cut into six tets. */
 typedef struct corot_box {
   double size[3];   /* [m] > 0 */
   int cells[3];     /* > 0 */
   double origin[3]; /* [m] the corner with the smallest coordinates */
+  corot_box_split split;
 } corot_box;
 
-/* Kuhn's split: the six tets of a cell are the paths from its low to its high corner along the
-   axes, so that neighbouring cells match. Octasection along the consistent diagonal is the Kuhn
-   split of cells of half the size (Bey 1995).
-   Node (i,j,k) has the number i + (nx+1)(j + (ny+1)k). The six sides are groups
+/* Split SYMMETRIC, which is recommended, origin 0; size and cells, which are to be set, 0. A box
+   that is zero elsewhere is split as KUHN, node for node as before there was a choice. */
+corot_box corot_box_defaults(void);
+
+/* Neighbouring cells match. Node (i,j,k) has the number i + (nx+1)(j + (ny+1)k), where a count that
+   SYMMETRIC has made even is one larger than in `cells`. Octasection along the consistent diagonal
+   cuts the halves of each cell as the cell was cut (Bey 1995). The six sides are groups
    xmin xmax ymin ymax zmin zmax. */
 corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
 

@@ -25,15 +25,42 @@ typedef struct corot_material {
 } corot_material;
 
 /* Viscous law of terms on a frame basis. COROTATED, the paper's: strain rate sym(R' dF/dt), which
-   a spinning deformed body feels a little. OBJECTIVE: the rate dS/dt of the stretch of F = R S
-   itself, which is exactly zero in any rigid motion; polar and hybrid only. */
-typedef enum corot_viscosity { COROT_COROTATED, COROT_OBJECTIVE } corot_viscosity;
+   a spinning deformed body feels a little; it has a moment, by which a body in equilibrium under
+   equal pressure begins to spin. OBJECTIVE: the rate dS/dt of the stretch of F = R S itself, which
+   is exactly zero in any rigid motion; polar and hybrid only. Its matrix depends on the deformation
+   too, COROTATED's on the frames alone; and it needs frames that lag by less than a right angle,
+   for it divides by s_j + s_k, sums of two eigenvalues of sym(R'F), which are positive in exact
+   frames. AUTO: OBJECTIVE with polar and hybrid unless there is a hierarchy, else COROTATED. */
+typedef enum corot_viscosity {
+  COROT_COROTATED,
+  COROT_OBJECTIVE,
+  COROT_VISCOSITY_AUTO,
+} corot_viscosity;
 
-/* A factor piecewise linear in time, constant beyond its ends. n = 0: one at all times. */
+/* How a factor changes in time. */
+typedef enum corot_curve {
+  COROT_CURVE_LINEAR, /* linear between points, constant beyond the first and the last. Two points at
+                         one time are a jump: the value of the first before it, that of the second
+                         from that time on; three at one time are refused */
+  COROT_CURVE_SMOOTH, /* the cubic spline through the points, with a continuous second derivative
+                         between them and slope zero at the first and the last, where constants
+                         continue it: smooth everywhere, it has no kinks. It may swing beyond its
+                         points, which is refused where it is by more than their whole range, as
+                         beside a long rest between few points. What is cut off on a slope bends to
+                         flat between the last points; elsewhere the error falls with the fourth
+                         power of their distance */
+  COROT_CURVE_SINE,   /* offset + sin(2 pi frequency t + phase), at all times */
+} corot_curve;
+
+/* A factor in time. All zero: one at all times. */
 typedef struct corot_amplitude {
-  int n;
-  const double *time;  /* [n] strictly increasing [s] */
+  int n;               /* points of LINEAR or SMOOTH; 0: one at all times */
+  const double *time;  /* [n] ascending [s] */
   const double *value; /* [n] */
+  corot_curve curve;
+  double frequency; /* of SINE [Hz] > 0 */
+  double phase;     /* [rad] */
+  double offset;
 } corot_amplitude;
 
 /* LUMPED: row sums at the nodes (the paper's). CONSISTENT: the linear shape functions' own, which
@@ -74,11 +101,19 @@ typedef struct corot_fix {
 typedef enum corot_motion_kind {
   COROT_ROTATE,    /* about an axis through `center`, at `rate`, right-handed */
   COROT_TRANSLATE, /* at `velocity` */
+  COROT_TURN,      /* about an axis through `center`, right-handed, by amplitude(t) times `angle` */
+  COROT_MOVE,      /* displaced by amplitude(t) times `direction` */
 } corot_motion_kind;
 
-/* Nodes of a group on a prescribed path: at rest until `from`, then at constant rate, at rest again
-   from `to`. Holds all three components. Several motions of one group follow one another: turns
-   about one and the same axis, or translations, at times that do not overlap. */
+/* Nodes of a group on a prescribed path, which holds all three components. ROTATE and TRANSLATE: at
+   rest until `from`, then at constant rate, at rest again from `to`. TURN and MOVE: where the
+   amplitude puts them, with its derivative as velocity; it may have kinks, at which the velocity
+   jumps, but no jumps. Where it is not zero at the start of a run, the support stands displaced
+   there, and stretches a body that is not; where its derivative is not zero, as of a sine of phase
+   zero, it sets out with a jolt.
+
+   Several motions of one group add up, be they turns about one and the same axis or translations;
+   two of constant rate at times that do not overlap. */
 typedef struct corot_motion {
   corot_motion_kind kind;
   const char *group;
@@ -87,6 +122,9 @@ typedef struct corot_motion {
   double rate;      /* [rad/s] */
   double velocity[3]; /* [m/s] */
   double from, to;  /* [s] from < to; to may be INFINITY */
+  double angle;     /* of TURN [rad] */
+  double direction[3]; /* of MOVE [m] */
+  corot_amplitude amplitude; /* of TURN and MOVE */
 } corot_motion;
 
 /* How level 0 of a hierarchical model follows the motion u of the finest level. MEAN: each of its
@@ -181,8 +219,8 @@ typedef struct corot_model_def {
   corot_mass mass;
   const corot_hierarchy_def *hierarchy; /* NULL: `strain` everywhere. Else `strain` is that of the
                                            finest level, which must be linear in a given frame:
-                                           cauchy, warp or polar; viscosity COROTATED,
-                                           dilatation LOCAL */
+                                           cauchy, warp or polar; viscosity COROTATED
+                                           or AUTO,                                           dilatation LOCAL */
   corot_dilatation dilatation;
   double dilatation_local; /* NODAL: so many mu of lambda are left to each tet's own dilatation, for
                               the patterns of swelling and shrinking that averages do not see; a
@@ -190,7 +228,7 @@ typedef struct corot_model_def {
                               fraction of lambda would lock again. >= 0 */
 } corot_model_def;
 
-/* Strain polar, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
+/* Strain polar, viscosity AUTO, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
 corot_model_def corot_model_defaults(void);
 
 typedef struct corot_model corot_model;
@@ -208,8 +246,11 @@ const corot_mesh *corot_model_mesh(const corot_model *model);
 /* The name of the strain measure; with a hierarchy both, as "green+polar". */
 const char *corot_model_strain(const corot_model *model);
 
+/* The viscous law in use: COROTATED or OBJECTIVE. */
+corot_viscosity corot_model_viscosity(const corot_model *model);
+
 /* Whether the stiffness and damping matrices depend on the frames alone, and stay while these are
-   held: with polar, warp and cauchy, and under a hierarchy with coupling MEAN of these on the finest
+   held: with polar, warp and cauchy, unless there is damping by the objective law; and under a hierarchy with coupling MEAN of these on the finest
    level, whatever the coarse measure. */
 bool corot_model_matrices_by_frames(const corot_model *model);
 
@@ -225,9 +266,17 @@ const double *corot_model_mass(const corot_model *model);
 
 corot_mass corot_model_mass_kind(const corot_model *model);
 
-/* The times strictly between t0 and t1 where a load or a motion has a kink, ascending; at most `max`
-   are written to `time` (which may be NULL if max is 0). Returns how many there are. */
+/* The times strictly between t0 and t1 where a load or a motion has a kink or a load jumps, ascending,
+   each once; at most `max` are written to `time` (which may be NULL if max is 0). Returns how many
+   there are. Sines and splines have none. */
 int corot_model_kinks(const corot_model *model, double t0, double t1, int max, double *time);
+
+/* The latest time to which one step from t should go, so as not to pass over what a smooth amplitude
+   does meanwhile: error control sees only what a step has met. It is a quarter of a sine's period
+   away; half of the way that a spline takes from one extreme to the next, and where the spline
+   rests, the time at which it sets out. INFINITY: as far as any amplitude is concerned. Later than
+   t. The integrators of corot/integrate.h that control their error keep to it by themselves. */
+double corot_model_horizon(const corot_model *model, double t);
 
 /* Scales for tolerances, the same however the body is turned: its length, twice the largest
    distance from its centroid [m]; the smallest shear wave speed sqrt(mu/density) over it [1/s]; and

@@ -61,10 +61,11 @@ size_t corot_state_bytes(const corot_state *state);
 void corot_state_use(corot_state *state, corot_frames frames);
 corot_frames corot_state_frames(const corot_state *state);
 
-/* From now on, evaluations belong to the time after t and before the next kink of a motion: at a
-   kink itself the velocity of a support has two values, and this says which is meant. To be called
-   at each kink by who stops there; until the first call, and after t = NaN, which lets a step
-   cross a kink, the later value is taken. */
+/* From now on, evaluations belong to the time after t and before the next kink of a load or a motion:
+   at a kink itself the velocity of a support, and at a jump a load, has two values, and this says
+   which is meant; beyond it the law goes on as it was, so that r is smooth for a step that ends
+   there. Call this at each kink (corot_model_kinks) where a step ends; until the first call, and
+   after t = NaN, which lets a step cross a kink, each time has its own law, at a kink the later. */
 void corot_state_enter(corot_state *state, double t);
 
 /* From now on evaluations are for statics: the loads are `factor` times those of time t; the time
@@ -179,6 +180,37 @@ typedef struct corot_element_fields {
 corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
                             const corot_element_fields *fields);
 
+/* How far a displacement is from small strains and turns. What is below the limits is not counted,
+   so that a body hardly deformed costs little. */
+typedef struct corot_deformation {
+  double strained; /* part of the volume where a principal stretch is off one by more than the
+                      limit */
+  double stretch_min, stretch_max; /* of the principal stretches there; 1 if there is none */
+  double turned;   /* part of the volume turned by more than the limit */
+  double turn_max; /* largest turn there, the angle of the polar factor [rad]; 0 if there is none */
+  double det_min;  /* the smallest det F of all tets, and whose it is */
+  int det_tet;
+  int ninverted;   /* tets with det F <= 0, which the rest leaves out */
+} corot_deformation;
+
+/* Of the displacement at t alone, whatever the strain measure; with a hierarchy, of the finest
+   level. strain_limit: 0 to 1; turn_limit [rad]: INFINITY, if turns do not matter. */
+void corot_deformation_measure(const corot_model *model, corot_state *state, double t,
+                               const double *u, double strain_limit, double turn_limit,
+                               corot_deformation *deformation);
+
+/* How much the stress, which is constant in each tet, jumps between tets: an indicator of what the
+   mesh leaves out. With the stress S in material axes, and S* its continuous recovery, linear between
+   averages around the nodes (each material has its own),
+
+     *share = e / sqrt(|S|^2 + e^2),  e = |S* - S|
+
+   in the norm of the strain energy (Zienkiewicz & Zhu 1987, whose estimator of the relative error
+   this is). Where dilatations are averaged, of the deviator alone. 0 for a body without stress but
+   what rounding leaves. COROT_ENOMEM. */
+corot_status corot_stress_jumps(const corot_model *model, corot_state *state, double t,
+                                const double *u, double *share);
+
 /* Elastic force of the model on all nodes [nnode][3] [N], held ones included, with exact frames.
    COROT_RETRY as for corot_residual. */
 corot_status corot_elastic_force(const corot_model *model, corot_state *state, double t,
@@ -190,6 +222,13 @@ corot_status corot_elastic_force(const corot_model *model, corot_state *state, d
 corot_status corot_internal_force(const corot_model *model, corot_state *state, double t,
                                   const double *u, const char *strain, double lambda_part,
                                   double mu_part, double (*f)[3]);
+
+/* Loads of time t, times `factor`, on all nodes [nnode][3] [N], held components included, of the
+   body displaced by `displacement` [nnode], which says where a pressure acts. What falls on held
+   components is taken up by the supports: at rest, the force of a support on the body is the elastic
+   force less this. COROT_ENOMEM. */
+corot_status corot_load_force(const corot_model *model, double t, double factor,
+                              const double (*displacement)[3], double (*f)[3]);
 
 /* --- The matrices' pattern ------------------------------------------------------------------- */
 

@@ -70,13 +70,15 @@ void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
 /* Factors S. cholmod and pcg need it positive definite. Where it is not, in a time step, K is made
    again with the clamped tangent, and stays so until the next assembly; if that is no help (or was
    there already), klu factors S as it is, and solves until the next factorisation. The counts
-   tell; klu is made when first needed, the only memory to be asked for after creation.
+   tell; klu is made when first needed, with memory asked for after creation.
    COROT_RETRY: not positive definite, in statics, where the loss of stability must be seen.
    COROT_ESINGULAR: no pivot; the message names the degree of freedom and its node. */
 corot_status corot_pencil_factor(corot_pencil *pencil);
 
 /* x = S^-1 b; x may be b. COROT_RETRY: pcg met a direction in which S is not positive, or did not
-   converge. */
+   converge. If it was not asked for by name, a direct solver takes its place instead, now and for
+   the rest of the run (see corot_pencil_solver), with memory asked for then; and so it does, at a
+   factorisation, where the iterations have cost twice as much as it would have. */
 corot_status corot_pencil_solve(corot_pencil *pencil, const double *b, double *x);
 
 /* Marks K and D as out of date, so that the next set-up reassembles them whatever the integrator
@@ -85,6 +87,8 @@ void corot_pencil_invalidate(corot_pencil *pencil);
 
 typedef struct corot_pencil_counts {
   long nassembly, ncombine, nfactor, nsolve; /* done, those of a fallback included */
+  long nlsfail;    /* solves that failed: an iterative solver did not converge or found S not positive
+                      definite, memory ran out */
   long nfresh;     /* factorisations that chose their pivots anew */
   long niteration;  /* of an iterative solver */
   long nindefinite; /* factorisations refused because S was not positive definite, of which */

@@ -100,6 +100,7 @@ typedef struct corot_statics_counts {
   long nrejected;            /* refused */
   long nframes;              /* updates of held frames */
   long nfactor, nsolve, nli; /* of the pencil; nli: linear iterations */
+  long nlsfail;              /* linear solves that failed */
   long nindefinite; /* factorisations that showed that K is not positive definite; the iteration
                        went on with the clamped tangent, or the equilibrium was unstable */
   /* Wall time by phase [s]; `other_s` is what these leave of all steps. */

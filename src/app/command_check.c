@@ -16,15 +16,14 @@ static const char help[] =
     "      --resolved       the whole scenario with all defaults and overrides, as JSON, which is\n"
     "                       YAML as well; paths remain relative to the scenario's folder\n"
     "      --json           the facts as JSON\n"
+    "      --warnings       the codes of warnings, and when each is given; no scenario is read\n"
     "\n"
     "example: corot check bar.yaml --set strain=green\n";
 
 static const struct option options[] = {
-    {"set", required_argument, NULL, 's'},
-    {"resolved", no_argument, NULL, 'r'},
-    {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
+    {"set", required_argument, NULL, 's'}, {"resolved", no_argument, NULL, 'r'},
+    {"json", no_argument, NULL, 'j'},      {"warnings", no_argument, NULL, 'w'},
+    {"help", no_argument, NULL, 'h'},      {0},
 };
 
 typedef enum report { REPORT_TEXT, REPORT_RESOLVED, REPORT_JSON } report;
@@ -64,6 +63,11 @@ static int check(const char *path, int noverride, char **override, report kind) 
   return code;
 }
 
+static void print_codes(void) {
+  for (int i = 0; i < WARNING_CODES; i++)
+    printf("%-22s %s\n", warning_kinds[i].word, warning_kinds[i].about);
+}
+
 int command_check(int argc, char **argv) {
   char **override = calloc((size_t)argc, sizeof *override);
   if (!override) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
@@ -77,6 +81,8 @@ int command_check(int argc, char **argv) {
       kind = REPORT_RESOLVED;
     else if (answer == 'j')
       kind = REPORT_JSON;
+    else if (answer == 'w')
+      print_codes(), code = EXIT_OK;
     else if (answer == 'h')
       fputs(help, stdout), code = EXIT_OK;
     else

@@ -17,9 +17,10 @@ static const char help[] =
     "to stderr; see also corot mesh info.\n"
     "\n"
     "      --levels N       how often; default: 1\n"
-    "      --diagonal NAME  consistent: at most three shapes of tets come from each (Bey 1995);\n"
-    "                       shortest: better shapes on the average, more of them with every\n"
-    "                       level; default: consistent\n"
+    "      --diagonal NAME  shortest: better shapes on the average; consistent: at most three "
+    "shapes\n"
+    "                       of tets come from each, however often it is cut (Bey 1995); default:\n"
+    "                       shortest\n"
     "  -o, --output FILE    the file to write\n"
     "\n"
     "example: corot mesh refine bar.msh --levels 2 -o fine.msh\n";
@@ -81,7 +82,7 @@ static int refine(const arguments *a) {
 }
 
 int command_mesh_refine(int argc, char **argv) {
-  arguments a = {.nlevel = 1};
+  arguments a = {.nlevel = 1, .diagonal = COROT_DIAGONAL_SHORTEST};
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":o:h", options, NULL)) != -1;) {
     if (answer == 'h') {

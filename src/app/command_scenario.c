@@ -7,7 +7,6 @@
 #include "cli.h"
 #include "folder.h"
 #include "stop.h"
-#include "warnings.h"
 
 static const struct option options[] = {
     {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
@@ -26,7 +25,6 @@ static int read_and_go(scenario_action *go, const char *path, int noverride, cha
   int code = EXIT_SYSTEM;
   if (o->dir) {
     stop_heed();
-    if (!o->quiet) warnings_print(s, "warning: ", stderr);
     code = go(s, o);
   } else {
     failure(COROT_ENOMEM);

@@ -96,15 +96,20 @@ void config_remove(config_node *node) {
   node->parent = node->next = NULL;
 }
 
-corot_status config_add_number(config *tree, config_node *map, const char *key, double number) {
-  char text[32];
-  int length = snprintf(text, sizeof text, "%.17g", number);
+corot_status config_add_text(config *tree, config_node *map, const char *key, const char *text) {
   config_node *node = config_node_create(tree, CONFIG_SCALAR);
-  if (node) node->text = config_copy(tree, text, (size_t)length);
+  if (node) node->text = config_copy(tree, text, strlen(text));
   if (!node || !node->text) return corot_fail(COROT_ENOMEM, "out of memory");
   node->key = key;
-  node->number = number;
   config_append(map, node);
+  return COROT_OK;
+}
+
+corot_status config_add_number(config *tree, config_node *map, const char *key, double number) {
+  char text[32];
+  snprintf(text, sizeof text, "%.17g", number);
+  COROT_TRY(config_add_text(tree, map, key, text));
+  map->last->number = number;
   return COROT_OK;
 }
 

@@ -82,6 +82,7 @@ const char *config_beside(config *tree, const char *path, const char *file);
 config_node *config_node_create(config *tree, config_kind kind);
 
 /* A scalar without a place, under `key` at the end of a map. */
+corot_status config_add_text(config *tree, config_node *map, const char *key, const char *text);
 corot_status config_add_number(config *tree, config_node *map, const char *key, double number);
 
 /* Appends to a list or map. */

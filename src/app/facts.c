@@ -6,7 +6,6 @@
 
 #include "config.h"
 #include "json_text.h"
-#include "warnings.h"
 
 /* --- Finding --- */
 
@@ -61,6 +60,7 @@ corot_status facts_find(const scenario *s, facts *f) {
   corot_state *state = NULL;
   COROT_TRY(scenario_build(s, &f->mesh, &f->refinement, &f->model));
   f->quality = corot_mesh_measure(f->mesh);
+  COROT_TRY(warnings_before(s, f->model, &f->warnings));
   f->mass = total_mass(s, f);
   COROT_TRY(corot_state_create(f->model, &state));
   f->bytes = corot_model_bytes(f->model) + corot_state_bytes(state);
@@ -71,6 +71,7 @@ corot_status facts_find(const scenario *s, facts *f) {
 }
 
 void facts_free(facts *f) {
+  warnings_free(&f->warnings);
   corot_model_destroy(f->model);
   corot_refinement_destroy(f->refinement);
   corot_mesh_destroy(f->mesh);
@@ -95,6 +96,13 @@ static bool is_named(const char *name, const char *group) {
   return name && strcmp(name, group) == 0;
 }
 
+static const char *const motion_words[] = {
+    [COROT_ROTATE] = "rotated",
+    [COROT_TRANSLATE] = "translated",
+    [COROT_TURN] = "turned by an amplitude",
+    [COROT_MOVE] = "moved by an amplitude",
+};
+
 static void print_uses(const scenario *s, const char *group, FILE *out) {
   for (int i = 0; i < s->nfix; i++) {
     if (!is_named(s->fix[i].group, group)) continue;
@@ -103,8 +111,7 @@ static void print_uses(const scenario *s, const char *group, FILE *out) {
       if (s->fix[i].component[k]) fprintf(out, " %c", "xyz"[k]);
   }
   for (int i = 0; i < s->nmotion; i++)
-    if (is_named(s->motion[i].group, group))
-      fputs(s->motion[i].kind == COROT_ROTATE ? "; rotated" : "; translated", out);
+    if (is_named(s->motion[i].group, group)) fprintf(out, "; %s", motion_words[s->motion[i].kind]);
   for (int i = 0; i < s->nload; i++)
     if (is_named(s->load[i].group, group))
       fprintf(out, "; %s", scenario_load_words[s->load[i].kind]);
@@ -112,9 +119,21 @@ static void print_uses(const scenario *s, const char *group, FILE *out) {
     if (is_named(s->material[i].group, group)) fputs("; material", out);
 }
 
+/* A symmetric split cuts the middle one of an odd number of cells in halves. */
+static void print_box(const corot_box *box, FILE *out) {
+  const char *before = ", middle cells halved along ";
+  fputs("box", out);
+  for (int k = 0; k < 3 && box->split == COROT_BOX_SYMMETRIC; k++)
+    if (box->cells[k] % 2 == 1) {
+      fprintf(out, "%s%c", before, "xyz"[k]);
+      before = " ";
+    }
+}
+
 static void print_mesh(const scenario *s, const facts *f, FILE *out) {
   const corot_mesh_quality *q = &f->quality;
-  fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "box");
+  fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "");
+  if (!s->mesh_file) print_box(&s->box, out);
   if (s->refine > 0) fprintf(out, ", refine %d", s->refine);
   fprintf(out, ": %d nodes, %d tets, %.6g m^3\n", f->mesh->nnode, f->mesh->ntet, q->volume);
   fprintf(out, "extent         [%g, %g] x [%g, %g] x [%g, %g] m\n", q->min[0], q->max[0], q->min[1],
@@ -138,10 +157,86 @@ static void print_frames(const scenario *s, FILE *out) {
   fputc('\n', out);
 }
 
+static const char *viscosity_name(const facts *f) {
+  return corot_model_viscosity(f->model) == COROT_OBJECTIVE ? "objective" : "corotated";
+}
+
+static void print_viscosity(const scenario *s, const facts *f, FILE *out) {
+  bool viscous = false;
+  for (int i = 0; i < s->nmaterial; i++)
+    viscous |= s->material[i].damping_lambda > 0 || s->material[i].damping_mu > 0;
+  if (viscous) fprintf(out, "viscosity      %s\n", viscosity_name(f));
+}
+
 static void print_dilatation(const scenario *s, FILE *out) {
   if (s->dilatation == COROT_DILATATION_NODAL)
     fprintf(out, "dilatation     averaged at the nodes, but for %g mu of lambda\n",
             s->dilatation_local);
+}
+
+static void print_amplitude(const corot_amplitude *a, FILE *out) {
+  char text[160];
+  scenario_describe_amplitude(a, sizeof text, text);
+  fprintf(out, "%s%s\n", *text ? ", amplitude: " : "", text);
+}
+
+static void print_vector(const double x[3], const char *unit, FILE *out) {
+  fprintf(out, "(%g, %g, %g) %s", x[0], x[1], x[2], unit);
+}
+
+static void print_load(const corot_load *l, FILE *out) {
+  static const char *const unit[] = {
+      [COROT_TRACTION] = "Pa",
+      [COROT_GRAVITY] = "m/s^2",
+      [COROT_FORCE] = "N",
+      [COROT_PRESSURE] = "Pa",
+  };
+  fprintf(out, "load           %s%s%s: ", scenario_load_words[l->kind], l->group ? " on " : "",
+          l->group ? l->group : "");
+  if (l->kind == COROT_PRESSURE)
+    fprintf(out, "%g Pa", l->value[0]);
+  else
+    print_vector(l->value, unit[l->kind], out);
+  print_amplitude(&l->amplitude, out);
+}
+
+static void print_motion(const corot_motion *m, FILE *out) {
+  fprintf(out, "motion         of %s: ", m->group);
+  switch (m->kind) {
+    case COROT_ROTATE:
+      fprintf(out, "turned at %g rad/s from t = %g to %g s\n", m->rate, m->from, m->to);
+      break;
+    case COROT_TRANSLATE:
+      print_vector(m->velocity, "m/s", out);
+      fprintf(out, " from t = %g to %g s\n", m->from, m->to);
+      break;
+    case COROT_TURN:
+      fprintf(out, "turned by %g rad", m->angle);
+      print_amplitude(&m->amplitude, out);
+      break;
+    case COROT_MOVE:
+      print_vector(m->direction, "m", out);
+      print_amplitude(&m->amplitude, out);
+  }
+}
+
+static void print_start(const start_def *start, FILE *out) {
+  fprintf(out, "start          %s at ", start->group ? start->group : "body");
+  print_vector(start->velocity, "m/s", out);
+  if (start->rate != 0) {
+    fprintf(out, ", spinning at %g rad/s about ", start->rate);
+    print_vector(start->axis, "through ", out);
+    print_vector(start->center, "m", out);
+  }
+  fputc('\n', out);
+}
+
+/* What acts on the body from outside, and what it begins with. */
+static void print_inputs(const scenario *s, FILE *out) {
+  for (int i = 0; i < s->nload; i++) print_load(&s->load[i], out);
+  for (int i = 0; i < s->nmotion; i++) print_motion(&s->motion[i], out);
+  if (s->start_at_equilibrium) fputs("start          in equilibrium\n", out);
+  for (int i = 0; i < s->nstart; i++) print_start(&s->start[i], out);
 }
 
 static void print_model(const scenario *s, const facts *f, FILE *out) {
@@ -158,7 +253,9 @@ static void print_model(const scenario *s, const facts *f, FILE *out) {
   fprintf(out, "freedom        %d of %d components%s\n", ndof, all,
           ndof == all ? ": a free body" : "");
   fprintf(out, "loads          %d\n", s->nload);
+  print_inputs(s, out);
   print_frames(s, out);
+  print_viscosity(s, f, out);
   print_dilatation(s, out);
   fprintf(out, "memory         %.3g MB, %.0f bytes a tet\n", 1e-6 * (double)f->bytes,
           (double)f->bytes / f->mesh->ntet);
@@ -203,7 +300,7 @@ void facts_print(const scenario *s, const facts *f, FILE *out) {
   print_mesh(s, f, out);
   print_model(s, f, out);
   print_run(s, f, out);
-  warnings_print(s, "warning        ", out);
+  warnings_print(&f->warnings, 0, "warning        ", out);
 }
 
 /* --- JSON --- */
@@ -243,6 +340,28 @@ static json_t *mesh_json(const scenario *s, const facts *f) {
                         json_pack("{s:f, s:f}", "mean", q->shape_mean, "min", q->shape_min));
 }
 
+static void add_amplitude(json_t *list, const char *key, const corot_amplitude *a) {
+  char text[160];
+  scenario_describe_amplitude(a, sizeof text, text);
+  json_array_append_new(list, json_pack("{s:s, s:s}", "of", key, "amplitude", text));
+}
+
+/* Where there are amplitudes, in words; a scenario resolved has all of their numbers. */
+static json_t *amplitudes_json(const scenario *s) {
+  json_t *list = json_array();
+  char key[32];
+  for (int i = 0; i < s->nload; i++) {
+    snprintf(key, sizeof key, "loads[%d]", i);
+    add_amplitude(list, key, &s->load[i].amplitude);
+  }
+  for (int i = 0; i < s->nmotion; i++) {
+    if (s->motion[i].kind != COROT_MOVE && s->motion[i].kind != COROT_TURN) continue;
+    snprintf(key, sizeof key, "motion of %.20s", s->motion[i].group);
+    add_amplitude(list, key, &s->motion[i].amplitude);
+  }
+  return list;
+}
+
 static json_t *integrator_json(const scenario *s, const corot_integrator_choice *c) {
   double step = s->integrator.step;
   return json_pack("{s:s, s:s, s:i, s:f, s:f, s:f, s:o}", "method", c->method, "linear_solver",
@@ -260,13 +379,15 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "mass", json_real(f->mass));
   j = json_text_with(j, "dofs", json_integer(corot_model_ndof(f->model)));
   j = json_text_with(j, "loads", json_integer(s->nload));
+  j = json_text_with(j, "amplitudes", amplitudes_json(s));
   j = json_text_with(j, "strain", json_string(s->strain));
   j = json_text_with(j, "dilatation",
                      json_string(s->dilatation == COROT_DILATATION_NODAL ? "nodal" : "local"));
+  j = json_text_with(j, "viscosity", json_string(viscosity_name(f)));
   j = json_text_with(j, "frames", json_string(s->frame_policy));
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
   j = json_text_with(j, "probes", probes_json(s, f->mesh));
-  return json_text_with(j, "warnings", warnings_list(s));
+  return json_text_with(j, "warnings", warnings_json(&f->warnings));
 }

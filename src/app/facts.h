@@ -3,6 +3,7 @@
 #define COROT_APP_FACTS_H
 
 #include "scenario.h"
+#include "warnings.h"
 
 typedef struct facts {
   corot_mesh *mesh;
@@ -12,6 +13,7 @@ typedef struct facts {
   corot_integrator_choice chosen;
   size_t bytes; /* of model and state */
   double mass;  /* of the whole solid [kg] */
+  warnings warnings;
 } facts;
 
 /* Builds everything that a run would. On failure `f` holds what had been found. */

@@ -91,6 +91,9 @@ static corot_status remove_frames(const char *fields) {
 corot_status folder_clean(const char *dir) {
   COROT_TRY(remove_file(dir, "result.json"));
   COROT_TRY(remove_file(dir, "compare.csv"));
+  COROT_TRY(remove_file(dir, "reactions.csv"));
+  COROT_TRY(remove_file(dir, "groups.json"));
+  COROT_TRY(remove_file(dir, "history.csv"));
   COROT_TRY(remove_file(dir, "states.bin"));
   COROT_TRY(remove_file(dir, "fields.pvd"));
   COROT_TRY(remove_file(dir, "report.html"));

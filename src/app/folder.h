@@ -9,7 +9,8 @@
 corot_status folder_make(const char *path);
 
 /* Removes what an earlier run left and this one might not overwrite: result.json, compare.csv,
-   states.bin, fields.pvd, fields/fields_*.vtu and report.html. All other files stay. */
+   history.csv, reactions.csv, groups.json, states.bin, fields.pvd, fields/fields_*.vtu and
+   report.html. All other files stay. */
 corot_status folder_clean(const char *dir);
 
 /* "DIR/NAME", the caller's to free; NULL where memory ran out (the message is set). */

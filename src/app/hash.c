@@ -28,9 +28,11 @@ void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]) {
   SHA256End(&sum, digest);
 }
 
-void hash_text(const char *text, char digest[HASH_SIZE]) {
-  SHA256Data((const uint8_t *)text, strlen(text), digest);
+void hash_bytes(const char *data, size_t size, char digest[HASH_SIZE]) {
+  SHA256Data((const uint8_t *)data, size, digest);
 }
+
+void hash_text(const char *text, char digest[HASH_SIZE]) { hash_bytes(text, strlen(text), digest); }
 
 corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out) {
   char *text = json_text_dump_plain(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));

@@ -19,6 +19,7 @@ corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *o
 void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]);
 corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out);
 
+void hash_bytes(const char *data, size_t size, char digest[HASH_SIZE]);
 void hash_text(const char *text, char digest[HASH_SIZE]);
 
 #endif

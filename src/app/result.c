@@ -8,7 +8,6 @@
 #include "folder.h"
 #include "json_text.h"
 #include "result_statics.h"
-#include "warnings.h"
 
 #if defined(__clang__)
 #define COMPILER "clang " __clang_version__
@@ -37,7 +36,7 @@ static json_t *mesh_part(const scenario *s, const corot_model *model) {
 }
 
 static json_t *frames_part(const scenario *s, const run_summary *run) {
-  static const char *const history[] = {
+  static const char *const history_words[] = {
       [COROT_HISTORY_AUTO] = "auto",
       [COROT_HISTORY_KEEP] = "keep",
       [COROT_HISTORY_RESTART] = "restart",
@@ -50,8 +49,8 @@ static json_t *frames_part(const scenario *s, const run_summary *run) {
   return json_pack(
       "{s:s, s:o, s:o, s:s?, s:o, s:o, s:o, s:o, s:o}", "policy", s->frame_policy, "interval",
       positive(p->interval), "max_angle", positive(p->max_angle), "history",
-      exact ? NULL : history[p->history], "updates", integer(run->frames.count), "updates_by", by,
-      "angle_max", json_text_real(run->frames.angle_max), "angle_mean",
+      exact ? NULL : history_words[p->history], "updates", integer(run->frames.count), "updates_by",
+      by, "angle_max", json_text_real(run->frames.angle_max), "angle_mean",
       json_text_real(run->frames.angle_mean), "energy", json_text_real(run->frames.energy));
 }
 
@@ -82,11 +81,12 @@ static json_t *statistics_part(const run_summary *run) {
                 integer(n->nfe), "nsetups", integer(n->nsetups), "netf", integer(n->netf), "nni",
                 integer(n->nni), "ncfn", integer(n->ncfn), "nje", integer(n->nje), "nli",
                 integer(n->nli), "hlast", json_text_real(n->hlast), "qlast", n->qlast);
-  json_t *more = json_pack(
-      "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor", integer(n->nfactor), "nsolve",
-      integer(n->nsolve), "nfresh", integer(n->nfresh), "nindefinite", integer(n->nindefinite),
-      "nclamped", integer(n->nclamped), "nfallback", integer(n->nfallback), "nfeQ",
-      integer(n->nfeQ), "nrestart", integer(n->nrestart), "nframes", integer(run->frames.count));
+  json_t *more =
+      json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "nfactor",
+                integer(n->nfactor), "nsolve", integer(n->nsolve), "nlsfail", integer(n->nlsfail),
+                "nfresh", integer(n->nfresh), "nindefinite", integer(n->nindefinite), "nclamped",
+                integer(n->nclamped), "nfallback", integer(n->nfallback), "nfeQ", integer(n->nfeQ),
+                "nrestart", integer(n->nrestart), "nframes", integer(run->frames.count));
   bool complete = part && more && json_object_update(part, more) == 0;
   json_decref(more);
   if (complete) return part;
@@ -142,6 +142,23 @@ static json_t *energy_part(const outputs *o) {
                    "angular_momentum", vector(e.angular_momentum));
 }
 
+static json_t *extremes_part(const outputs *o) {
+  return outputs_count(o) > 0 ? outputs_extremes(o) : json_object();
+}
+
+/* What the warnings were made from: parts of the energy, of the volume, of the stress. */
+static json_t *observed_part(const run_summary *run) {
+  const observed *o = run->seen;
+  const history_facts *h = &o->history;
+  double worst = fmax(h->balance_max.value, -h->balance_min.value);
+  json_t *energy =
+      run->statics || !(h->energy > 0) ? json_null() : json_text_real(worst / h->energy);
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "displacement",
+                   json_text_real(o->displacement), "period", positive(h->period), "energy_error",
+                   energy, "strained", json_text_real(o->strained.strained), "turned",
+                   json_text_real(o->turned.turned), "stress_jumps", json_text_real(o->jumps));
+}
+
 json_t *result_versions(void) {
   return json_pack("{s:s, s:s, s:s}", "corot", corot_version(), "sundials",
                    corot_sundials_version(), "compiler", COMPILER);
@@ -152,19 +169,21 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
   const hashes *h = &run->hashes;
   json_t *result = json_pack(
       "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
-      "s:o,"
-      " s:{s:s, s:s, s:s}, s:O}",
+      "s:o, s:o,"
+      " s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
       json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
-      warnings_list(s), "strain", corot_model_strain(run->model), "mesh", mesh_part(s, run->model),
-      "frames", run->statics ? json_null() : frames_part(s, run), "integrator",
+      warnings_json(run->warnings), "strain", corot_model_strain(run->model), "mesh",
+      mesh_part(s, run->model), "frames", run->statics ? json_null() : frames_part(s, run),
+      "integrator",
       run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
       timings_part(run), "memory", memory_part(run), "probes", probes_part(o), "energy",
-      energy_part(o), "versions", result_versions(), "hashes", "scenario", h->scenario, "mesh",
-      h->mesh, "run", h->run, "scenario", s->resolved);
+      energy_part(o), "extremes", extremes_part(o), "observed", observed_part(run), "versions",
+      result_versions(), "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
+      "scenario", s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
   return COROT_OK;

@@ -1,10 +1,23 @@
-/* result.json: everything about a run that is one number or one word. */
+/* result.json: everything about a run that is one number or one word. Some of it:
+
+     warnings  [{code, text}, ...], see warnings.h
+     extremes  {NAME: {min: {value, t}, max: {value, t}}, ...} over all steps (of statics, over the
+               load steps): PROBE.ux, uy, uz [m], PROBE.u, its length, and the energies under their
+               names in energy.csv [J]
+     observed  what the outcome's warnings are made from, warning or not:
+       displacement  the largest of a node at an output time [m]
+       period        of the motion, see history.h [s]; null: it does not swing
+       energy_error  the largest balance over the largest energy; null: statics
+       strained      the part of the volume strained beyond STRAIN_LIMIT, when that was largest
+       turned        the part turned beyond TURN_LIMIT, when the turn was largest; of cauchy
+       stress_jumps  corot_stress_jumps when the elastic energy was largest */
 #ifndef COROT_APP_RESULT_H
 #define COROT_APP_RESULT_H
 
 #include "failure.h"
 #include "hash.h"
 #include "outputs.h"
+#include "warnings.h"
 
 /* All updates of held or extrapolated frames. */
 typedef struct frame_totals {
@@ -20,6 +33,7 @@ typedef struct statics_summary {
   double factor;           /* reached */
   double stable, unstable; /* load factors between which stability was lost; NaN: nowhere */
   json_t *steps;           /* a list with an object for each load step */
+  json_t *reactions;       /* by group, at the last equilibrium */
 } statics_summary;
 
 /* What a run has to say when it is over. */
@@ -38,6 +52,8 @@ typedef struct run_summary {
                                      and `frames` nothing */
   double setup_s, frames_s, output_s, wall_s, cpu_s; /* [s] */
   hashes hashes;
+  const warnings *warnings;
+  const observed *seen;
 } run_summary;
 
 /* The caller's to json_decref. */

@@ -15,7 +15,8 @@ static corot_status make_text(const scenario *s, const brief_result *what, json_
   result = json_text_with(result, "failure", run_failure_json(what->failure));
   result = json_text_with(result, "t_end", json_text_real(s->t_end));
   result = json_text_with(result, "title", json_text_string(s->title));
-  result = json_text_with(result, "warnings", warnings_list(s));
+  result = json_text_with(
+      result, "warnings", what->warnings ? warnings_json(what->warnings) : json_array());
   result = json_text_with(result, "strain", json_string(s->strain));
   result = json_text_with(result, "versions", result_versions());
   result = json_text_with(result, "scenario", json_incref(s->resolved));
@@ -32,6 +33,9 @@ corot_status result_brief(const scenario *s, const brief_result *what, char **te
 corot_status result_for_stop(const scenario *s, char **text) {
   char reason[64];
   snprintf(reason, sizeof reason, "interrupted by signal %d", STOP_NUMBER);
-  brief_result what = {"interrupted", reason, STOP_CODE, {"interrupted", true}, 0};
+  brief_result what = {.status = "interrupted",
+                       .reason = reason,
+                       .exit_code = STOP_CODE,
+                       .failure = {"interrupted", true}};
   return make_text(s, &what, json_integer(STOP_REACHED), text);
 }

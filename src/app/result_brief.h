@@ -4,12 +4,14 @@
 #define COROT_APP_RESULT_BRIEF_H
 
 #include "result.h"
+#include "warnings.h"
 
 typedef struct brief_result {
   const char *status, *reason;
   int exit_code;
   run_failure failure;
-  double t_reached; /* [s] */
+  double t_reached;         /* [s] */
+  const warnings *warnings; /* NULL: none */
 } brief_result;
 
 /* The text of it; the caller's to free. */

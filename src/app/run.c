@@ -30,9 +30,12 @@ typedef struct run {
   progress progress;
   double *u, *v; /* [n] scratch */
   double t;      /* reached [s]; at a constant step, it may pass the end */
+  double before; /* where the last step began [s] */
   double shown;  /* time of the last row of the tables [s]; -1: there is none */
   frame_totals frames;
   run_failure failure;
+  warnings warnings;
+  observed seen;                                                   /* in the end */
   double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
 } run;
 
@@ -47,6 +50,7 @@ static corot_status start_integrator(run *r) {
 
   COROT_TRY(corot_state_create(r->model, &r->state));
   if (s->start_at_equilibrium) COROT_TRY(static_start(s, r->refinement, r->model, r->u));
+  scenario_start(s, r->model, r->u, r->v);
   corot_state_enter(r->state, 0);
   COROT_TRY(schedule_create(r->model, s->t_end, s->output_step, &r->schedule));
   corot_integrator_def def = s->integrator;
@@ -58,6 +62,7 @@ static corot_status start_integrator(run *r) {
 
 static corot_status prepare(run *r) {
   COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(run_warn_before(r->scenario, r->model, r->options, &r->warnings));
   COROT_TRY(start_integrator(r));
   r->setup_s = wall_clock() - r->wall_at_start;
   return COROT_OK;
@@ -72,24 +77,61 @@ static void release(run *r) {
   corot_model_destroy(r->model);
   corot_refinement_destroy(r->refinement);
   corot_mesh_destroy(r->mesh);
+  warnings_free(&r->warnings);
   free(r->u);
   free(r->v);
 }
 
 /* Step by step. */
 
+/* u and v at t by a step that ends there, from where the last one began: between the ends of a
+   sound step the interpolant may pass a state that cannot be evaluated. */
+static corot_status step_to(run *r, double t) {
+  corot_integrator_def def = r->scenario->integrator;
+  def.linear.refinement = r->refinement;
+  def.first_step = t - r->before;
+  if (def.step > 0) def.step = t - r->before;
+  corot_integrator *other;
+  COROT_TRY(corot_integrator_at(r->integrator, r->before, r->u, r->v));
+  COROT_TRY(corot_integrator_create(&def, r->model, r->state, r->before, r->u, r->v, &other));
+  corot_step step = {.t = r->before};
+  corot_status status = COROT_OK;
+  while (status == COROT_OK && step.t < t) status = corot_integrator_step(other, t, &step);
+  if (status == COROT_OK) status = corot_integrator_at(other, t, r->u, r->v);
+  corot_integrator_destroy(other);
+  return status;
+}
+
 /* Writes the moment t, which is 0 or, but for rounding, within the last step. */
 static corot_status write_moment(run *r, double t, bool last) {
   instant now = {.t = t, .u = r->u, .v = r->v, .frame_energy = r->frames.energy};
+  double within = fmin(t, r->t);
   if (t > 0) {
-    double within = fmin(t, r->t);
     COROT_TRY(corot_integrator_at(r->integrator, within, r->u, r->v));
     COROT_TRY(corot_integrator_work(r->integrator, within, &now.dissipated, &now.external_work));
   }
   corot_status status = outputs_write(r->outputs, r->state, &now, last);
+  if (status > 0 && within > r->before && within < r->t && step_to(r, within) == COROT_OK)
+    status = outputs_write(r->outputs, r->state, &now, last);
   if (status > 0) return corot_fail(status, "output at t = %g s: %s", t, corot_error());
   if (status == COROT_OK) r->shown = t;
   return status;
+}
+
+/* Adds the end of the step to the history, with the frames as they were during it; a step that
+   passes the end of the run, there. A state that cannot be evaluated there is left out: output
+   times may tell more. */
+static corot_status record_step(run *r) {
+  double started = wall_clock(), t = fmin(r->t, r->scenario->t_end);
+  instant now = {.t = t, .u = r->u, .v = r->v, .frame_energy = r->frames.energy};
+  corot_energies e;
+  COROT_TRY(corot_integrator_at(r->integrator, t, r->u, r->v));
+  COROT_TRY(corot_integrator_work(r->integrator, t, &now.dissipated, &now.external_work));
+  corot_status status = t == r->t ? corot_integrator_energy(r->integrator, r->u, r->v, &e)
+                                  : corot_energy(r->model, r->state, t, r->u, r->v, &e);
+  if (status == COROT_OK) status = outputs_history(r->outputs, &now, &e);
+  r->output_s += wall_clock() - started;
+  return status > 0 ? COROT_OK : status;
 }
 
 /* Writes the output times up to t, with the frames as they were during the step. A request to stop
@@ -124,23 +166,15 @@ static void prepare_step(run *r) {
     corot_state_enter(r->state, NAN);
 }
 
-/* Whether the velocity of a support jumps at a kink. */
-static bool is_jump(const scenario *s, double kink) {
-  for (int i = 0; i < s->nmotion; i++)
-    if (s->motion[i].from == kink || s->motion[i].to == kink) return true;
-  return false;
-}
-
-/* Kinks of the loads are mild: the integrator has stopped there, and keeps its history. At constant
-   step it keeps it in any case, with its factor, in which no velocity stands. */
+/* The integrator has stopped at a kink, and is told. At constant step it keeps its factor, in which
+   no velocity stands. */
 static corot_status pass_kinks(run *r, step_row *row) {
   long before = corot_integrator_statistics(r->integrator).nrestart;
   for (double kink; schedule_take_kink(r->schedule, row->t, &kink);) {
     row->events |= EVENT_KINK;
     corot_state_enter(r->state, fmax(kink, row->t));
-    if (is_jump(r->scenario, kink) && !is_constant_step(r))
-      COROT_TRY(corot_integrator_changed(r->integrator, COROT_HISTORY_AUTO));
   }
+  if (row->events & EVENT_KINK) COROT_TRY(corot_integrator_kink(r->integrator));
   if (corot_integrator_statistics(r->integrator).nrestart > before) row->events |= EVENT_RESTART;
   return COROT_OK;
 }
@@ -184,7 +218,9 @@ static corot_status integrate(run *r) {
     double stop = schedule_stop(r->schedule, corot_frame_clock_stop(r->clock));
     prepare_step(r);
     COROT_TRY(corot_integrator_step(r->integrator, stop, &step));
+    r->before = r->t;
     r->t = step.t;
+    COROT_TRY(record_step(r));
     COROT_TRY(write_outputs(r, step.t));
     stop_reached(r->t);
 
@@ -223,6 +259,8 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
       .output_s = r->output_s,
       .wall_s = wall_clock() - r->wall_at_start,
       .cpu_s = cpu_clock() - r->cpu_at_start,
+      .warnings = &r->warnings,
+      .seen = &r->seen,
   };
   return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
 }
@@ -265,11 +303,19 @@ static int conclude(run *r, corot_status status) {
   r->failure = run_failure_of(status, code);
   stop_forget();
   stop_release();
-  late = summarize(r, reason, code, &summary);
+  late = run_warn_after(r->scenario, r->model, r->state, r->outputs, false, r->options,
+                        &r->warnings, &r->seen);
+  corot_status summed = summarize(r, reason, code, &summary);
+  if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
   tell(r, &summary);
   return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
+}
+
+static corot_status open_outputs(run *r) {
+  COROT_TRY(outputs_open(r->scenario, r->model, r->options->dir, &r->outputs));
+  return outputs_open_history(r->outputs, r->options->dir);
 }
 
 static int integrate_scenario(const scenario *s, const run_options *options) {
@@ -280,9 +326,9 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
   int code;
   corot_status status = run_begin(s, options);
   if (status == COROT_OK) status = run_preparing(prepare(&r));
-  if (status == COROT_OK) status = outputs_open(s, r.model, options->dir, &r.outputs);
+  if (status == COROT_OK) status = open_outputs(&r);
   if (status != COROT_OK) {
-    code = run_end_early(s, options, status);
+    code = run_end_early(s, options, &r.warnings, status);
   } else {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
     code = conclude(&r, integrate(&r));

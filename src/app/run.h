@@ -11,9 +11,9 @@ typedef struct run_options {
   bool json;       /* result.json on stdout, too */
 } run_options;
 
-/* Runs the scenario and writes its files: probes.csv, energy.csv, steps.csv, compare.csv
-   (write_csv.h), states.bin (states.h), fields (write_vtu.h) and result.json. Messages go to
-   stderr. A run that fails or is interrupted writes what it had, up to the time it reached.
+/* Runs the scenario and writes its files: probes.csv, energy.csv, history.csv, steps.csv,
+   compare.csv (write_csv.h), states.bin (states.h), fields (write_vtu.h) and result.json. Messages
+   go to stderr. A run that fails or is interrupted writes what it had, up to the time it reached.
 
    The answer is the exit code of the program: 0 ok; 3 bad scenario or mesh; 4 the integrator gave
    up; 5 the system refused memory, reading or writing; 128 + signal: interrupted. */

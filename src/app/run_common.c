@@ -56,7 +56,8 @@ corot_status run_preparing(corot_status status) {
   return other ? status : COROT_EFORMAT;
 }
 
-int run_end_early(const scenario *s, const run_options *options, corot_status status) {
+int run_end_early(const scenario *s, const run_options *options, const warnings *warned,
+                  corot_status status) {
   char reason[1024];
   int code = run_exit_code(status);
   snprintf(reason, sizeof reason, "%s", corot_error());
@@ -71,9 +72,30 @@ int run_end_early(const scenario *s, const run_options *options, corot_status st
   brief_result what = {.status = code > EXIT_SIGNAL ? "interrupted" : "failed",
                        .reason = reason,
                        .exit_code = code,
-                       .failure = run_failure_of(status, code)};
+                       .failure = run_failure_of(status, code),
+                       .warnings = warned};
   if (code != EXIT_SCENARIO) leave_brief(s, &what, options->dir); /* if it cannot, all is said */
   return code;
+}
+
+static const char head[] = "warning: ";
+
+corot_status run_warn_before(const scenario *s, const corot_model *model,
+                             const run_options *options, warnings *w) {
+  corot_status status = warnings_before(s, model, w);
+  if (!options->quiet) warnings_print(w, 0, head, stderr);
+  return status;
+}
+
+corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,
+                            const outputs *o, bool statics, const run_options *options, warnings *w,
+                            observed *seen) {
+  int before = w->n;
+  COROT_TRY(outputs_observed(o, state, seen));
+  corot_status status = COROT_OK;
+  if (seen->history.count > 0) status = warnings_after(s, model, seen, statics, w);
+  if (!options->quiet) warnings_print(w, before, head, stderr);
+  return status;
 }
 
 corot_status run_write_result(const scenario *s, const outputs *o, const run_summary *summary,

@@ -21,11 +21,22 @@ corot_status run_begin(const scenario *s, const run_options *options);
 corot_status run_preparing(corot_status status);
 
 /* The end of a run that failed before its first output: says why, and leaves a result.json unless
-   it is the scenario's fault. Returns the exit code. */
-int run_end_early(const scenario *s, const run_options *options, corot_status status);
+   it is the scenario's fault; `warned` is what was warned of before. Returns the exit code. */
+int run_end_early(const scenario *s, const run_options *options, const warnings *warned,
+                  corot_status status);
 
 /* The words and the exit code of a run that heeds a request to stop. */
 int run_interrupted(size_t size, char *reason);
+
+/* The warnings of what there is before the first step, told on stderr unless the options ask for
+   quiet. */
+corot_status run_warn_before(const scenario *s, const corot_model *model,
+                             const run_options *options, warnings *w);
+
+/* The same of what came of it, after the last moment was written; `seen` is what was looked at. */
+corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,
+                            const outputs *o, bool statics, const run_options *options, warnings *w,
+                            observed *seen);
 
 /* result.json, to the folder and, if the options say so, to stdout. */
 corot_status run_write_result(const scenario *s, const outputs *o, const run_summary *summary,

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "box_split.h"
 #include "scenario_parts.h"
 #include "schema.h"
 
@@ -12,8 +13,8 @@ static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root;
   config_node *box = config_find(root, "mesh.box");
   s->refine = (int)number_at(root, "mesh.refine");
-  s->diagonal = text_is(root, "mesh.diagonal", "shortest") ? COROT_DIAGONAL_SHORTEST
-                                                           : COROT_DIAGONAL_CONSISTENT;
+  s->diagonal = text_is(root, "mesh.diagonal", "consistent") ? COROT_DIAGONAL_CONSISTENT
+                                                             : COROT_DIAGONAL_SHORTEST;
   if (!box) {
     config_node *file = config_find(root, "mesh.file");
     if (!*file->text) return config_fail(file, "the name is empty");
@@ -25,6 +26,7 @@ static corot_status read_mesh(scenario *s) {
   vector_at(box, "cells", cells);
   vector_at(box, "origin", s->box.origin);
   for (int i = 0; i < 3; i++) s->box.cells[i] = (int)cells[i];
+  box_split_find(text_at(box, "split"), &s->box.split);
   return COROT_OK;
 }
 
@@ -183,6 +185,7 @@ static void read_output(scenario *s) {
   config_node *root = s->source->root;
   s->title = text_at(root, "title");
   s->write_fields = text_is(root, "output.fields", "vtu");
+  s->write_history = text_is(root, "output.history", "true");
   s->write_states = text_is(root, "output.states", "binary");
   s->field_every = (int)number_at(root, "output.every");
 }
@@ -223,6 +226,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_method(s));
   COROT_TRY(scenario_read_hierarchy(s));
   COROT_TRY(scenario_read_statics(s));
+  COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));
   COROT_TRY(read_probes(s));
   read_output(s);

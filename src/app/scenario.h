@@ -26,6 +26,15 @@ typedef struct probe_def {
   double point[3];
 } probe_def;
 
+/* A velocity some nodes start with. */
+typedef struct start_def {
+  const char *group;  /* NULL: the whole body */
+  double velocity[3]; /* [m/s] */
+  double axis[3];     /* of length one; or zero, as is the rate: no spin */
+  double center[3];   /* [m] */
+  double rate;        /* [rad/s] */
+} start_def;
+
 /* Everything it points to lives as long as it does. */
 typedef struct scenario {
   const char *path; /* of the file, as given */
@@ -66,16 +75,20 @@ typedef struct scenario {
   double output_step; /* [s] */
   corot_integrator_def integrator;
   corot_statics_def statics;
-  bool start_at_equilibrium; /* of the loads at t = 0; else at rest */
+  const char *start_from;    /* "rest", "equilibrium"; NULL: not said, rest */
+  bool start_at_equilibrium; /* of the loads at t = 0; else undeformed */
+  int nstart;
+  const start_def *start; /* [nstart] a later one takes the place of an earlier on its nodes */
 
   int ncompare;
   const char *const *compare; /* measures whose forces are held against those of green */
 
   int nprobe;
   const probe_def *probe;
-  bool write_fields; /* output.fields: vtu */
-  int field_every;   /* every so many output times */
-  bool write_states; /* output.states: binary */
+  bool write_fields;  /* output.fields: vtu */
+  int field_every;    /* every so many output times */
+  bool write_history; /* output.history: true */
+  bool write_states;  /* output.states: binary */
 
   json_t *resolved;      /* the whole scenario, defaults and overrides included */
   struct config *source; /* the file as a tree, for the places in messages; owns the memory */
@@ -102,6 +115,12 @@ corot_status scenario_read_with(const char *path, int nset, const setting *set, 
 
 /* The key of each kind of load. */
 extern const char *const scenario_load_words[];
+
+/* v [n] = the velocity that a run starts with from the displacement u [n]. */
+void scenario_start(const scenario *s, const corot_model *model, const double *u, double *v);
+
+/* An amplitude in a few words, "sine of 5 Hz"; "" where it is one at all times. */
+void scenario_describe_amplitude(const corot_amplitude *a, size_t size, char *text);
 
 /* Takes NULL. */
 void scenario_destroy(scenario *s);

@@ -110,14 +110,18 @@ static corot_status check_group(config_node *map, const corot_mesh *mesh) {
   const config_node *node = config_find(map, "group");
   if (config_find(map, "fix") && group->nnode == 0)
     return config_fail(node, "%s has no nodes to fix", node->text);
-  if ((config_find(map, "rotate") || config_find(map, "translate")) && group->nnode == 0)
-    return config_fail(node, "%s has no nodes to move", node->text);
+  bool moves =
+      config_find(map, "rotate") || config_find(map, "translate") || config_find(map, "move");
+  if (moves && group->nnode == 0) return config_fail(node, "%s has no nodes to move", node->text);
   if (config_find(map, "force") && group->nnode == 0)
     return config_fail(node, "%s has no nodes for a force to act on", node->text);
   if ((config_find(map, "traction") || config_find(map, "pressure")) && group->ntri == 0)
     return config_fail(node, "%s has no faces for a %s to act on (%d nodes, %d tets)", node->text,
                        config_find(map, "traction") ? "traction" : "pressure", group->nnode,
                        group->ntet);
+  bool starts = config_find(map, "velocity") || config_find(map, "spin");
+  if (starts && group && group->nnode == 0)
+    return config_fail(node, "%s has no nodes to give a velocity", node->text);
   if (config_find(map, "density") && group && group->ntet == 0)
     return config_fail(node, "%s has no tets for a material to fill (%d nodes, %d faces)",
                        node->text, group->nnode, group->ntri);
@@ -198,6 +202,7 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   COROT_TRY(check_section(s, "boundary", mesh));
   COROT_TRY(check_holders(s, mesh));
   COROT_TRY(check_section(s, "loads", mesh));
+  COROT_TRY(check_section(s, "start", mesh));
   COROT_TRY(check_probes(s, mesh));
   corot_model_def def = corot_model_defaults();
   corot_hierarchy_def hierarchy = {.refinement = refinement,

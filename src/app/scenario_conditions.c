@@ -18,16 +18,20 @@ static corot_status read_span(config_node *node, corot_motion *motion) {
   return config_fail(config_find(node, "to"), "must be later than from, %g s", motion->from);
 }
 
-static corot_status read_rotation(config_node *node, corot_motion *motion) {
+static corot_status read_axis(config_node *node, corot_motion *motion) {
   double *axis = motion->axis;
   vector_at(node, "axis", axis);
   vector_at(node, "center", motion->center);
+  double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
+  if (square > 0 && isfinite(square)) return COROT_OK;
+  return config_fail(config_find(node, "axis"), "[%g, %g, %g] has no direction", axis[0], axis[1],
+                     axis[2]);
+}
+
+static corot_status read_rotation(config_node *node, corot_motion *motion) {
   motion->kind = COROT_ROTATE;
   motion->rate = number_at(node, "rate");
-  double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
-  if (!(square > 0 && isfinite(square)))
-    return config_fail(config_find(node, "axis"), "[%g, %g, %g] has no direction", axis[0], axis[1],
-                       axis[2]);
+  COROT_TRY(read_axis(node, motion));
   return read_span(node, motion);
 }
 
@@ -37,33 +41,64 @@ static corot_status read_translation(config_node *node, corot_motion *motion) {
   return read_span(node, motion);
 }
 
+static corot_status read_move(scenario *s, config_node *node, corot_motion *motion) {
+  config_node *rotate = config_find(node, "rotate");
+  motion->kind = rotate ? COROT_TURN : COROT_MOVE;
+  if (rotate) {
+    motion->angle = number_at(rotate, "angle");
+    COROT_TRY(read_axis(rotate, motion));
+  } else {
+    vector_at(node, "direction", motion->direction);
+  }
+  return scenario_read_amplitude(s, config_find(node, "amplitude"), false, &motion->amplitude);
+}
+
+static bool turns(const corot_motion *m) {
+  return m->kind == COROT_ROTATE || m->kind == COROT_TURN;
+}
+
+static bool has_span(const corot_motion *m) {
+  return m->kind == COROT_ROTATE || m->kind == COROT_TRANSLATE;
+}
+
 /* The direction and the place of what a motion turns about; the same for all translations. */
 static void turning(const corot_motion *m, double about[6]) {
   const double *a = m->axis;
   double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
   for (int k = 0; k < 3; k++) {
-    about[k] = m->kind == COROT_ROTATE ? a[k] / length : 0;
+    about[k] = turns(m) ? a[k] / length : 0;
     about[3 + k] = m->center[k];
   }
 }
 
-/* Motions of one group follow one another. */
+/* Motions of one group add up; those of constant rate follow one another. */
 static corot_status check_sequence(const scenario *s, config_node *node, const corot_motion *m) {
   double about[6], before[6];
   turning(m, about);
   for (const corot_motion *other = s->motion; other < m; other++) {
     if (strcmp(other->group, m->group) != 0) continue;
     turning(other, before);
-    bool same = other->kind == m->kind;
+    bool same = turns(other) == turns(m);
     for (int k = 0; k < 6; k++) same = same && before[k] == about[k];
     if (!same)
       return config_fail(node, "does not continue the other motion of %s: it has to %s", m->group,
-                         other->kind == COROT_ROTATE ? "turn about the same axis" : "translate");
-    if (m->from < other->to && other->from < m->to)
+                         turns(other) ? "turn about the same axis" : "translate");
+    bool spans = has_span(m) && has_span(other);
+    if (spans && m->from < other->to && other->from < m->to)
       return config_fail(node, "%s is moving already, from t = %g s to t = %g s", m->group,
                          other->from, other->to);
   }
   return COROT_OK;
+}
+
+static corot_status read_motion(scenario *s, config_node *entry, corot_motion *m) {
+  config_node *rotate = config_find(entry, "rotate"), *move = config_find(entry, "move");
+  config_node *translate = config_find(entry, "translate");
+  m->group = text_at(entry, "group");
+  COROT_TRY(rotate ? read_rotation(rotate, m)
+            : move ? read_move(s, move, m)
+                   : read_translation(translate, m));
+  return check_sequence(s, rotate ? rotate : move ? move : translate, m);
 }
 
 static corot_status read_boundary(scenario *s) {
@@ -74,33 +109,15 @@ static corot_status read_boundary(scenario *s) {
   s->fix = fix;
   s->motion = motion;
   for (config_node *c = list->child; c; c = c->next) {
-    config_node *rotate = config_find(c, "rotate"), *translate = config_find(c, "translate");
-    if (!rotate && !translate) {
+    if (config_find(c, "fix"))
       read_fix(c, &fix[s->nfix++]);
-      continue;
-    }
-    corot_motion *m = &motion[s->nmotion++];
-    m->group = text_at(c, "group");
-    COROT_TRY(rotate ? read_rotation(rotate, m) : read_translation(translate, m));
-    COROT_TRY(check_sequence(s, rotate ? rotate : translate, m));
+    else
+      COROT_TRY(read_motion(s, c, &motion[s->nmotion++]));
   }
   return COROT_OK;
 }
 
 /* --- Loads --- */
-
-static corot_status read_amplitude(config *tree, const config_node *list, corot_amplitude *a) {
-  double *time = config_alloc(tree, 2 * (size_t)list->nchild, sizeof *time);
-  if (!time) return no_memory();
-  double *value = time + list->nchild;
-  const config_node *pair = list->child;
-  for (int i = 0; i < list->nchild; i++, pair = pair->next) {
-    time[i] = pair->child->number;
-    value[i] = pair->child->next->number;
-  }
-  *a = (corot_amplitude){.n = list->nchild, .time = time, .value = value};
-  return COROT_OK;
-}
 
 const char *const scenario_load_words[] = {
     [COROT_TRACTION] = "traction",
@@ -109,7 +126,7 @@ const char *const scenario_load_words[] = {
     [COROT_PRESSURE] = "pressure",
 };
 
-static corot_status read_load(config *tree, config_node *node, corot_load *load) {
+static corot_status read_load(scenario *s, config_node *node, corot_load *load) {
   config_node *group = config_find(node, "group"), *amplitude = config_find(node, "amplitude");
   config_node *value = NULL;
   for (int kind = COROT_TRACTION; !value; kind++) {
@@ -125,7 +142,7 @@ static corot_status read_load(config *tree, config_node *node, corot_load *load)
     load->value[0] = value->number;
   else
     vector_at(node, value->key, load->value);
-  return amplitude ? read_amplitude(tree, amplitude, &load->amplitude) : COROT_OK;
+  return amplitude ? scenario_read_amplitude(s, amplitude, true, &load->amplitude) : COROT_OK;
 }
 
 corot_status scenario_read_conditions(scenario *s) {
@@ -134,7 +151,6 @@ corot_status scenario_read_conditions(scenario *s) {
   corot_load *load = config_alloc(s->source, (size_t)list->nchild, sizeof *load);
   if (!load) return no_memory();
   s->load = load;
-  for (config_node *c = list->child; c; c = c->next)
-    COROT_TRY(read_load(s->source, c, &load[s->nload++]));
+  for (config_node *c = list->child; c; c = c->next) COROT_TRY(read_load(s, c, &load[s->nload++]));
   return COROT_OK;
 }

@@ -43,7 +43,9 @@ static corot_status read_frames(scenario *s) {
 
 static corot_status read_viscosity(scenario *s) {
   config_node *root = s->source->root;
-  s->viscosity = text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE : COROT_COROTATED;
+  s->viscosity = text_is(root, "viscosity", "auto")        ? COROT_VISCOSITY_AUTO
+                 : text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE
+                                                           : COROT_COROTATED;
   bool polar = strcmp(s->strain, "polar") == 0 || strcmp(s->strain, "hybrid") == 0;
   if (s->viscosity == COROT_OBJECTIVE && !polar)
     return config_fail(config_find(root, "viscosity"),

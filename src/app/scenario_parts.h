@@ -4,6 +4,7 @@
 #ifndef COROT_APP_SCENARIO_PARTS_H
 #define COROT_APP_SCENARIO_PARTS_H
 
+#include <math.h>
 #include <string.h>
 
 #include "config.h"
@@ -22,8 +23,18 @@ bool scenario_solves_by_levels(const scenario *s);
 /* hierarchy, after viscosity */
 corot_status scenario_read_hierarchy(scenario *s);
 
-/* start and statics, after linear_solver */
+/* statics, after linear_solver */
 corot_status scenario_read_statics(scenario *s);
+
+/* start, after boundary */
+corot_status scenario_read_start(scenario *s);
+
+/* An amplitude, with or without jumps; its memory is the tree's. */
+corot_status scenario_read_amplitude(scenario *s, config_node *node, bool jumps,
+                                     corot_amplitude *a);
+
+/* COROT_EFORMAT at `node` where the amplitude of a motion is not zero at t = 0. */
+corot_status scenario_check_moved_start(const config_node *node, const corot_amplitude *a);
 
 static inline double number_at(config_node *node, const char *path) {
   return config_find(node, path)->number;

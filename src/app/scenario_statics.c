@@ -1,4 +1,4 @@
-/* Equilibria: where a run starts, and how `corot static` gets there. */
+/* How equilibria are found. */
 #include "scenario_parts.h"
 
 /* A fraction of the load, which the table knows to be positive. */
@@ -22,6 +22,5 @@ corot_status scenario_read_statics(scenario *s) {
   if (def.min_step > def.max_step)
     return config_fail(config_find(node, "min_step"), "larger than max_step");
   s->statics = def;
-  s->start_at_equilibrium = text_is(root, "start", "equilibrium");
   return COROT_OK;
 }

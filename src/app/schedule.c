@@ -1,5 +1,6 @@
 #include "schedule.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -43,7 +44,7 @@ bool schedule_over(const schedule *s, double t) { return t >= s->end - s->near; 
 bool schedule_kink_before(const schedule *s, double t) { return kink_time(s) < t - s->near; }
 
 bool schedule_take_kink(schedule *s, double t, double *kink) {
-  if (!(kink_time(s) <= t + s->near)) return false;
+  if (!(kink_time(s) <= t + 4 * DBL_EPSILON * t)) return false;
   *kink = s->kink[s->next_kink++];
   return true;
 }

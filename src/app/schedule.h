@@ -33,7 +33,8 @@ bool schedule_over(const schedule *s, double t);
 /* Whether the next kink lies before t, and not within rounding of it. */
 bool schedule_kink_before(const schedule *s, double t);
 
-/* The next kink if it is due at t, which is then past. */
+/* The next kink if it is due at t, which is then past: t has reached it, but for rounding of its
+   last digits. One that is only near is a stop of its own, which costs no step. */
 bool schedule_take_kink(schedule *s, double t, double *kink);
 
 /* The next output time if it is due at t, which is then past. It may be after t by rounding. The

@@ -17,6 +17,18 @@
 #define NOT_NEGATIVE SCHEMA_NOT_NEGATIVE
 
 /* clang-format off */
+/* The keys of an amplitude given as a map, at `path`. */
+#define AMPLITUDE(path) \
+  {path ".sine",            MAP,             ONE_OF,   ANY,          "",        0, 0, "offset + sin(2 pi frequency t + phase), at all times"}, \
+  {path ".sine.frequency",  NUMBER,       REQUIRED, POSITIVE,     "Hz",      0, 0, "periods per time"}, \
+  {path ".sine.phase",      NUMBER,          OPTIONAL, ANY,          "rad",     "0.0", 0, "of the sine at t = 0"}, \
+  {path ".sine.offset",     NUMBER,          OPTIONAL, ANY,          "1",       "0.0", 0, "what the sine swings about"}, \
+  {path ".smooth",          SCHEMA_CURVE,    ONE_OF,   ANY,          "s, 1",    0, 0, "a cubic spline through [[time, value], ...], flat at both ends and constant beyond, or through the points of a {file: ...}; needs no stops"}, \
+  {path ".smooth.file",     TEXT,            REQUIRED, ANY,          "s, 1",    0, 0, "a table as amplitude.file"}, \
+  {path ".smooth.sha256",   TEXT,          OPTIONAL, ANY,          "",        0, 0, "as amplitude.sha256"}, \
+  {path ".file",            TEXT,            ONE_OF,   ANY,          "s, 1",    0, 0, "a text file of two columns, time and value, separated by commas or blanks, relative to the scenario's folder; # begins a comment, a first line without numbers is a header; as a list of points"}, \
+  {path ".sha256",          TEXT,            OPTIONAL, ANY,          "",        0, 0, "of the file's bytes, as the resolved scenario has it: another file is refused"}
+
 static const schema_key keys[] = {
   /* path                     type             status    range         unit       default   words  doc */
   {"title",                   TEXT,            OPTIONAL, ANY,          "",        "''", 0, "what the run is about"},
@@ -25,11 +37,11 @@ static const schema_key keys[] = {
   {"mesh.file",               TEXT,            ONE_OF,   ANY,          "",        0, 0, "gmsh 1, 2.2, 4.1 or TetGen file, relative to the scenario's folder"},
   {"mesh.box",                MAP,             ONE_OF,   ANY,          "",        0, 0, "a box; its sides are groups xmin xmax ymin ymax zmin zmax"},
   {"mesh.box.size",           VECTOR,          REQUIRED, POSITIVE,     "m",       0, 0, "lengths of the edges"},
-  {"mesh.box.cells",          SCHEMA_COUNTS,   REQUIRED, POSITIVE,     "",        0, 0, "cells along each axis, six tets each"},
+  {"mesh.box.cells",          SCHEMA_COUNTS,   REQUIRED, POSITIVE,     "",        0, 0, "cells along each axis, six tets each; see split"},
   {"mesh.box.origin",         VECTOR,          OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, "the corner with the smallest coordinates"},
-  {"mesh.box.split",          CHOICE,          OPTIONAL, ANY,          "",        "kuhn", "kuhn", "how a cell is cut into tets"},
+  {"mesh.box.split",          CHOICE,          OPTIONAL, ANY,          "",        "symmetric", "symmetric|alternating|kuhn", "how the cells are cut into tets; symmetric: mirrored from cell to cell, and the middle one of an odd number in halves, so that nothing drifts sideways; alternating: mirrored only, which drifts a little where a number is odd; kuhn: all the same, which drifts by up to a third of the deflection"},
   {"mesh.refine",             INTEGER,         OPTIONAL, NOT_NEGATIVE, "",      "0", 0, "times that each tet is cut into eight; nodes keep their numbers, the middles of edges follow"},
-  {"mesh.diagonal",           CHOICE,          OPTIONAL, ANY,          "",        "consistent", "consistent|shortest", "which diagonal of the octahedron inside a tet is an edge of the eight: consistent makes at most three shapes of a tet, shortest better ones on the average"},
+  {"mesh.diagonal",           CHOICE,          OPTIONAL, ANY,          "",        "shortest", "consistent|shortest", "which diagonal of the octahedron inside a tet is an edge of the eight: shortest makes better shapes on the average, consistent at most three of a tet, however often it is cut"},
 
   {"groups",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "sets of nodes, in addition to the mesh's own groups; plane and box choose among those of the refined mesh"},
   {"groups.NAME.plane",       MAP,             ONE_OF,   ANY,          "",        0, 0, "the nodes on a plane across an axis"},
@@ -62,7 +74,7 @@ static const schema_key keys[] = {
   {"dilatation",              SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "local", 0, "what lambda acts on; the name alone will do"},
   {"dilatation.name",         CHOICE,          OPTIONAL, ANY,          "",        "local", "local|nodal", "local: each tet's own dilatation, which locks as nu nears 1/2; nodal: averages around the nodes, which do not"},
   {"dilatation.local",        NUMBER,          OPTIONAL, NOT_NEGATIVE, "mu",      "1.0", 0, "nodal: so much of lambda stays with each tet's own"},
-  {"viscosity",               CHOICE,          OPTIONAL, ANY,          "",        "corotated", "corotated|objective", "strain rate of the damping: sym(R' dF/dt), or dS/dt of F = R S, zero in any rigid motion (polar, hybrid)"},
+  {"viscosity",               CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|corotated|objective", "strain rate of the damping: sym(R' dF/dt), the paper's, whose forces can set a body spinning, or dS/dt of F = R S, zero in any rigid motion (polar, hybrid); auto: objective with polar and hybrid unless there is a hierarchy, else corotated"},
   {"frames",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "the rotations of the elements, as part of the model"},
   {"frames.policy",           CHOICE,          OPTIONAL, ANY,          "",        "exact", "exact|step|hold|extrapolate", "exact: found in every evaluation; step: after every step; hold: kept between updates; extrapolate: turned on at their spin"},
   {"frames.interval",         NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, "update at multiples of it; hold and extrapolate need this or max_angle"},
@@ -82,6 +94,14 @@ static const schema_key keys[] = {
   {"boundary[].translate.velocity", VECTOR,    REQUIRED, ANY,          "m/s",     0, 0, "displacement per time"},
   {"boundary[].translate.from", NUMBER,        OPTIONAL, NOT_NEGATIVE, "s",       "0.0", 0, "when it begins"},
   {"boundary[].translate.to", NUMBER,          OPTIONAL, POSITIVE,     "s",       "end", "end", "when it stops; end: not at all"},
+  {"boundary[].move",         MAP,             ONE_OF,   ANY,          "",        0, 0, "moved or turned by an amplitude; holds x, y and z; several of one group add up"},
+  {"boundary[].move.direction", VECTOR,        ONE_OF,   ANY,          "m",       0, 0, "displacement where the amplitude is 1"},
+  {"boundary[].move.rotate",  MAP,             ONE_OF,   ANY,          "",        0, 0, "turned about an axis"},
+  {"boundary[].move.rotate.axis", VECTOR,      REQUIRED, ANY,          "",        0, 0, "direction of the axis, of any length but 0; right-handed"},
+  {"boundary[].move.rotate.center", VECTOR,    OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, "a point of the axis"},
+  {"boundary[].move.rotate.angle", NUMBER,     REQUIRED, ANY,          "rad",     0, 0, "where the amplitude is 1"},
+  {"boundary[].move.amplitude", SCHEMA_CURVE,  REQUIRED, ANY,          "s, 1",    0, 0, "factor in time, as of loads, without jumps; 0 at t = 0, or start: equilibrium; a sine of phase 0 sets out with a jolt, of phase -1.5707963267948966 and offset 1 without"},
+  AMPLITUDE("boundary[].move.amplitude"),
 
   {"loads",                   SCHEMA_LIST,     OPTIONAL, ANY,          "",        "[]", 0, "external forces"},
   {"loads[].group",           TEXT,            OPTIONAL, ANY,          "",        0, 0, "where it acts; required but by gravity"},
@@ -89,7 +109,8 @@ static const schema_key keys[] = {
   {"loads[].gravity",         VECTOR,          ONE_OF,   ANY,          "m/s^2",   0, 0, "acceleration of the whole body"},
   {"loads[].pressure",        NUMBER,          ONE_OF,   ANY,          "Pa",      0, 0, "force per deformed area on the group's faces, against their outward normal: it follows the surface"},
   {"loads[].force",           VECTOR,          ONE_OF,   ANY,          "N",       0, 0, "total force, spread evenly over the group's nodes, of fixed direction"},
-  {"loads[].amplitude",       SCHEMA_CURVE,    OPTIONAL, ANY,          "s, 1",    0, 0, "factor as [[time, value], ...], linear between, constant beyond"},
+  {"loads[].amplitude",       SCHEMA_CURVE,    OPTIONAL, ANY,          "s, 1",    0, 0, "factor as [[time, value], ...], linear between, constant beyond, two points at one time: a jump; or a map of one of sine, smooth, file"},
+  AMPLITUDE("loads[].amplitude"),
 
   {"time",                    MAP,             REQUIRED, ANY,          "",        0, 0, "the span of the run, from t = 0"},
   {"time.end",                NUMBER,          REQUIRED, POSITIVE,     "s",       0, 0, "the last time"},
@@ -98,7 +119,7 @@ static const schema_key keys[] = {
   {"integrator",              MAP,             OPTIONAL, ANY,          "",        "{}", 0, "how the equations are integrated"},
   {"integrator.method",       CHOICE,          OPTIONAL, ANY,          "",        "cvode", "cvode|ida|arkode|erk|backward-euler|bdf2|bdf3|midpoint|newmark|hht|generalized-alpha", "cvode, ida: BDF of variable order; arkode, erk: implicit, explicit Runge-Kutta; these control the error; the others: constant step, no error control"},
   {"integrator.step",         NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, "length of the step; required by the methods of constant step, refused by the others"},
-  {"integrator.solution",     CHOICE,          OPTIONAL, ANY,          "",        "newton", "newton|linear", "constant step: Newton's method, or one linear solve a step, which suffices where frames are held"},
+  {"integrator.solution",     CHOICE,          OPTIONAL, ANY,          "",        "newton", "newton|linear", "constant step: Newton's method, or one linear solve a step, which suffices where frames are held and viscosity is corotated"},
   {"integrator.newton",       MAP,             OPTIONAL, ANY,          "",        "{}", 0, "constant step: Newton's method with backtracking"},
   {"integrator.newton.tolerance", NUMBER,      OPTIONAL, POSITIVE,     "",        "1.0e-9", 0, "of the last correction, in lengths of the model"},
   {"integrator.newton.iterations", INTEGER,    OPTIONAL, POSITIVE,     "",        "50", 0, "give up after so many in a step"},
@@ -128,7 +149,14 @@ static const schema_key keys[] = {
   {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky|hierarchical|multigrid", "pcg: what it is preconditioned with; with mesh.refine also by its levels, the unrefined one factored: their hierarchical basis, or V-cycles"},
   {"linear_solver.tolerance", NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-10", 0, "pcg: residual to reach, relative to the right-hand side"},
 
-  {"start",                   CHOICE,          OPTIONAL, ANY,          "",        "rest", "rest|equilibrium", "where a run begins: undeformed, or in equilibrium under the loads of t = 0; at rest in both"},
+  {"start",                   SCHEMA_STATES,   OPTIONAL, ANY,          "",        "rest", "rest|equilibrium", "where a run begins: undeformed, or in equilibrium under the loads of t = 0, at rest in both; or a map, or a list of maps, with velocities: each sets those of its nodes, a later one in place of an earlier"},
+  {"start.from",              CHOICE,          OPTIONAL, ANY,          "",        0, "rest|equilibrium", "the shape to begin with; in one entry, of the whole body; without: rest"},
+  {"start.group",             TEXT,            OPTIONAL, ANY,          "",        0, 0, "the nodes that get the velocity; without: the whole body"},
+  {"start.velocity",          VECTOR,          OPTIONAL, ANY,          "m/s",     0, 0, "of all its nodes that no support holds; with a spin: at the spin's center"},
+  {"start.spin",              MAP,             OPTIONAL, ANY,          "",        0, 0, "as a rigid body, rate axis / |axis| x (x - center), in addition to the velocity"},
+  {"start.spin.axis",         VECTOR,          REQUIRED, ANY,          "",        0, 0, "direction of the axis, of any length but 0; right-handed"},
+  {"start.spin.center",       VECTOR,          OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, "a point of the axis"},
+  {"start.spin.rate",         NUMBER,          REQUIRED, ANY,          "rad/s",   0, 0, "angle per time"},
   {"statics",                 MAP,             OPTIONAL, ANY,          "",        "{}", 0, "how an equilibrium is found, by corot static and for start: equilibrium"},
   {"statics.frames",          CHOICE,          OPTIONAL, ANY,          "",        "exact", "exact|held", "exact: Newton's iteration; held: solved for frames that are held, found anew, and so on"},
   {"statics.tolerance",       NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-10", 0, "residual to reach, relative to the largest force on a node"},
@@ -146,6 +174,7 @@ static const schema_key keys[] = {
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},
   {"output.every",            INTEGER,         OPTIONAL, POSITIVE,     "",        "1", 0, "fields at every so many output times"},
+  {"output.history",          CHOICE,          OPTIONAL, ANY,          "",        "true", "true|false", "history.csv: probes and energies at the end of every step, not at output times alone"},
   {"output.states",           CHOICE,          OPTIONAL, ANY,          "",        "none", "binary|none", "states.bin: displacement and velocity of all degrees of freedom at the output times, to the last bit"},
 };
 /* clang-format on */

@@ -21,7 +21,8 @@ typedef enum schema_type {
   SCHEMA_COUNTS,   /* three integers */
   SCHEMA_INTEGERS, /* any number of integers */
   SCHEMA_WORDS,    /* some of `words`, each once */
-  SCHEMA_CURVE,    /* pairs of time and value, the times increasing */
+  SCHEMA_CURVE,    /* pairs of time and value, at most two at one time, or a map */
+  SCHEMA_STATES,   /* one of `words`, a map, or a list of maps */
   SCHEMA_TEXTS,    /* any number of texts; one may stand alone */
   SCHEMA_VALUES,   /* any number of values of any kind */
   SCHEMA_OPEN,     /* a map of keys that are not for this table to know */
@@ -66,8 +67,7 @@ extern const schema scenario_schema;
 
 /* The next key after `previous` (NULL: the first) in maps of this path ("" the root); NULL: no
    more. */
-const schema_key *schema_child(const schema *table, const char *path,
-                               const schema_key *previous);
+const schema_key *schema_child(const schema *table, const char *path, const schema_key *previous);
 
 /* The key of that path; NULL: there is none. */
 const schema_key *schema_find(const schema *table, const char *path);
@@ -79,8 +79,8 @@ void schema_inside(const schema_key *key, size_t size, char *path);
    fills in defaults. */
 corot_status schema_apply(const schema *table, config *tree);
 
-/* Writes single values that stand for a map (SCHEMA_SHORT) as one, so that its other keys can be
-   set. */
+/* Writes single values that stand for a map (SCHEMA_SHORT, SCHEMA_STATES) as one, so that its other
+   keys can be set. */
 corot_status schema_expand(const schema *table, config *tree);
 
 /* A checked scenario as JSON, its keys in the order of the table. NULL: no memory. */

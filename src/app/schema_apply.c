@@ -73,8 +73,44 @@ static bool among(const char *word, const char *words) {
   return false;
 }
 
+/* What people call keys of a scenario that have another name here. */
+static const struct {
+  const char *path, *key, *name;
+} synonyms[] = {
+    {"", "initial", "start"},
+    {"", "initial_conditions", "start"},
+    {"", "initial_velocity", "start.velocity"},
+    {"", "velocity", "start.velocity"},
+    {"", "spin", "start.spin"},
+    {"start", "angular_velocity", "spin"},
+    {"start", "omega", "spin"},
+    {"boundary[]", "displacement", "move"},
+    {"boundary[]", "displace", "move"},
+    {"boundary[]", "amplitude", "move.amplitude"},
+    {"boundary[].translate", "displacement", "boundary[].move.direction"},
+    {"boundary[].translate", "amplitude", "boundary[].move.amplitude"},
+    {"boundary[].rotate", "angle", "boundary[].move.rotate.angle"},
+    {"boundary[].rotate", "amplitude", "boundary[].move.amplitude"},
+    {"boundary[].move", "displacement", "direction"},
+    {"boundary[].move", "translate", "direction"},
+    {"boundary[].move.amplitude", "spline", "smooth"},
+    {"boundary[].move.amplitude", "table", "file"},
+    {"loads[].amplitude", "spline", "smooth"},
+    {"loads[].amplitude", "table", "file"},
+};
+
+static const char *synonym(const schema *table, const char *path, const char *key) {
+  if (table != &scenario_schema) return NULL;
+  for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
+    if (strcmp(synonyms[i].path, path) == 0 && strcmp(synonyms[i].key, key) == 0)
+      return synonyms[i].name;
+  return NULL;
+}
+
 static corot_status unknown_key(const schema *table, const config_node *node, const char *path) {
   char words[LIST], list[LIST], near[PATH];
+  const char *meant = synonym(table, path, node->key);
+  if (meant) return config_fail_key(node, "unknown key; did you mean %s?", meant);
   keys_of(table, path, sizeof words, words);
   suggest_among(node->key, words, sizeof near, near);
   if (*near) return config_fail_key(node, "unknown key; did you mean %s?", near);
@@ -193,16 +229,20 @@ static corot_status check_words(const config_node *node, const schema_key *key) 
   return COROT_OK;
 }
 
-static corot_status check_curve(config_node *node) {
+static corot_status check_pairs(config_node *node) {
   if (node->kind != CONFIG_LIST || node->nchild == 0)
-    return expected(node, "a list of [time, value], such as [[0.0, 0.0], [10.0, 1.0]]");
-  const config_node *before = NULL;
+    return expected(node, "a list of [time, value], such as [[0.0, 0.0], [10.0, 1.0]], or a map");
+  const config_node *before = NULL, *first = NULL;
   for (config_node *c = node->child; c; c = c->next) {
     if (c->kind != CONFIG_LIST || c->nchild != 2) return expected(c, "a pair [time, value]");
     COROT_TRY(check_entries(c, SCHEMA_ANY, check_number));
     config_node *time = c->child;
-    if (before && !(time->number > before->number))
+    if (before && !(time->number >= before->number))
       return config_fail(time, "times must increase, but %s follows %s", time->text, before->text);
+    if (first && time->number == first->number)
+      return config_fail(
+          time, "the third point at %s: a jump has a value before it and one after it", time->text);
+    first = before;
     before = time;
   }
   return COROT_OK;
@@ -276,6 +316,14 @@ static corot_status expand_short(const application *a, config_node *node, const 
   return wrap(a, node, CONFIG_MAP, last_segment(schema_child(a->table, path, NULL)->path));
 }
 
+static corot_status apply_curve(const application *a, config_node *node, const char *path) {
+  return node->kind == CONFIG_MAP ? apply_map(a, node, path) : check_pairs(node);
+}
+
+static corot_status apply_states(const application *a, config_node *node, const schema_key *key) {
+  return node->kind == CONFIG_SCALAR ? check_choice(node, key) : apply_maps(a, node, key->path);
+}
+
 static corot_status apply_short(const application *a, config_node *node, const char *path) {
   COROT_TRY(expand_short(a, node, path));
   return apply_map(a, node, path);
@@ -285,7 +333,8 @@ corot_status schema_expand(const schema *table, config *tree) {
   application a = {.table = table, .tree = tree};
   const schema_key *key = NULL;
   while ((key = schema_child(table, "", key))) {
-    config_node *node = key->type == SCHEMA_SHORT ? config_find(tree->root, key->path) : NULL;
+    bool expands = key->type == SCHEMA_SHORT || key->type == SCHEMA_STATES;
+    config_node *node = expands ? config_find(tree->root, key->path) : NULL;
     char inside[PATH];
     schema_inside(key, sizeof inside, inside);
     if (node && !config_is_null(node)) COROT_TRY(expand_short(&a, node, inside));
@@ -324,7 +373,9 @@ static corot_status apply_value(const application *a, config_node *node, const s
     case SCHEMA_WORDS:
       return check_words(node, key);
     case SCHEMA_CURVE:
-      return check_curve(node);
+      return apply_curve(a, node, inside);
+    case SCHEMA_STATES:
+      return apply_states(a, node, key);
     case SCHEMA_TEXTS:
       return apply_texts(a, node);
     case SCHEMA_VALUES:

@@ -79,6 +79,7 @@ static json_t *value_schema(const schema_key *key) {
     case SCHEMA_TEXT:
       return of_type("string");
     case SCHEMA_CHOICE:
+      if (strcmp(key->words, "true|false") == 0) return of_type("boolean");
       return json_pack("{s:o}", "enum", words_list(key->words));
     case SCHEMA_NUMBER:
       return scalar_schema("number", key);
@@ -94,7 +95,11 @@ static json_t *value_schema(const schema_key *key) {
       return json_text_with(list_schema(json_pack("{s:o}", "enum", words_list(key->words)), 1, 0),
                             "uniqueItems", json_true());
     case SCHEMA_CURVE:
-      return list_schema(list_schema(of_type("number"), 2, 2), 1, 0);
+      return json_pack("{s:[o, o]}", "anyOf",
+                       list_schema(list_schema(of_type("number"), 2, 2), 1, 0), map_schema(inside));
+    case SCHEMA_STATES:
+      return json_pack("{s:[{s:o}, o, o]}", "anyOf", "enum", words_list(key->words),
+                       map_schema(inside), list_schema(map_schema(inside), 1, 0));
     case SCHEMA_TEXTS:
       return json_pack("{s:[o, o]}", "anyOf", of_type("string"),
                        list_schema(of_type("string"), 1, 0));

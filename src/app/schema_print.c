@@ -33,7 +33,9 @@ static const char *type_words(schema_type type) {
     case SCHEMA_WORDS:
       return "list of words";
     case SCHEMA_CURVE:
-      return "list of pairs";
+      return "pairs or map";
+    case SCHEMA_STATES:
+      return "word, map or list";
     case SCHEMA_TEXTS:
       return "text or list";
     case SCHEMA_VALUES:

@@ -56,6 +56,14 @@ static json_t *named(const config_node *map, const char *path) {
   return object;
 }
 
+/* A word, however it was written. */
+static json_t *states(const config_node *node, const char *path) {
+  const config_node *only = node->nchild == 1 ? node->child : NULL;
+  if (node->kind == CONFIG_LIST) return maps(node, path);
+  if (node->kind == CONFIG_MAP && only && strcmp(only->key, "from") == 0) node = only;
+  return node->kind == CONFIG_SCALAR ? json_string(node->text) : resolve_map(node, path);
+}
+
 static json_t *resolve_value(const config_node *node, const schema_key *key) {
   char inside[128];
   schema_inside(key, sizeof inside, inside);
@@ -70,8 +78,15 @@ static json_t *resolve_value(const config_node *node, const schema_key *key) {
     case SCHEMA_LIST:
     case SCHEMA_MAPS:
       return node->kind == CONFIG_LIST ? maps(node, inside) : resolve_map(node, inside);
-    case SCHEMA_TEXT:
+    case SCHEMA_STATES:
+      return states(node, inside);
+    case SCHEMA_CURVE:
+      return node->kind == CONFIG_MAP ? resolve_map(node, inside) : numbers(node, false);
     case SCHEMA_CHOICE:
+      if (strcmp(key->words, "true|false") == 0)
+        return json_boolean(strcmp(node->text, "true") == 0);
+      return json_string(node->text);
+    case SCHEMA_TEXT:
       return json_string(node->text);
     case SCHEMA_WORDS:
       return texts(node);

@@ -8,6 +8,7 @@
 #include "cli.h"
 #include "clock.h"
 #include "json_text.h"
+#include "reactions.h"
 #include "run_common.h"
 #include "say.h"
 #include "stop.h"
@@ -21,6 +22,7 @@ typedef struct equilibrium_run {
   corot_state *state; /* for outputs */
   corot_statics *statics;
   outputs *outputs;
+  reactions *reactions;
   double *u, *v;                         /* [n] v is zero */
   double (*nodal)[3];                    /* [5 nnode] room for the following */
   double (*x)[3], (*f)[3];               /* [nnode] displacement and internal force now */
@@ -28,7 +30,10 @@ typedef struct equilibrium_run {
   double (*velocity)[3];                 /* [nnode] not looked at */
   double factor, work;                   /* reached; by loads and supports [J] */
   json_t *steps;
+  json_t *reactions_at_end;
   run_failure failure;
+  warnings warnings;
+  observed seen;                                         /* in the end */
   double wall_at_start, cpu_at_start, setup_s, output_s; /* [s] */
 } equilibrium_run;
 
@@ -58,6 +63,7 @@ static corot_status prepare(equilibrium_run *r) {
   corot_statics_def def = s->statics;
   def.stop = is_stopped;
   COROT_TRY(scenario_build(s, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(run_warn_before(s, r->model, r->options, &r->warnings));
   def.linear.refinement = r->refinement;
   COROT_TRY(allocate(r));
   corot_status status = corot_statics_create(&def, r->model, s->t_end, NULL, &r->statics);
@@ -67,14 +73,23 @@ static corot_status prepare(equilibrium_run *r) {
   return COROT_OK;
 }
 
+static corot_status open_outputs(equilibrium_run *r) {
+  const scenario *s = r->scenario;
+  COROT_TRY(outputs_open(s, r->model, r->options->dir, &r->outputs));
+  return reactions_create(r->options->dir, s, r->model, &r->reactions);
+}
+
 static void release(equilibrium_run *r) {
   outputs_destroy(r->outputs);
+  reactions_destroy(r->reactions);
   corot_statics_destroy(r->statics);
   corot_state_destroy(r->state);
   corot_model_destroy(r->model);
   corot_refinement_destroy(r->refinement);
   corot_mesh_destroy(r->mesh);
   json_decref(r->steps);
+  json_decref(r->reactions_at_end);
+  warnings_free(&r->warnings);
   free(r->u);
   free(r->nodal);
 }
@@ -99,6 +114,9 @@ static corot_status write_equilibrium(equilibrium_run *r, bool last) {
   corot_status status = add_work(r, t);
   instant now = {.t = t, .u = r->u, .v = r->v, .external_work = r->work, .still = true};
   if (status == COROT_OK) status = outputs_write(r->outputs, r->state, &now, last);
+  if (status == COROT_OK)
+    status = reactions_add(r->reactions, r->factor, (const double(*)[3])r->x_before,
+                           (const double(*)[3])r->f_before); /* which are those of now */
   r->output_s += wall_clock() - started;
   return status;
 }
@@ -165,7 +183,9 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .linear_solver = corot_statics_solver(r->statics),
       .factor = r->factor,
       .steps = r->steps,
+      .reactions = r->reactions_at_end,
   };
+  if (!statics->reactions) return corot_fail(COROT_ENOMEM, "reactions: out of memory");
   corot_statics_critical(r->statics, &statics->stable, &statics->unstable);
   *summary = (run_summary){
       .status = code == 0            ? "ok"
@@ -187,6 +207,8 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .output_s = r->output_s,
       .wall_s = wall_clock() - r->wall_at_start,
       .cpu_s = cpu_clock() - r->cpu_at_start,
+      .warnings = &r->warnings,
+      .seen = &r->seen,
   };
   return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
 }
@@ -212,7 +234,9 @@ static int conclude(equilibrium_run *r, corot_status status) {
     snprintf(reason, sizeof reason, "%s", corot_error());
   stop_heeded();
 
-  corot_status late = outputs_close(r->outputs);
+  corot_status late = outputs_close(r->outputs), closed = reactions_close(r->reactions);
+  if (late == COROT_OK) late = closed;
+  r->reactions_at_end = reactions_last(r->reactions);
   if (code == 0 && late != COROT_OK) {
     code = run_exit_code(late);
     status = late;
@@ -223,7 +247,10 @@ static int conclude(equilibrium_run *r, corot_status status) {
   r->failure = run_failure_of(status, code);
   stop_forget();
   stop_release();
-  late = summarize(r, reason, code, &statics, &summary);
+  late = run_warn_after(r->scenario, r->model, r->state, r->outputs, true, r->options, &r->warnings,
+                        &r->seen);
+  corot_status summed = summarize(r, reason, code, &statics, &summary);
+  if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
   tell(r, reason, &summary);
@@ -237,9 +264,9 @@ static int search(const scenario *s, const run_options *options) {
 
   corot_status status = run_begin(s, options);
   if (status == COROT_OK) status = run_preparing(prepare(&r));
-  if (status == COROT_OK) status = outputs_open(s, r.model, options->dir, &r.outputs);
-  int code =
-      status == COROT_OK ? conclude(&r, find_equilibrium(&r)) : run_end_early(s, options, status);
+  if (status == COROT_OK) status = open_outputs(&r);
+  int code = status == COROT_OK ? conclude(&r, find_equilibrium(&r))
+                                : run_end_early(s, options, &r.warnings, status);
   release(&r);
   return code;
 }

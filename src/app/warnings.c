@@ -1,43 +1,68 @@
+/* The list of warnings, and the table of their codes. */
 #include "warnings.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "escape.h"
 #include "json_text.h"
 
-/* Linear tets lock where lambda is many mu. Beyond ten, a nu of 0.4545, the bar of models/bar bends
-   a third less than with averaged dilatations, and at 0.495 two thirds less. */
-#define MOST_LAMBDA 10.0
+const warning_kind warning_kinds[WARNING_CODES] = {
+    [WARNING_LOCKING] = {"locking", "nearly incompressible, and each tet has its own dilatation"},
+    [WARNING_PARTS] = {"parts", "the body is in several parts that share no node"},
+    [WARNING_UNHELD] = {"unheld", "a part has no support while another has"},
+    [WARNING_PROBE] = {"probe", "the nearest node is far from the point of a probe"},
+    [WARNING_RTOL] = {"rtol", "a tolerance is below what double precision can tell"},
+    [WARNING_ATOL] = {"atol", "the absolute tolerance is no small part of the motion"},
+    [WARNING_LEDGER] = {"ledger", "work and energies do not add up, or the method adds energy"},
+    [WARNING_DISSIPATION] = {"numerical-dissipation", "the method takes energy away"},
+    [WARNING_STRAIN] = {"strain-range", "strains or turns beyond what the measure is meant for"},
+    [WARNING_INVERTED] = {"inverted", "tets are turned inside out, which cauchy does not see"},
+    [WARNING_BENDING] = {"bending", "the stress jumps between tets: the mesh is too coarse"},
+    [WARNING_STEP] = {"step", "a constant step is long for the motion"},
+    [WARNING_OUTPUT] = {"output", "output times are too far apart for the motion"},
+};
 
-static json_t *locking(const corot_material *m) {
-  double ratio = m->lambda / m->mu;
-  char text[256];
-  snprintf(
-      text, sizeof text,
-      "material%s%.64s: nu = %.4g: tets with a dilatation of their own are too stiff, the more "
-      "so the nearer nu is to 0.5; dilatation: nodal is the remedy",
-      m->group ? " of " : "", m->group ? m->group : "", 0.5 * ratio / (ratio + 1));
-  return json_text_string(text);
+corot_status warnings_add(warnings *w, warning_code code, const char *format, ...) {
+  char text[1024];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  warning *item = realloc(w->item, ((size_t)w->n + 1) * sizeof *item);
+  if (item) w->item = item;
+  char *copy = malloc(strlen(text) + 1);
+  if (!item || !copy) {
+    free(copy);
+    return corot_fail(COROT_ENOMEM, "a warning: out of memory");
+  }
+  w->item[w->n++] = (warning){code, strcpy(copy, text)};
+  return COROT_OK;
 }
 
-json_t *warnings_list(const scenario *s) {
+void warnings_free(warnings *w) {
+  for (int i = 0; i < w->n; i++) free(w->item[i].text);
+  free(w->item);
+  *w = (warnings){0};
+}
+
+json_t *warnings_json(const warnings *w) {
   json_t *list = json_array();
-  if (s->dilatation == COROT_DILATATION_NODAL) return list;
-  for (int i = 0; list && i < s->nmaterial; i++) {
-    const corot_material *m = &s->material[i];
-    if (!(m->lambda > MOST_LAMBDA * m->mu) || json_array_append_new(list, locking(m)) == 0)
-      continue;
+  for (int i = 0; list && i < w->n; i++) {
+    json_t *entry = json_pack("{s:s, s:o}", "code", warning_kinds[w->item[i].code].word, "text",
+                              json_text_string(w->item[i].text));
+    if (json_array_append_new(list, entry) == 0) continue;
     json_decref(list);
     list = NULL;
   }
   return list;
 }
 
-void warnings_print(const scenario *s, const char *head, FILE *out) {
-  json_t *list = warnings_list(s), *text;
-  size_t i;
-  json_array_foreach(list, i, text) {
+void warnings_print(const warnings *w, int from, const char *head, FILE *out) {
+  for (int i = from; i < w->n; i++) {
     fputs(head, out);
-    escape_line(json_string_value(text), out);
-    fputc('\n', out);
+    escape_line(w->item[i].text, out);
+    fprintf(out, " [%s]\n", warning_kinds[w->item[i].code].word);
   }
-  json_decref(list);
 }

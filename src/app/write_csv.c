@@ -9,23 +9,39 @@
 #include "escape.h"
 #include "folder.h"
 #include "no_memory.h"
+#include "number_text.h"
 
 enum {
-  CELL = 32,  /* the longest number with its comma and a terminator, and to spare */
-  ROW = 1024, /* a row of a fixed number of columns, to spare */
+  CELL = NUMBER_TEXT, /* with its comma */
+  ROW = 1024,         /* a row of a fixed number of columns, to spare */
+  BATCH = 8192        /* bytes of rows of every step that are handed on together */
 };
 
 struct table {
   int fd;
   char *path;
-  char *row; /* the row in the making: each cell is followed by a comma */
+  char *row; /* rows not handed on, and the one in the making: a comma follows each cell */
   size_t length;
-  off_t size; /* of the file's whole rows */
+  size_t batch; /* rows are handed on when they are this long together; 0: each */
+  off_t size;   /* of the file's whole rows */
 };
+
+/* Hands whole rows to the system. */
+static corot_status flush(table *t) {
+  corot_status status = file_write(t->fd, t->path, t->row, t->length);
+  if (status == COROT_OK)
+    t->size += (off_t)t->length;
+  else if (ftruncate(t->fd, t->size) == 0) /* fails where there is no length, as on a terminal */
+    lseek(t->fd, t->size, SEEK_SET);
+  t->length = 0;
+  return status;
+}
 
 corot_status table_close(table *t) {
   if (!t) return COROT_OK;
-  corot_status status = file_close(t->fd, t->path);
+  corot_status status = t->length > 0 ? flush(t) : COROT_OK;
+  corot_status closed = file_close(t->fd, t->path);
+  if (status == COROT_OK) status = closed;
   free(t->path);
   free(t->row);
   free(t);
@@ -60,9 +76,8 @@ static void add_text(table *t, const char *text) {
 }
 
 static void add_number(table *t, double x) {
-  char cell[CELL];
-  snprintf(cell, sizeof cell, "%.17g", x);
-  add_text(t, cell);
+  t->length += number_text(x, t->row + t->length);
+  t->row[t->length++] = ',';
 }
 
 static void add_integer(table *t, int i) {
@@ -73,18 +88,13 @@ static void add_integer(table *t, int i) {
 
 static corot_status end_row(table *t) {
   t->row[t->length - 1] = '\n';
-  corot_status status = file_write(t->fd, t->path, t->row, t->length);
-  if (status == COROT_OK)
-    t->size += (off_t)t->length;
-  else if (ftruncate(t->fd, t->size) == 0) /* fails where there is no length, as on a terminal */
-    lseek(t->fd, t->size, SEEK_SET);
-  t->length = 0;
-  return status;
+  return t->length < t->batch ? COROT_OK : flush(t);
 }
 
-/* "t" and NAME.COMPONENT for each name and component; the caller's to free. */
+/* "t", NAME.COMPONENT for each name and component, and the columns that `after` lists, if any; the
+   caller's to free. */
 static corot_status make_header(int n, const char *const *name, const char *const component[3],
-                                char **header) {
+                                const char *after, char **header) {
   char *title = NULL;
   size_t size = 0, longest = 0;
   for (int i = 0; i < n; i++) longest = strlen(name[i]) > longest ? strlen(name[i]) : longest;
@@ -97,6 +107,7 @@ static corot_status make_header(int n, const char *const *name, const char *cons
       fputc(',', out);
       escape_csv(title, out);
     }
+  if (out && *after) fprintf(out, ",%s", after);
   free(title);
   if (out && fclose(out) == 0) return COROT_OK;
   free(*header);
@@ -109,7 +120,7 @@ static corot_status open_with_header(const char *dir, const char *name, const ch
                                      size_t capacity, table **out) {
   table *t = NULL;
   size_t needed = strlen(header) + 2;
-  COROT_TRY(table_open(dir, name, needed > capacity ? needed : capacity, &t));
+  COROT_TRY(table_open(dir, name, BATCH + (needed > capacity ? needed : capacity), &t));
   add_text(t, header);
   corot_status status = end_row(t);
   if (status != COROT_OK) {
@@ -120,34 +131,71 @@ static corot_status open_with_header(const char *dir, const char *name, const ch
   return COROT_OK;
 }
 
-/* Opens a table of t and three columns for each name. */
+/* Bytes for t, three numbers a name, and those of the columns `after`. */
+static size_t room_for(int n, const char *after) {
+  size_t cells = 1 + 3 * (size_t)n;
+  for (const char *c = after; *c; c++) cells += *c == ',';
+  return CELL * (*after ? cells + 1 : cells);
+}
+
+/* Opens a table of t, three columns for each name, and those that `after` lists, if any. */
 static corot_status open_with_names(const char *dir, const char *file, int n,
                                     const char *const *name, const char *const component[3],
-                                    table **out) {
+                                    const char *after, table **out) {
   char *header = NULL;
-  COROT_TRY(make_header(n, name, component, &header));
-  corot_status status = open_with_header(dir, file, header, CELL + 3 * CELL * (size_t)n, out);
+  COROT_TRY(make_header(n, name, component, after, &header));
+  corot_status status = open_with_header(dir, file, header, room_for(n, after), out);
   free(header);
   return status;
 }
 
+static const char *const displacement_words[] = {"ux", "uy", "uz"};
+
+#define ENERGY_COLUMNS \
+  "kinetic,elastic,dissipated,external_work,balance,frame_energy,px,py,pz,lx,ly,lz"
+
 corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **probes) {
-  static const char *const component[] = {"ux", "uy", "uz"};
-  return open_with_names(dir, "probes.csv", nprobe, name, component, probes);
+  return open_with_names(dir, "probes.csv", nprobe, name, displacement_words, "", probes);
+}
+
+corot_status history_table_open(const char *dir, int nprobe, const char *const *name,
+                                table **history) {
+  COROT_TRY(open_with_names(dir, "history.csv", nprobe, name, displacement_words, ENERGY_COLUMNS,
+                            history));
+  (*history)->batch = BATCH;
+  return COROT_OK;
+}
+
+static void add_displacements(table *t, int nprobe, const int *node,
+                              const double (*displacement)[3]) {
+  for (int i = 0; i < nprobe; i++)
+    for (int c = 0; c < 3; c++) add_number(t, displacement[node[i]][c]);
 }
 
 corot_status probes_row(table *probes, double t, int nprobe, const int *node,
                         const double (*displacement)[3]) {
   add_number(probes, t);
-  for (int i = 0; i < nprobe; i++)
-    for (int c = 0; c < 3; c++) add_number(probes, displacement[node[i]][c]);
+  add_displacements(probes, nprobe, node, displacement);
   return end_row(probes);
 }
 
 corot_status compare_open(const char *dir, int nmeasure, const char *const *measure,
                           table **compare) {
   static const char *const part[] = {"total", "pressure", "shear"};
-  return open_with_names(dir, "compare.csv", nmeasure, measure, part, compare);
+  return open_with_names(dir, "compare.csv", nmeasure, measure, part, "", compare);
+}
+
+corot_status reactions_open(const char *dir, int ngroup, const char *const *name,
+                            table **reactions) {
+  static const char *const component[] = {"fx", "fy", "fz"};
+  return open_with_names(dir, "reactions.csv", ngroup, name, component, "", reactions);
+}
+
+corot_status reactions_row(table *reactions, double t, int ngroup, const double (*force)[3]) {
+  add_number(reactions, t);
+  for (int i = 0; i < ngroup; i++)
+    for (int c = 0; c < 3; c++) add_number(reactions, force[i][c]);
+  return end_row(reactions);
 }
 
 static void add_if_number(table *t, double x) {
@@ -168,23 +216,32 @@ corot_status compare_row(table *compare, double t, int nmeasure, const force_err
 }
 
 corot_status energy_open(const char *dir, table **energy) {
-  return open_with_header(dir, "energy.csv",
-                          "t,kinetic,elastic,dissipated,external_work,balance,frame_energy,"
-                          "px,py,pz,lx,ly,lz",
-                          ROW, energy);
+  return open_with_header(dir, "energy.csv", "t," ENERGY_COLUMNS, ROW, energy);
+}
+
+static void add_energies(table *t, const ledger *row) {
+  add_number(t, row->kinetic);
+  add_number(t, row->elastic);
+  add_number(t, row->dissipated);
+  add_number(t, row->external_work);
+  add_number(t, row->balance);
+  add_number(t, row->frame_energy);
+  for (int c = 0; c < 3; c++) add_number(t, row->momentum[c]);
+  for (int c = 0; c < 3; c++) add_number(t, row->angular_momentum[c]);
 }
 
 corot_status energy_row(table *energy, const ledger *row) {
   add_number(energy, row->t);
-  add_number(energy, row->kinetic);
-  add_number(energy, row->elastic);
-  add_number(energy, row->dissipated);
-  add_number(energy, row->external_work);
-  add_number(energy, row->balance);
-  add_number(energy, row->frame_energy);
-  for (int c = 0; c < 3; c++) add_number(energy, row->momentum[c]);
-  for (int c = 0; c < 3; c++) add_number(energy, row->angular_momentum[c]);
+  add_energies(energy, row);
   return end_row(energy);
+}
+
+corot_status history_row(table *history, const ledger *row, int nprobe, const int *node,
+                         const double (*displacement)[3]) {
+  add_number(history, row->t);
+  add_displacements(history, nprobe, node, displacement);
+  add_energies(history, row);
+  return end_row(history);
 }
 
 corot_status steps_open(const char *dir, table **steps) {

@@ -1,9 +1,9 @@
 /* The tables of a run. Commas, a point for decimals, one header line, numbers with 17 significant
    digits (they read back to the same bits), an empty cell where there is nothing to say.
 
-   Each row is handed to the system as a whole as soon as it is made, so that a program that is
-   killed leaves whole rows (but for the very last, which the system may cut at a page). A row that did not fit on the disk is taken back.
-   `dir` is the run's folder. */
+   Each row (of history.csv, a few dozen) is handed to the system as a whole as soon as it is made,
+   so that a program that is killed leaves whole rows (but for the very last, which the system may
+   cut at a page). A row that did not fit on the disk is taken back. `dir` is the run's folder. */
 #ifndef COROT_APP_WRITE_CSV_H
 #define COROT_APP_WRITE_CSV_H
 
@@ -22,7 +22,8 @@ corot_status probes_open(const char *dir, int nprobe, const char *const *name, t
 corot_status probes_row(table *probes, double t, int nprobe, const int *node,
                         const double (*displacement)[3]);
 
-/* energy.csv: where the energy went, one row an output time
+/* energy.csv: where the energy went, one row an output time. At a time where a load jumps, rows of
+   this table and of the others are those of just before; nothing in them jumps with it.
 
      t              [s]
      kinetic        at t [J]
@@ -45,6 +46,12 @@ typedef struct ledger {
 corot_status energy_open(const char *dir, table **energy);
 corot_status energy_row(table *energy, const ledger *row);
 
+/* history.csv (history.h): both, at the end of every step. */
+corot_status history_table_open(const char *dir, int nprobe, const char *const *name,
+                                table **history);
+corot_status history_row(table *history, const ledger *row, int nprobe, const int *node,
+                         const double (*displacement)[3]);
+
 /* steps.csv: one row a step of the integrator, so that the h add up to the last t
 
      t, h           reached, and the step's length [s]
@@ -52,7 +59,7 @@ corot_status energy_row(table *energy, const ledger *row);
      error          estimated local error over the tolerance
      newton         nonlinear iterations
      event          what happened at t, after the step: nothing (empty), or words joined by '+':
-                      kink      an amplitude has a corner there, or a motion begins or stops
+                      kink      an amplitude bends or jumps there, or a motion begins or stops
                                 (there, or within a step of constant length)
                       frames    the held or extrapolated frames were updated
                       restart   the integrator dropped its history
@@ -99,6 +106,18 @@ corot_status compare_open(const char *dir, int nmeasure, const char *const *meas
 
 /* error: [nmeasure] */
 corot_status compare_row(table *compare, double t, int nmeasure, const force_error *error);
+
+/* reactions.csv: the forces of the supports on the body, one row an equilibrium of statics
+
+     t           load factor times end time [s]
+     GROUP.fx, GROUP.fy, GROUP.fz   for each group that a support holds: the elastic force on its
+                 nodes less the loads there, summed over the components that are held [N] */
+
+corot_status reactions_open(const char *dir, int ngroup, const char *const *name,
+                            table **reactions);
+
+/* force: [ngroup] */
+corot_status reactions_row(table *reactions, double t, int ngroup, const double (*force)[3]);
 
 /* Reports an error that shows up on closing. Takes NULL; the table is gone either way. */
 corot_status table_close(table *table);

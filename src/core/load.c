@@ -1,4 +1,5 @@
 /* Loads: constant forces and pressures that follow the surface, each with an amplitude in time. */
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/levels.h"
@@ -58,25 +59,43 @@ static corot_status add_point_force(const corot_model *m, const corot_load *from
   return COROT_OK;
 }
 
-static corot_status add_gravity(const corot_model *m, const corot_load *from, load *to) {
-  for (int n = 0; n < m->mesh->nnode; n++)
-    for (int c = 0; c < 3; c++) {
-      int i = m->dof[n][c];
-      if (i >= 0) to->force[i] = m->mass[i] * from->value[c];
-    }
+/* Masses in the first column become weights. */
+static void weigh(int nnode, const double gravity[3], double (*f)[3]) {
+  for (int n = 0; n < nnode; n++) {
+    double mass = f[n][0];
+    for (int c = 0; c < 3; c++) f[n][c] = mass * gravity[c];
+  }
+}
+
+/* What of f [nnode] falls on held components. */
+static corot_status keep_held(const corot_model *m, const double (*f)[3], load *to) {
+  int nnode = m->mesh->nnode, n = 0;
+  for (int i = 0; i < 3 * nnode; i++) n += m->dof[i / 3][i % 3] < 0 && f[i / 3][i % 3] != 0;
+  to->held = malloc((n + 1) * sizeof *to->held);
+  if (!to->held) return corot_fail(COROT_ENOMEM, "no memory for the forces on %d supports", n);
+  for (int i = 0; i < 3 * nnode; i++)
+    if (m->dof[i / 3][i % 3] < 0 && f[i / 3][i % 3] != 0)
+      to->held[to->nheld++] = (held_force){i / 3, i % 3, f[i / 3][i % 3]};
   return COROT_OK;
 }
 
-/* A traction or a total force. */
-static corot_status add_surface(const corot_model_def *def, const corot_model *m,
-                                const corot_load *from, load *to) {
+/* Gravity, a traction or a total force. */
+static corot_status add_constant(const corot_model_def *def, const corot_model *m,
+                                 const corot_load *from, load *to) {
   int nnode = m->mesh->nnode;
   double(*f)[3] = calloc(nnode, sizeof *f);
   if (!f) return corot_fail(COROT_ENOMEM, "no memory for the forces on %d nodes", nnode);
-  bool traction = from->kind == COROT_TRACTION;
-  corot_status status = traction ? add_traction(m, from, f) : add_point_force(m, from, f);
+  corot_status status = COROT_OK;
+  if (from->kind == COROT_TRACTION)
+    status = add_traction(m, from, f);
+  else if (from->kind == COROT_FORCE)
+    status = add_point_force(m, from, f);
+  else
+    corot_mass_lump(m, f);
   if (!status) status = corot_levels_own(def, nnode, f);
+  if (!status && from->kind == COROT_GRAVITY) weigh(nnode, from->value, f);
   for (int n = 0; !status && n < nnode; n++) add_force(m, to->force, n, f[n], 1);
+  if (!status) status = keep_held(m, (const double(*)[3])f, to);
   free(f);
   return status;
 }
@@ -97,39 +116,22 @@ static corot_status add_pressure(const corot_model *m, const corot_load *from, l
   return COROT_OK;
 }
 
-static corot_status copy_amplitude(const corot_amplitude *a, int k, load *to) {
-  for (int i = 0; i < a->n; i++) {
-    if (!isfinite(a->time[i]) || !isfinite(a->value[i]))
-      return corot_fail(COROT_EINVAL, "load %d: point %d of the amplitude is not finite", k, i);
-    if (i > 0 && !(a->time[i] > a->time[i - 1]))
-      return corot_fail(COROT_EINVAL, "load %d: the amplitude's times do not increase at point %d",
-                        k, i);
-  }
-  if (a->n <= 0) return COROT_OK;
-  to->time = malloc(a->n * sizeof *to->time);
-  to->value = malloc(a->n * sizeof *to->value);
-  if (!to->time || !to->value) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
-  memcpy(to->time, a->time, a->n * sizeof *to->time);
-  memcpy(to->value, a->value, a->n * sizeof *to->value);
-  to->n = a->n;
-  return COROT_OK;
-}
-
 static corot_status create(const corot_model_def *def, const corot_model *m, int k, load *to) {
   const corot_load *from = &def->load[k];
   for (int c = 0; c < 3; c++)
     if (!isfinite(from->value[c]))
       return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);
-  COROT_TRY(copy_amplitude(&from->amplitude, k, to));
+  char user[32];
+  snprintf(user, sizeof user, "load %d: ", k);
+  COROT_TRY(corot_amplitude_create(&from->amplitude, user, &to->amplitude));
   if (from->kind == COROT_PRESSURE) return add_pressure(m, from, to);
   to->force = calloc(m->ndof, sizeof *to->force);
   if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
   switch (from->kind) {
     case COROT_GRAVITY:
-      return add_gravity(m, from, to);
     case COROT_TRACTION:
     case COROT_FORCE:
-      return add_surface(def, m, from, to);
+      return add_constant(def, m, from, to);
     default:
       return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
                         (int)from->kind);
@@ -147,31 +149,23 @@ corot_status corot_loads_create(const corot_model_def *def, corot_model *m) {
 void corot_loads_destroy(corot_model *m) {
   for (int k = 0; k < m->nload; k++) {
     free(m->load[k].force);
+    free(m->load[k].held);
     free(m->load[k].tri);
-    free(m->load[k].time);
-    free(m->load[k].value);
+    corot_amplitude_clear(&m->load[k].amplitude);
   }
   free(m->load);
 }
 
-static double amplitude_at(const load *l, double t) {
-  int n = l->n;
-  const double *time = l->time, *value = l->value;
-  if (n == 0) return 1;
-  if (!(t > time[0])) return value[0];
-  if (t >= time[n - 1]) return value[n - 1];
-  int k = 1;
-  while (time[k] < t) k++;
-  double s = (t - time[k - 1]) / (time[k] - time[k - 1]);
-  return (1 - s) * value[k - 1] + s * value[k];
+static double factor_of(const load *l, const load_clock *now) {
+  return now->scale * corot_amplitude_at(&l->amplitude, now->phase, now->t);
 }
 
-void corot_loads_force(const corot_model *m, double t, double scale, const double (*u)[4],
+void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
                        double *f) {
   memset(f, 0, m->ndof * sizeof *f);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = scale * amplitude_at(l, t);
+    double factor = factor_of(l, now);
     if (factor == 0) continue;
     if (l->force)
       for (int i = 0; i < m->ndof; i++) f[i] += factor * l->force[i];
@@ -184,11 +178,45 @@ void corot_loads_force(const corot_model *m, double t, double scale, const doubl
   }
 }
 
-void corot_loads_derivative(const corot_model *m, double t, double scale, const double (*u)[4],
+static void add_to_node(double (*f)[3], int node, const double value[3], double factor) {
+  for (int c = 0; c < 3; c++) f[node][c] += factor * value[c];
+}
+
+static void add_nodal_load(const corot_model *m, const load *l, double factor, const double (*u)[4],
+                           double (*f)[3]) {
+  for (int i = 0; l->force && i < 3 * m->mesh->nnode; i++)
+    if (m->dof[i / 3][i % 3] >= 0) f[i / 3][i % 3] += factor * l->force[m->dof[i / 3][i % 3]];
+  for (int i = 0; i < l->nheld; i++)
+    f[l->held[i].node][l->held[i].component] += factor * l->held[i].force;
+  for (int j = 0; j < l->ntri; j++) {
+    double a[3], b[3], area[3];
+    edges(m, u, l->tri[j], a, b);
+    area_vector(a, b, area);
+    for (int i = 0; i < 3; i++) add_to_node(f, l->tri[j][i], area, -factor * l->pressure / 3);
+  }
+}
+
+corot_status corot_load_force(const corot_model *m, double t, double factor,
+                              const double (*displacement)[3], double (*f)[3]) {
+  int nnode = m->mesh->nnode;
+  double(*u)[4] = calloc(nnode, sizeof *u);
+  if (!u) return corot_fail(COROT_ENOMEM, "no memory for the displacement of %d nodes", nnode);
+  for (int n = 0; n < nnode; n++) memcpy(u[n], displacement[n], 3 * sizeof **u);
+  memset(f, 0, nnode * sizeof *f);
+  const load_clock now = {NAN, t, factor}; /* just after t, as in statics */
+  for (int k = 0; k < m->nload; k++) {
+    const load *l = &m->load[k];
+    add_nodal_load(m, l, factor_of(l, &now), (const double(*)[4])u, f);
+  }
+  free(u);
+  return COROT_OK;
+}
+
+void corot_loads_derivative(const corot_model *m, const load_clock *now, const double (*u)[4],
                             const double (*du)[4], double *f) {
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = scale * amplitude_at(l, t);
+    double factor = factor_of(l, now);
     for (int j = 0; j < l->ntri; j++) { /* d(a x b) = da x b + a x db */
       const int *n = l->tri[j];
       double a[3], b[3], da[3], db[3], first[3], second[3];

@@ -7,6 +7,19 @@
 
 #include "core/levels.h"
 
+void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
+  for (int b = 0; b < m->tets.nblock; b++) {
+    const tet_block *block = &m->tets.block[b];
+    const material *mat = &m->material[block->material];
+    for (int l = 0; l < block->ntet; l++)
+      for (int a = 0; a < 4; a++) {
+        double quarter = mat->density * block->volume[l] / 4;
+        nodal[block->node[a][l]][0] += quarter;
+        nodal[block->node[a][l]][1] += quarter * mat->damping_mass;
+      }
+  }
+}
+
 /* Row sums, of the held nodes too. */
 static corot_status lump(const corot_model_def *def, corot_model *m) {
   int nnode = m->mesh->nnode;
@@ -18,16 +31,7 @@ static corot_status lump(const corot_model_def *def, corot_model *m) {
     free(nodal);
     return corot_fail(COROT_ENOMEM, "no memory for the mass of %d nodes", nnode);
   }
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
-    const material *mat = &m->material[block->material];
-    for (int l = 0; l < block->ntet; l++)
-      for (int a = 0; a < 4; a++) {
-        double quarter = mat->density * block->volume[l] / 4;
-        nodal[block->node[a][l]][0] += quarter;
-        nodal[block->node[a][l]][1] += quarter * mat->damping_mass;
-      }
-  }
+  corot_mass_lump(m, nodal);
   corot_status status = corot_levels_own(def, nnode, nodal);
   for (int n = 0; n < nnode; n++)
     for (int c = 0; c < 3; c++) {

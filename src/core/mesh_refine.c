@@ -12,7 +12,7 @@
    the order of the nodes matters, so a child may have its nodes in any order that puts the pairs
    where `bey` expects them. */
 
-static bool is_odd(const int v[4]) {
+bool corot_tet_is_odd(const int v[4]) {
   int inversions = 0;
   for (int k = 1; k < 4; k++)
     for (int j = 0; j < k; j++) inversions += v[j] > v[k];
@@ -22,7 +22,7 @@ static bool is_odd(const int v[4]) {
 /* Bey's tets alternate in handedness, ours do not: corners 1 and 2 of every second one are swapped.
    Which ones shows in the numbers, whose permutation no right-handed order of a tet can change from
    even to odd. */
-static int bey(const int v[4]) { return is_odd(v) ? 1 : 2; }
+static int bey(const int v[4]) { return corot_tet_is_odd(v) ? 1 : 2; }
 
 /* Turns three corners about the fourth, `fixed`, until the pairs named k are where bey expects
    them. */

@@ -18,6 +18,10 @@ void corot_edges_clear(corot_edges *edges);
 /* The edge between two nodes, which must be one. */
 int corot_edges_find(const corot_edges *edges, int a, int b);
 
+/* Whether a tet's node numbers are an odd permutation of ascending ones, which decides where the
+   consistent diagonal is. */
+bool corot_tet_is_odd(const int v[4]);
+
 /* Cuts triangles of `mesh` into four each, which wind as they do. *fine [4 * ntri] is the caller's
    to free. */
 corot_status corot_refine_triangles(const corot_mesh *mesh, const corot_edges *edges, int ntri,

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 
 corot_model_def corot_model_defaults(void) {
-  return (corot_model_def){.strain = "polar", .dilatation_local = 1};
+  return (corot_model_def){
+      .viscosity = COROT_VISCOSITY_AUTO, .strain = "polar", .dilatation_local = 1};
 }
 
 corot_hierarchy_def corot_hierarchy_defaults(void) {
@@ -128,23 +129,40 @@ static int by_time(const void *a, const void *b) {
   return (d > 0) - (d < 0);
 }
 
+static void add_kinks(corot_model *m, const amplitude *a) {
+  const double *time = corot_amplitude_kinks(a);
+  for (int i = 0; i < corot_amplitude_nkink(a); i++) m->kink[m->nkink++] = time[i];
+}
+
+static size_t count_kinks(const corot_model *m) {
+  size_t n = 0;
+  for (int k = 0; k < m->nload; k++) n += corot_amplitude_nkink(&m->load[k].amplitude);
+  for (int k = 0; k < m->nmotion; k++) {
+    n += 2 * (size_t)m->motion[k].nspan;
+    for (int i = 0; i < m->motion[k].nlaw; i++)
+      n += corot_amplitude_nkink(&m->motion[k].law[i].amplitude);
+  }
+  return n;
+}
+
 /* All times at which a load or a motion changes its law, ascending, each once. */
 static corot_status list_kinks(corot_model *m) {
-  size_t n = 0;
-  for (int k = 0; k < m->nmotion; k++) n += 2 * (size_t)m->motion[k].nspan;
-  for (int k = 0; k < m->nload; k++) n += m->load[k].n;
+  size_t n = count_kinks(m);
   m->kink = malloc((n + 1) * sizeof *m->kink);
   if (!m->kink) return corot_fail(COROT_ENOMEM, "no memory for %zu kinks", n);
-  n = 0;
-  for (int k = 0; k < m->nload; k++)
-    for (int i = 0; i < m->load[k].n; i++) m->kink[n++] = m->load[k].time[i];
-  for (int k = 0; k < m->nmotion; k++)
-    for (int i = 0; i < m->motion[k].nspan; i++) {
-      m->kink[n++] = m->motion[k].span[i].from;
-      if (isfinite(m->motion[k].span[i].to)) m->kink[n++] = m->motion[k].span[i].to;
+  for (int k = 0; k < m->nload; k++) add_kinks(m, &m->load[k].amplitude);
+  for (int k = 0; k < m->nmotion; k++) {
+    const motion *a = &m->motion[k];
+    for (int i = 0; i < a->nspan; i++) {
+      m->kink[m->nkink++] = a->span[i].from;
+      if (isfinite(a->span[i].to)) m->kink[m->nkink++] = a->span[i].to;
     }
-  qsort(m->kink, n, sizeof *m->kink, by_time);
-  for (size_t k = 0; k < n; k++)
+    for (int i = 0; i < a->nlaw; i++) add_kinks(m, &a->law[i].amplitude);
+  }
+  qsort(m->kink, m->nkink, sizeof *m->kink, by_time);
+  int all = m->nkink;
+  m->nkink = 0;
+  for (int k = 0; k < all; k++)
     if (m->nkink == 0 || m->kink[k] > m->kink[m->nkink - 1]) m->kink[m->nkink++] = m->kink[k];
   return COROT_OK;
 }
@@ -215,8 +233,12 @@ static corot_status choose_strain(const corot_model_def *def, corot_model *m) {
                       "hierarchy: dilatations averaged at nodes are not provided for");
   const char *name = h && h->refinement->nlevel == 0 ? h->coarse_strain : def->strain;
   COROT_TRY(corot_model_find_strain(name, &m->strain));
+  bool polar = strain_measures[m->strain].frame == FRAME_POLAR;
+  if ((unsigned)def->viscosity > COROT_VISCOSITY_AUTO)
+    return corot_fail(COROT_EINVAL, "there is no viscous law %d", (int)def->viscosity);
   m->objective = def->viscosity == COROT_OBJECTIVE;
-  if (m->objective && strain_measures[m->strain].frame != FRAME_POLAR)
+  if (def->viscosity == COROT_VISCOSITY_AUTO) m->objective = polar && !h;
+  if (m->objective && !polar)
     return corot_fail(COROT_EINVAL, "the objective viscous law needs a polar frame, not strain %s",
                       name);
   return COROT_OK;
@@ -300,6 +322,16 @@ int corot_model_kinks(const corot_model *m, double t0, double t1, int max, doubl
   return n;
 }
 
+double corot_model_horizon(const corot_model *m, double t) {
+  double horizon = INFINITY;
+  for (int k = 0; k < m->nload; k++)
+    horizon = fmin(horizon, corot_amplitude_horizon(&m->load[k].amplitude, t));
+  for (int k = 0; k < m->nmotion; k++)
+    for (int i = 0; i < m->motion[k].nlaw; i++)
+      horizon = fmin(horizon, corot_amplitude_horizon(&m->motion[k].law[i].amplitude, t));
+  return horizon;
+}
+
 bool corot_model_approximate_stiffness(const corot_model *m) { return m->levels != NULL; }
 
 const corot_mesh *corot_model_mesh(const corot_model *m) { return m->mesh; }
@@ -311,7 +343,13 @@ const char *corot_model_strain(const corot_model *m) {
 bool corot_model_matrices_by_frames(const corot_model *m) {
   const strain_measure *measure = &strain_measures[m->strain];
   bool parts_in_them = m->levels && m->levels->place;
-  return measure->pressure == BY_FRAME && measure->shear == BY_FRAME && !parts_in_them;
+  bool rates_in_them = m->objective && m->damped;
+  return measure->pressure == BY_FRAME && measure->shear == BY_FRAME && !parts_in_them &&
+         !rates_in_them;
+}
+
+corot_viscosity corot_model_viscosity(const corot_model *m) {
+  return m->objective ? COROT_OBJECTIVE : COROT_COROTATED;
 }
 
 int corot_model_ndof(const corot_model *m) { return m->ndof; }
@@ -335,15 +373,19 @@ size_t corot_model_bytes(const corot_model *m) {
   const tets *t = &m->tets;
   const pattern *p = &m->pattern;
   size_t bytes = sizeof *m + mesh_bytes(m->mesh) + m->nmaterial * sizeof *m->material +
-                 m->mesh->nnode * sizeof *m->dof + 2 * m->ndof * sizeof *m->mass;
+                 m->mesh->nnode * sizeof *m->dof;
+  if (m->mass) bytes += 2 * m->ndof * sizeof *m->mass; /* parts of a hierarchy have none */
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    bytes += sizeof *l + 2 * l->n * sizeof *l->time + l->ntri * sizeof *l->tri;
-    if (l->force) bytes += m->ndof * sizeof *l->force;
+    bytes += sizeof *l + corot_amplitude_bytes(&l->amplitude) + l->ntri * sizeof *l->tri;
+    if (l->force) bytes += m->ndof * sizeof *l->force + l->nheld * sizeof *l->held;
   }
-  for (int k = 0; k < m->nmotion; k++)
-    bytes += sizeof *m->motion + m->motion[k].nnode * sizeof *m->motion[k].node +
-             m->motion[k].nspan * sizeof *m->motion[k].span;
+  for (int k = 0; k < m->nmotion; k++) {
+    const motion *a = &m->motion[k];
+    bytes += sizeof *a + a->nnode * sizeof *a->node + a->nspan * sizeof *a->span;
+    for (int i = 0; i < a->nlaw; i++)
+      bytes += sizeof *a->law + corot_amplitude_bytes(&a->law[i].amplitude);
+  }
   bytes += m->nkink * sizeof *m->kink;
   if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
   if (m->mass_pair) bytes += p->nblock * sizeof *m->mass_pair;

@@ -4,6 +4,7 @@
 
 #include <corot/model.h>
 
+#include "core/amplitude.h"
 #include "core/pattern.h"
 #include "core/strain.h"
 
@@ -13,14 +14,21 @@ typedef struct material {
   double own_share;    /* and as a part of it; 1 where lambda is zero */
 } material;
 
+/* What of a force acts on a component that is held. */
+typedef struct held_force {
+  int node, component;
+  double force; /* [N] */
+} held_force;
+
 /* A constant force, or a pressure on faces of the deformed body, times amplitude(t). */
 typedef struct load {
   double *force; /* [ndof] at amplitude one [N]; NULL: a pressure */
+  int nheld;
+  held_force *held; /* [nheld] the same of held components, where it is not zero */
   int ntri;
   int (*tri)[3];
   double pressure; /* at amplitude one [Pa] */
-  int n;           /* points of the amplitude; 0: one at all times */
-  double *time, *value;
+  amplitude amplitude;
 } load;
 
 /* A time of constant rate in a motion. */
@@ -28,9 +36,16 @@ typedef struct motion_span {
   double rate, velocity[3], from, to;
 } motion_span;
 
-/* Nodes on a prescribed path: turning about one axis, or translating, span after span. */
+/* A part of a motion that follows an amplitude. */
+typedef struct motion_law {
+  double angle, direction[3]; /* at amplitude one [rad], [m] */
+  amplitude amplitude;
+} motion_law;
+
+/* Nodes on a prescribed path: turning about one axis, or translating, span after span, and by the
+   sum of its laws. */
 typedef struct motion {
-  corot_motion_kind kind;
+  bool turns; /* about the axis; else it translates */
   char *group;
   int nnode;
   int *node;
@@ -38,6 +53,8 @@ typedef struct motion {
   double axis[3]; /* of length one */
   int nspan;
   motion_span *span; /* [nspan] */
+  int nlaw;
+  motion_law *law; /* [nlaw] */
 } motion;
 
 struct levels;
@@ -99,6 +116,10 @@ void corot_model_spread(const corot_model *m, const double *values, double *noda
 /* Mass and mass damping, once degrees of freedom, motions and pattern are known. */
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m);
 
+/* nodal [nnode] += the lumped mass [kg] and the mass damping [kg/s] of every node, held ones
+   included, and nothing. */
+void corot_mass_lump(const corot_model *m, double (*nodal)[3]);
+
 /* f -= C v for the matrix C of the mass damping; nothing if there is none. */
 void corot_mass_damp(const corot_model *m, const double *v, double *f);
 
@@ -109,12 +130,18 @@ void corot_mass_damping_matrix(const corot_model *m, double (*D)[9]);
 corot_status corot_loads_create(const corot_model_def *def, corot_model *m);
 void corot_loads_destroy(corot_model *m);
 
-/* f [ndof] = `scale` times the external force of time t, on the body displaced by u [nnode]. */
-void corot_loads_force(const corot_model *m, double t, double scale, const double (*u)[4],
+/* When the loads are looked at: at t, by the law in force just after `phase` (NaN: just after t),
+   times `scale`. */
+typedef struct load_clock {
+  double phase, t, scale;
+} load_clock;
+
+/* f [ndof] = the external force, on the body displaced by u [nnode]. */
+void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
                        double *f);
 
 /* f += its change in the direction du. */
-void corot_loads_derivative(const corot_model *m, double t, double scale, const double (*u)[4],
+void corot_loads_derivative(const corot_model *m, const load_clock *now, const double (*u)[4],
                             const double (*du)[4], double *f);
 
 /* m->motion from the definition; marks the nodes' components in `held`. */

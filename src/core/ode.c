@@ -51,16 +51,21 @@ corot_status corot_nodal_forces(const corot_model *m, corot_state *s, force_kern
   return COROT_OK;
 }
 
+static load_clock loads_now(const corot_state *s, double t) {
+  if (s->still) return (load_clock){NAN, s->load_time, s->load_factor};
+  return (load_clock){s->phase, t, 1};
+}
+
 /* f = the loads on the body where it is in s->u. */
 static void external_force(const corot_model *m, const corot_state *s, double t, double *f) {
-  double when = s->still ? s->load_time : t, scale = s->still ? s->load_factor : 1;
-  corot_loads_force(m, when, scale, (const double(*)[4])s->u, f);
+  load_clock now = loads_now(s, t);
+  corot_loads_force(m, &now, (const double(*)[4])s->u, f);
 }
 
 /* f += their change in the direction s->du. */
 static void external_derivative(const corot_model *m, const corot_state *s, double t, double *f) {
-  double when = s->still ? s->load_time : t, scale = s->still ? s->load_factor : 1;
-  corot_loads_derivative(m, when, scale, (const double(*)[4])s->u, (const double(*)[4])s->du, f);
+  load_clock now = loads_now(s, t);
+  corot_loads_derivative(m, &now, (const double(*)[4])s->u, (const double(*)[4])s->du, f);
 }
 
 corot_status corot_residual_trial(const corot_model *m, corot_state *s, double t, const double *u,

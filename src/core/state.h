@@ -12,7 +12,7 @@ struct corot_state {
   int nnode, nblock, window, ndof; /* of the model */
   corot_frames frames;
   int inverted;       /* tet number in the mesh, or -1 */
-  double phase;       /* motions follow the law in force just after this time; NaN: after t */
+  double phase;       /* loads and motions follow the law in force just after it; NaN: t */
   bool still;         /* nothing has a velocity, and the loads are those */
   double load_time;   /* of this time, not of the evaluation's */
   double load_factor; /* times this */

@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "conditions.h"
 #include "core/polar.h"
 #include "encode.h"
+#include "lookup.h"
 #include "page.h"
 #include "surface.h"
 
@@ -29,6 +31,7 @@ static const struct {
 };
 
 typedef struct body {
+  const run_folder *run;
   const fields *f;
   surface s;
   fields_frame frame;   /* the one being read */
@@ -185,8 +188,19 @@ static void write_geometry(const body *b, FILE *out) {
   fputs("],\"corners\":[", out);
   for (int i = 0; i < s->ntri; i++)
     fprintf(out, "%s%d,%d,%d", i ? "," : "", s->corner[i][0], s->corner[i][1], s->corner[i][2]);
-  fputs("],\"t\":", out);
-  encode_doubles((size_t)b->nshown, b->t, out);
+  fputs("],\"clock\":", out);
+  encode_text(run_folder_is_static(b->run) ? "load factor" : "t", out);
+}
+
+/* When the frames are: times, or the load factors of equilibria. */
+static corot_status write_moments(const body *b, FILE *out) {
+  double *moment = malloc(((size_t)b->nshown + 1) * sizeof *moment), unit = run_folder_unit(b->run);
+  if (!moment) return corot_fail(COROT_ENOMEM, "%d frames: out of memory", b->nshown);
+  for (int k = 0; k < b->nshown; k++) moment[k] = b->t[k] / unit;
+  fputs(",\"t\":", out);
+  encode_doubles((size_t)b->nshown, moment, out);
+  free(moment);
+  return COROT_OK;
 }
 
 /* Whether there is something to colour by: rounding is not. */
@@ -197,8 +211,11 @@ static bool varies(const body *b, int k, bool has_frames) {
   return high - low > 1e-9 * fmax(fabs(low), fabs(high));
 }
 
-static corot_status write_data(const body *b, bool has_frames, FILE *out) {
+static corot_status write_data(const body *b, FILE *out) {
+  bool has_frames = strcmp(lookup_text(b->run->result, "strain"), "green") != 0;
   write_geometry(b, out);
+  COROT_TRY(write_moments(b, out));
+  COROT_TRY(conditions_write(b->run, b->f, &b->s, b->nshown, b->t, out));
   for (int k = UX; k <= UZ; k++) {
     fprintf(out, ",\"%s\":", about[k].name);
     COROT_TRY(write_steps(count(b, k) * (size_t)b->nshown, b->value[k], out));
@@ -219,7 +236,7 @@ static corot_status write_data(const body *b, bool has_frames, FILE *out) {
   return COROT_OK;
 }
 
-static corot_status write_section(const body *b, int stride, bool has_frames, FILE *out) {
+static corot_status write_section(const body *b, int stride, FILE *out) {
   double error = 0;
   for (int k = UX; k <= UZ; k++) {
     double low, high;
@@ -228,7 +245,7 @@ static corot_status write_section(const body *b, int stride, bool has_frames, FI
   }
   page_section("body", "Body", out);
   fputs("<figure class=\"body\" id=\"view\"><script type=\"application/json\">", out);
-  COROT_TRY(write_data(b, has_frames, out));
+  COROT_TRY(write_data(b, out));
   fputs("</script></figure>\n", out);
   page_element(
       out, "p class=\"note\"",
@@ -243,12 +260,12 @@ static corot_status write_section(const body *b, int stride, bool has_frames, FI
   return COROT_OK;
 }
 
-corot_status body_write(const fields *f, int has_frames, FILE *out) {
-  body b = {.f = f};
+corot_status body_write(const fields *f, const run_folder *run, FILE *out) {
+  body b = {.run = run, .f = f};
   corot_status status = prepare(&b);
   int stride = status == COROT_OK ? stride_of(&b) : 1;
   if (status == COROT_OK) status = take_frames(&b, stride);
-  if (status == COROT_OK) status = write_section(&b, stride, has_frames, out);
+  if (status == COROT_OK) status = write_section(&b, stride, out);
   body_free(&b);
   return status;
 }

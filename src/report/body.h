@@ -6,12 +6,14 @@
 #include <stdio.h>
 
 #include "fields.h"
+#include "run_folder.h"
 
 /* Frames are left out evenly, the last excepted, until all of them have fewer bytes than this
    (before base64 makes four of three). */
 enum { BODY_BYTES = 6500000 };
 
-/* Writes the section with its data. has_frames: the strain measure has frames to speak of. */
-corot_status body_write(const fields *f, int has_frames, FILE *out);
+/* Writes the section with its data: of the fields, and of the run that they belong to what is done
+   to the body. */
+corot_status body_write(const fields *f, const run_folder *run, FILE *out);
 
 #endif

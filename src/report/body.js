@@ -26,15 +26,16 @@ class Body {
     this.moved = [data.ux, data.uy, data.uz].map((u) => this.open(u, true));
     this.fields = [this.displacement(), ...data.fields.map((f) => ({ ...f, ...this.open(f.data, f.nodal) }))];
     this.fields.forEach((f) => this.findRange(f));
+    this.name = data.clock;
     this.frame = 0, this.exaggeration = 1, this.drawn = 0, this.playing = false;
     this.points = new Float32Array(9 * this.triangles);
     this.levels = new Float32Array(3 * this.triangles);
     this.position = new Float32Array(3 * this.nodes);
     this.camera = new Camera(...this.bounds());
     this.restLines = this.outline();
-    this.build();
+    this.build(data);
     this.choose(Math.max(0, this.fields.findIndex((f) => f.name === 'von Mises stress')));
-    this.show(this.t.length - 1);
+    this.show(this.furthest());
     timeline.listeners.push((t) => this.show(nearest(this.t, t)));
     new ResizeObserver(() => this.draw()).observe(this.canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
@@ -50,6 +51,14 @@ class Body {
     for (let i = 0; i < values.length; i++)
       values[i] = Math.hypot(x.low + x.step * x.q[i], y.low + y.step * y.q[i], z.low + z.step * z.q[i]);
     return { name: 'displacement', unit: 'm', nodal: true, centre: null, low: 0, step: 1, q: values, count: n };
+  }
+
+  /* The frame of the largest displacement, where the page opens; the first, if there are several. */
+  furthest() {
+    const { q, count } = this.fields[0];
+    let best = 0;
+    for (let i = 0; i < q.length; i++) if (q[i] > q[best]) best = i;
+    return Math.floor(best / count);
   }
 
   /* [low, high] over the frames from `first` to before `end`. */
@@ -97,7 +106,7 @@ class Body {
     return Float32Array.from(lines);
   }
 
-  build() {
+  build(data) {
     const bar = element('div', { class: 'controls' }, this.figure);
     const label = element('label', {}, bar, 'Colour: ');
     this.select = element('select', { id: 'field' }, label);
@@ -114,17 +123,19 @@ class Body {
     this.edges = box('edges', true);
     this.still = box('shape at rest', false);
     this.own = box("scale by frame", false);
+    this.marked = data.supports || data.loads ? box('supports and loads', true) : null;
     this.exaggerate = element('select', { id: 'exaggeration' }, element('label', {}, bar, 'Motion: '));
     for (const factor of [1, 2, 5, 10, 100, 1000]) element('option', { value: factor }, this.exaggerate, '× ' + factor);
     this.exaggerate.onchange = () => { this.exaggeration = +this.exaggerate.value; this.show(this.frame); };
-    this.buildView();
+    this.buildView(data);
     this.buildPlayer();
   }
 
-  buildView() {
+  buildView(data) {
     const stage = element('div', { class: 'stage' }, this.figure);
     this.canvas = element('canvas', { tabindex: 0, role: 'img', 'aria-label':
       'the body; arrow keys turn it, + and - scale it, space plays' }, stage);
+    this.marks = this.marked ? new Marks(stage, this.figure, data, this) : null;
     this.triad = svgElement('svg', { class: 'triad', viewBox: '-30 -30 60 60', width: 60, height: 60 }, stage);
     this.scale = element('div', { class: 'scale' }, stage);
     this.tip = element('div', { class: 'tip', hidden: '' }, stage);
@@ -142,8 +153,10 @@ class Body {
     const bar = element('div', { class: 'player' }, this.figure);
     this.button = element('button', { type: 'button', id: 'play' }, bar, '▶ play');
     this.button.onclick = () => this.play(!this.playing);
+    this.button.hidden = this.name !== 't' || this.t.length < 2;
     this.slider = element('input', { type: 'range', id: 'frame', min: 0, max: this.t.length - 1, value: 0,
                                      'aria-label': 'frame' }, bar);
+    this.slider.hidden = this.t.length < (this.name === 't' ? 2 : 3); /* of one load step */
     this.slider.oninput = () => { this.play(false); this.show(+this.slider.value); };
     this.clock = element('output', {}, bar);
     /* at forty frames a second, but not over in no time; in its own time if that is about it */
@@ -179,7 +192,8 @@ class Body {
   show(frame) {
     this.frame = frame;
     this.slider.value = frame;
-    this.clock.textContent = `t = ${plain(this.t[frame])} s${this.playing ? this.pace : ''}`;
+    this.clock.textContent = this.name === 't' ? `t = ${plain(this.t[frame])} s${this.playing ? this.pace : ''}`
+                                               : `${this.name} = ${plain(this.t[frame])}`;
     const n = this.nodes, k = frame * n, more = this.exaggeration;
     for (let c = 0; c < 3; c++) {
       const { low, step, q } = this.moved[c];
@@ -211,6 +225,7 @@ class Body {
     const ink = getComputedStyle(canvas).color.match(/\d+/g).slice(0, 3).map(Number);
     this.paint.draw(look, this.points, this.levels, this.still.checked ? this.restLines : null,
                     this.edges.checked, ink);
+    if (this.marks) this.marks.draw(look, this.marked.checked);
     this.drawScale(range);
     this.drawTriad(look.axes);
     this.drawn++;
@@ -279,7 +294,7 @@ class Body {
         ArrowLeft: () => camera.turn(0.1, 0), ArrowRight: () => camera.turn(-0.1, 0),
         ArrowUp: () => camera.turn(0, 0.1), ArrowDown: () => camera.turn(0, -0.1),
         '+': () => camera.scale(1.2), '-': () => camera.scale(1 / 1.2), 0: () => camera.reset(),
-        ' ': () => this.play(!this.playing),
+        ' ': () => this.play(!this.playing && this.name === 't'),
       }[event.key];
       if (!act) return;
       event.preventDefault();

@@ -34,7 +34,7 @@ class Camera {
   /* To the plane of the picture: x and y are `focus` at its half height, z is the distance. */
   look(width, height) {
     const distance = 4.5 * this.radius;
-    const focus = 0.92 * this.zoom * Math.min(1 / this.tall, width / height / this.wide);
+    const focus = 0.85 * this.zoom * Math.min(1 / this.tall, width / height / this.wide);
     return { axes: this.axes(), center: this.center, pan: this.pan.map((p) => p * this.radius), distance, focus,
              aspect: width / height, near: distance - 1.2 * this.radius, far: distance + 1.2 * this.radius };
   }

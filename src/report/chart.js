@@ -7,7 +7,7 @@ const MARKS = [
   'M0-5l1.4 3.2h3.4l-2.7 2.3l1 3.7l-3.1-2l-3.1 2l1-3.7l-2.7-2.3h3.4z', 'M-4.6-2.6h9.2v5.2h-9.2z',
 ];
 const DASHES = ['', '7 3', '2 3', '9 3 2 3'];
-const MARGIN = { left: 66, right: 14, top: 10, bottom: 46 };
+const MARGIN = { left: 72, right: 14, top: 10, bottom: 46 };
 
 /* Charts over time share their range, and the moment that the body is shown at. */
 const timeline = {
@@ -173,7 +173,7 @@ class Chart {
     svgElement('rect', { class: 'axes', x: left, y: top, width: this.width, height: this.height }, this.svg);
     svgElement('text', { class: 'label', x: (left + right) / 2, y: bottom + 37, 'text-anchor': 'middle' },
                this.svg, this.data.xLabel);
-    svgElement('text', { class: 'label', transform: `translate(13 ${(top + bottom) / 2})rotate(-90)`,
+    svgElement('text', { class: 'label', transform: `translate(12 ${(top + bottom) / 2})rotate(-90)`,
                          'text-anchor': 'middle' }, this.svg, this.data.yLabel);
   }
 
@@ -200,9 +200,9 @@ class Chart {
         path += !joined ? `M${x} ${y}` : steps ? `V${y}H${x}` : `L${x} ${y}`;
         if (s.low && s.low[i] > 0 && s.high[i] > 0)
           svgElement('path', { class: 'spread', d: `M${this.across(s.low[i])} ${y}H${this.across(s.high[i])}` }, group);
-        if (s.style === 'points' || s.style === 'marked')
+        if (s.style === 'points' || s.style === 'marked' || s.x.length === 1) /* no line shows one point */
           svgElement('path', { class: 'mark', d: MARKS[s.k % 8], transform: `translate(${x} ${y})` }, group);
-      } else skipped++;
+      } else if (!isNaN(s.y[i])) skipped++;
       joined = drawn;
     }
     if (s.style !== 'points')

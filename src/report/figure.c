@@ -1,18 +1,36 @@
 #include "figure.h"
 
-#include <stddef.h>
+#include <stdlib.h>
 
 #include "encode.h"
 #include "markup.h"
+#include "thin.h"
+
+static void write_values(const char *name, int n, const double *value, const int *keep,
+                         double *kept, FILE *out) {
+  for (int i = 0; keep && i < n; i++) kept[i] = value[keep[i]];
+  fprintf(out, ",\"%s\":", name);
+  encode_doubles((size_t)n, keep ? kept : value, out);
+}
+
+/* Marked points are few, and in any order. Where memory is short all points are written. */
+static void write_points(const figure_series *s, FILE *out) {
+  bool many = s->style != FIGURE_MARKED && !s->note && s->n > THIN_MOST;
+  int *keep = many ? malloc(THIN_MOST * sizeof *keep) : NULL;
+  double *kept = keep ? malloc(THIN_MOST * sizeof *kept) : NULL;
+  int n = kept ? thin(s->n, s->x, s->y, keep) : s->n;
+  write_values("x", n, s->x, kept ? keep : NULL, kept, out);
+  write_values("y", n, s->y, kept ? keep : NULL, kept, out);
+  free(keep);
+  free(kept);
+}
 
 static void write_series(const figure_series *s, FILE *out) {
   static const char *const style[] = {"line", "steps", "points", "marked"};
   fputs("{\"name\":", out);
   encode_text(s->name, out);
-  fprintf(out, ",\"style\":\"%s\",\"x\":", style[s->style]);
-  encode_doubles((size_t)s->n, s->x, out);
-  fputs(",\"y\":", out);
-  encode_doubles((size_t)s->n, s->y, out);
+  fprintf(out, ",\"style\":\"%s\"", style[s->style]);
+  write_points(s, out);
   if (s->note) {
     fputs(",\"note\":[", out);
     for (int i = 0; i < s->n; i++) {

@@ -15,4 +15,7 @@ for (const figure of document.querySelectorAll('figure.precision'))
 
 const view = document.querySelector('figure.body');
 const body = view ? new Body(view, takeData(view)) : null;
+
+for (const button of document.querySelectorAll('button.moment'))
+  button.onclick = () => { timeline.show(+button.dataset.moment), timeline.ask(+button.dataset.moment); };
 window.corot = { charts, timeline, body, Axis };

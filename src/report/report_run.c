@@ -1,8 +1,5 @@
 #include "report_run.h"
 
-#include <stdbool.h>
-#include <string.h>
-
 #include "body.h"
 #include "budget.h"
 #include "fields.h"
@@ -11,6 +8,7 @@
 #include "run_figures.h"
 #include "run_summary.h"
 #include "save.h"
+#include "static_figures.h"
 
 typedef corot_status figures(const run_folder *run, FILE *out);
 
@@ -28,22 +26,38 @@ static corot_status section(const run_folder *run, const char *id, const char *h
 static corot_status write_body(const run_folder *run, FILE *out) {
   fields f;
   COROT_TRY(fields_open(run->dir, &f));
-  bool frames = strcmp(lookup_text(run->result, "strain"), "green") != 0;
-  corot_status status = f.nframe > 0 ? body_write(&f, frames, out) : COROT_OK;
+  corot_status status = f.nframe > 0 ? body_write(&f, run, out) : COROT_OK;
   fields_close(&f);
   return status;
+}
+
+/* What is drawn of a motion, and of an equilibrium. */
+static corot_status write_motion(const run_folder *run, FILE *out) {
+  if (run->probes.ncolumn > 1) COROT_TRY(section(run, "probes", "Probes", run_figures_probes, out));
+  if (run->steps.nrow > 0) COROT_TRY(section(run, "steps", "Steps", run_figures_steps, out));
+  return COROT_OK;
+}
+
+static corot_status write_equilibrium(const run_folder *run, FILE *out) {
+  if (run->probes.ncolumn > 1)
+    COROT_TRY(section(run, "probes", "Load and displacement", static_figures_probes, out));
+  if (run->reactions.ncolumn > 1)
+    COROT_TRY(section(run, "reactions", "Reactions", static_figures_reactions, out));
+  if (run->steps.nrow > 0)
+    COROT_TRY(section(run, "steps", "Load steps", static_figures_steps, out));
+  return COROT_OK;
 }
 
 static corot_status write_run(const void *what, FILE *out) {
   const run_folder *run = what;
   const char *title = lookup_text(run->result, "title");
-  page_begin(*title ? title : run->dir, "run", out);
+  bool still = run_folder_is_static(run);
+  page_begin(*title ? title : run->dir, still ? "static" : "run", out);
   run_summary_write(run, out);
   if (run->budget) budget_write(run->budget, out);
   COROT_TRY(write_body(run, out));
   page_hint(out);
-  if (run->probes.ncolumn > 1) COROT_TRY(section(run, "probes", "Probes", run_figures_probes, out));
-  if (run->steps.nrow > 0) COROT_TRY(section(run, "steps", "Steps", run_figures_steps, out));
+  COROT_TRY(still ? write_equilibrium(run, out) : write_motion(run, out));
   if (run->energy.nrow > 0) COROT_TRY(section(run, "energy", "Energy", run_figures_energy, out));
   if (run->compare.nrow > 0)
     COROT_TRY(section(run, "strains", "Strain measures", run_figures_compare, out));

@@ -5,16 +5,27 @@
 #include <jansson.h>
 
 #include <app/read_csv.h>
+#include <stdbool.h>
 
 typedef struct run_folder {
   const char *dir;
-  json_t *result;                     /* result.json */
-  json_t *budget;                     /* budget.json; NULL: there is none */
-  csv probes, energy, steps, compare; /* without columns where there is no such file */
+  json_t *result; /* result.json */
+  json_t *budget; /* budget.json; NULL: there is none */
+  json_t *groups; /* groups.json; NULL: there is none */
+  /* without columns where there is no such file */
+  csv probes, energy, history, steps, compare, reactions;
 } run_folder;
 
 /* `dir` must outlive the folder. COROT_EIO where there is no result.json. */
 corot_status run_folder_read(const char *dir, run_folder *folder);
+
+/* The table that has a column at the most times: history.csv, else `table`. */
+const csv *run_folder_finest(const run_folder *run, const csv *table, const char *column);
+
+/* Whether it is of `corot static`; and what the times in its tables are multiples of there, the end
+   time, so that quotients are load factors. Else 1. */
+bool run_folder_is_static(const run_folder *run);
+double run_folder_unit(const run_folder *run);
 
 void run_folder_free(run_folder *folder);
 

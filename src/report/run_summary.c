@@ -5,31 +5,38 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "findings.h"
 #include "json_text.h"
 #include "lookup.h"
 #include "markup.h"
 #include "page.h"
 
 /* "finished", or what ended it. */
-static void write_outcome(const json_t *r, FILE *out) {
+static void write_outcome(const run_folder *run, FILE *out) {
+  const json_t *r = run->result;
   const char *status = lookup_text(r, "status"), *reason = lookup_text(r, "reason");
   bool ok = strcmp(status, "ok") == 0;
   double t = lookup_number(r, "t_reached"), end = lookup_number(r, "t_end");
   fprintf(out, "<p class=\"outcome %s\"><b>", ok ? "good" : "bad");
   markup_text(out, ok ? "finished" : status);
   fputs("</b> ", out);
-  if (!ok) fprintf(out, "at t = %.6g s of %.6g s ", t, end);
+  if (!ok && run_folder_is_static(run))
+    fprintf(out, "at load factor %.6g: ", t / run_folder_unit(run));
+  else if (!ok)
+    fprintf(out, "at t = %.6g s of %.6g s: ", t, end);
   markup_text(out, reason);
   fputs("</p>\n", out);
 }
 
-static void write_sentence(const json_t *r, FILE *out) {
+static void write_sentence(const run_folder *run, FILE *out) {
+  const json_t *r = run->result;
   double tets = lookup_number(r, "mesh.tets"), dofs = lookup_number(r, "mesh.dofs");
-  if (json_is_object(lookup(r, "statics"))) {
+  if (run_folder_is_static(run)) {
+    double nstep = lookup_number(r, "statistics.nstep");
     page_element(out, "p class=\"lead\"",
                  "Equilibrium of %.0f tets (%.0f degrees of freedom) with %s strain, in %.0f load "
-                 "steps and %.3g s of CPU time.",
-                 tets, dofs, lookup_text(r, "strain"), lookup_number(r, "statistics.nstep"),
+                 "step%s and %.3g s of CPU time.",
+                 tets, dofs, lookup_text(r, "strain"), nstep, nstep == 1 ? "" : "s",
                  lookup_number(r, "timings.cpu"));
     return;
   }
@@ -88,7 +95,8 @@ static void write_method(const json_t *r, FILE *out) {
   fact_number(r, "relative tolerance", "integrator.rtol", "", out);
   fact_number(r, "absolute, displacement", "integrator.atol_displacement", " m", out);
   fact_number(r, "absolute, velocity", "integrator.atol_velocity", " m/s", out);
-  fact_number(r, "highest order", "integrator.max_order", "", out);
+  if (lookup_number(r, "integrator.max_order") > 0)
+    fact_number(r, "highest order", "integrator.max_order", "", out);
   fact_number(r, "step", "integrator.step", " s", out);
   fact_text(r, "linear solver", "integrator.linear_solver", out);
   fact_text(r, "linear solver", "statics.linear_solver", out);
@@ -112,6 +120,7 @@ static void write_counts(const json_t *r, FILE *out) {
       {"factorisations", "statistics.nfactor", true},
       {"solves", "statistics.nsolve", true},
       {"linear iterations", "statistics.nli", false},
+      {"failed solves", "statistics.nlsfail", false},
       {"restarts", "statistics.nrestart", false},
       {"indefinite matrices", "statistics.nindefinite", false},
   };
@@ -125,7 +134,8 @@ static void write_counts(const json_t *r, FILE *out) {
   end_card(out);
 }
 
-static void write_energy(const json_t *r, FILE *out) {
+static void write_energy(const run_folder *run, FILE *out) {
+  const json_t *r = run->result;
   double work = lookup_number(r, "energy.external_work");
   double elastic = lookup_number(r, "energy.elastic"), kinetic = lookup_number(r, "energy.kinetic");
   double dissipated = lookup_number(r, "energy.dissipated");
@@ -135,9 +145,11 @@ static void write_energy(const json_t *r, FILE *out) {
   begin_card("Energy at the end", out);
   page_fact(out, "work of loads and supports", "%.6g J", work);
   page_fact(out, "elastic", "%.6g J", elastic);
-  page_fact(out, "kinetic", "%.4g J", kinetic);
-  page_fact(out, "dissipated", "%.4g J", dissipated);
-  if (size > 0)
+  if (!run_folder_is_static(run)) {
+    page_fact(out, "kinetic", "%.4g J", kinetic);
+    page_fact(out, "dissipated", "%.4g J", dissipated);
+  }
+  if (size > 0 && !run_folder_is_static(run))
     page_fact(out, "off balance by", "%.2g J, %.2g of the largest", balance, fabs(balance) / size);
   end_card(out);
 }
@@ -153,6 +165,26 @@ static void write_probes(const json_t *r, FILE *out) {
     for (size_t i = 0; i < 3; i++)
       u[i] = json_number_value(json_array_get(json_object_get(probe, "u"), i));
     page_fact(out, name, "%.5g, %.5g, %.5g m", u[0], u[1], u[2]);
+  }
+  end_card(out);
+}
+
+/* Forces on the body at the last equilibrium. */
+static void write_reactions(const json_t *r, FILE *out) {
+  json_t *reactions = (json_t *)lookup(r, "statics.reactions");
+  if (json_object_size(reactions) == 0) return;
+  begin_card("Reactions at the end", out);
+  const char *name;
+  json_t *force;
+  json_object_foreach(reactions, name, force) {
+    double f[3], size = 0;
+    for (size_t i = 0; i < 3; i++) {
+      f[i] = json_number_value(json_array_get(force, i));
+      size = fmax(size, fabs(f[i]));
+    }
+    for (int i = 0; i < 3; i++) /* sums of forces that cancel leave their rounding */
+      if (fabs(f[i]) < 1e-10 * size) f[i] = 0;
+    page_fact(out, name, "%.5g, %.5g, %.5g N", f[0], f[1], f[2]);
   }
   end_card(out);
 }
@@ -194,16 +226,19 @@ static void write_cost(const json_t *r, FILE *out) {
 void run_summary_write(const run_folder *run, FILE *out) {
   const json_t *r = run->result;
   page_section("summary", "Summary", out);
-  write_outcome(r, out);
-  write_sentence(r, out);
+  write_outcome(run, out);
+  findings_warnings(run, out);
+  write_sentence(run, out);
   fputs("<div class=\"cards\">\n", out);
   write_solid(r, out);
   write_method(r, out);
   write_counts(r, out);
-  write_energy(r, out);
+  write_energy(run, out);
   write_probes(r, out);
+  write_reactions(r, out);
   write_cost(r, out);
   fputs("</div>\n", out);
+  findings_extremes(run, out);
   page_section_end(out);
 }
 

@@ -26,6 +26,8 @@ static void write_outcome(const study_table *t, FILE *out) {
 
 static void write_references(const study_table *t, FILE *out) {
   const json_t *references = lookup(t->root, "references");
+  const char *shared = lookup_text(t->root, "shared");
+  if (*shared) page_element(out, "p", "%s", shared);
   for (size_t i = 0; i < json_array_size(references); i++) {
     const json_t *r = json_array_get(references, i);
     const json_t *agree = lookup(r, "agree");
@@ -33,6 +35,12 @@ static void write_references(const study_table *t, FILE *out) {
     bool bad = json_is_false(agree) || *reason;
     page_element(out, bad ? "p class=\"warning\"" : "p", "Reference%s%s%s%s", *note ? ": " : "",
                  note, *reason ? ": " : "", reason);
+  }
+  const json_t *space = lookup(t->root, "space");
+  for (size_t i = 0; i < json_array_size(space); i++) {
+    const json_t *s = json_array_get(space, i);
+    page_element(out, "p", "Error of the mesh at mesh.refine %.0f, relative: %s.",
+                 lookup_number(s, "refine"), lookup_text(s, "verdict"));
   }
   if (t->nerror > 0 && isfinite(t->floor[t->measure]))
     page_element(out, "p",

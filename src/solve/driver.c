@@ -8,35 +8,56 @@
 #include "solve/clock.h"
 #include "solve/vector.h"
 
-corot_status corot_driver_open(driver *d, corot_integrator *self, const double *u,
-                               const double *v) {
-  int n = corot_model_ndof(self->model);
-  d->self = self;
-  if (sun_context_create(&d->ctx)) return corot_fail(COROT_ENOMEM, "no memory for SUNDIALS");
-  d->y = N_VNew_Serial(2 * (sunindextype)n, d->ctx);
-  if (self->pencil) {
-    d->A = corot_sun_matrix(self->pencil, d->ctx);
-    d->LS = corot_sun_linsol(self->pencil, d->ctx);
-  }
-  if (!d->y || (self->pencil && !(d->A && d->LS)))
-    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name, 2 * n);
-  corot_vector_quicken(d->y);
-  memcpy(N_VGetArrayPointer(d->y), u, n * sizeof *u);
-  memcpy(N_VGetArrayPointer(d->y) + n, v, n * sizeof *v);
-  return COROT_OK;
-}
+/* --- Callbacks ------------------------------------------------------------------------------- */
 
-void corot_driver_close(driver *d) {
-  if (d->LS) SUNLinSolFree(d->LS);
-  if (d->A) SUNMatDestroy(d->A);
-  if (d->y) N_VDestroy(d->y);
-  if (d->ctx) SUNContext_Free(&d->ctx);
-}
-
-int corot_driver_refuse_trial(driver *d, int status, const char *why) {
-  snprintf(d->refusal, sizeof d->refusal, "%s", why);
+corot_status corot_driver_refuse_trial(driver *d, corot_status status, const char *why) {
+  if (!status) return status;
+  if (why != d->refusal) snprintf(d->refusal, sizeof d->refusal, "%s", why);
   d->refused = d->self->nst;
+  if (sun_is_fatal(status)) d->fatal = status;
   return status;
+}
+
+int corot_driver_answer(driver *d, corot_status status) {
+  return sun_callback_code(corot_driver_refuse_trial(d, status, corot_error()));
+}
+
+static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
+  (void)A;
+  driver *d = LS->content;
+  return corot_driver_answer(d, corot_pencil_factor(d->self->pencil));
+}
+
+static int answer_solved(driver *d, corot_status status) {
+  return sun_solve_code(corot_driver_refuse_trial(d, status, corot_error()));
+}
+
+static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
+  (void)A, (void)tol;
+  driver *d = LS->content;
+  return answer_solved(d, corot_pencil_newton(d->self->pencil, b, x));
+}
+
+int corot_driver_solve_dae(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b,
+                           sunrealtype tol) {
+  (void)A, (void)tol;
+  driver *d = LS->content;
+  return answer_solved(d, corot_pencil_newton_dae(d->self->pencil, b, x));
+}
+
+int corot_driver_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
+                        sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
+                        N_Vector tmp2, N_Vector tmp3) {
+  (void)fy, (void)A, (void)tmp1, (void)tmp2, (void)tmp3;
+  driver *d = user_data;
+  return corot_driver_answer(d, corot_pencil_linsys(d->self->pencil, t, y, jok, jcur, gamma));
+}
+
+int corot_driver_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
+                            sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
+                            void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3) {
+  (void)M;
+  return corot_driver_linsys(t, y, fy, A, jok, jcur, gamma, user_data, tmp1, tmp2, tmp3);
 }
 
 int corot_driver_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
@@ -44,9 +65,9 @@ int corot_driver_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) 
   corot_integrator *self = d->self;
   double start = clock_wall();
   corot_sun_data model = {self->model, self->state, self->mass};
-  int status = corot_sun_rhs(t, y, ydot, &model);
+  corot_status status = corot_rate(&model, t, y, ydot);
   self->force_s += clock_wall() - start;
-  return status ? corot_driver_refuse_trial(d, status, corot_error()) : 0;
+  return corot_driver_answer(d, status);
 }
 
 int corot_driver_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data) {
@@ -54,23 +75,26 @@ int corot_driver_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, vo
   corot_integrator *self = d->self;
   double start = clock_wall();
   corot_sun_data model = {self->model, self->state, self->mass};
-  int status = corot_sun_residual(t, y, yp, F, &model);
+  corot_status status = corot_defect(&model, t, y, yp, F);
   self->force_s += clock_wall() - start;
-  return status ? corot_driver_refuse_trial(d, status, corot_error()) : 0;
+  return corot_driver_answer(d, status);
 }
 
 int corot_driver_work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_data) {
-  corot_integrator *self = ((driver *)user_data)->self;
+  driver *d = user_data;
+  corot_integrator *self = d->self;
   double start = clock_wall();
   const double *u = N_VGetArrayPointer(y);
-  corot_energies e;
-  int status = corot_energy(self->model, self->state, t, u, u + corot_model_ndof(self->model), &e);
+  corot_energies *e = &self->energies;
+  corot_status status =
+      corot_energy(self->model, self->state, t, u, u + corot_model_ndof(self->model), e);
+  self->t_energies = status ? NAN : t;
   if (!status) {
-    N_VGetArrayPointer(rate)[0] = e.power_dissipated;
-    N_VGetArrayPointer(rate)[1] = e.power_external;
+    N_VGetArrayPointer(rate)[0] = e->power_dissipated;
+    N_VGetArrayPointer(rate)[1] = e->power_external;
   }
   self->work_s += clock_wall() - start;
-  return status;
+  return corot_driver_answer(d, status);
 }
 
 /* Largest length of a node's vector in x [n], infinity if one is not a number. */
@@ -98,10 +122,50 @@ int corot_driver_weights(N_Vector y, N_Vector weight, void *user_data) {
   double wu = 1 / (def->rtol * largest_vector(self->model, u) + def->atol_displacement);
   double wv = 1 / (def->rtol * largest_vector(self->model, u + n) + def->atol_velocity);
   if (!(wu > 0 && wv > 0))
-    return corot_driver_refuse_trial(d, -1, "the motion exceeds double precision");
+    return sun_callback_code(
+        corot_driver_refuse_trial(d, COROT_EINTEGRATE, "the motion exceeds double precision"));
   for (int i = 0; i < n; i++) w[i] = wu, w[n + i] = wv;
   return 0;
 }
+
+/* --- Opening and closing --------------------------------------------------------------------- */
+
+/* The pencil's, but that failures are noted in the driver. */
+static SUNLinearSolver make_solver(driver *d) {
+  SUNLinearSolver LS = corot_sun_linsol(d->self->pencil, d->ctx);
+  if (!LS) return NULL;
+  LS->content = d;
+  LS->ops->setup = solver_setup;
+  LS->ops->solve = solver_solve;
+  return LS;
+}
+
+corot_status corot_driver_open(driver *d, corot_integrator *self, const double *u,
+                               const double *v) {
+  int n = corot_model_ndof(self->model);
+  d->self = self;
+  if (sun_context_create(&d->ctx)) return corot_fail(COROT_ENOMEM, "no memory for SUNDIALS");
+  d->y = N_VNew_Serial(2 * (sunindextype)n, d->ctx);
+  if (self->pencil) {
+    d->A = corot_sun_matrix(self->pencil, d->ctx);
+    d->LS = make_solver(d);
+  }
+  if (!d->y || (self->pencil && !(d->A && d->LS)))
+    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name, 2 * n);
+  corot_vector_quicken(d->y);
+  memcpy(N_VGetArrayPointer(d->y), u, n * sizeof *u);
+  memcpy(N_VGetArrayPointer(d->y) + n, v, n * sizeof *v);
+  return COROT_OK;
+}
+
+void corot_driver_close(driver *d) {
+  if (d->LS) SUNLinSolFree(d->LS);
+  if (d->A) SUNMatDestroy(d->A);
+  if (d->y) N_VDestroy(d->y);
+  if (d->ctx) SUNContext_Free(&d->ctx);
+}
+
+/* --- Failure --------------------------------------------------------------------------------- */
 
 void corot_driver_on_error(SUN_ERROR_HANDLER_ARGUMENTS) {
   SUN_ERROR_HANDLER_UNUSED;
@@ -111,9 +175,11 @@ void corot_driver_on_error(SUN_ERROR_HANDLER_ARGUMENTS) {
     if (*p == '\n') *p = ' ';
 }
 
+/* Where SUNDIALS gives no reason, it did not get its memory. */
 corot_status corot_driver_refuse(const driver *d, const char *what) {
-  return corot_fail(COROT_EINTEGRATE, "%s: %s: %s", d->self->ops->name, what,
-                    d->message[0] ? d->message : "out of memory");
+  if (d->fatal) return corot_driver_give_up(d, what);
+  return corot_fail(d->message[0] ? COROT_EINTEGRATE : COROT_ENOMEM, "%s: %s: %s",
+                    d->self->ops->name, what, d->message[0] ? d->message : "out of memory");
 }
 
 /* Whether a trial of the last few steps met a state that cannot be evaluated. */
@@ -126,8 +192,9 @@ corot_status corot_driver_give_up(const driver *d, const char *why) {
   char limit[48] = "";
   if (d->self->def.min_step > 0)
     snprintf(limit, sizeof limit, "; min_step = %g s", d->self->def.min_step);
-  return corot_fail(COROT_EINTEGRATE, "%s: cannot get past t = %.9g: %s%s%s%s%s",
-                    d->self->ops->name, d->self->t, refused ? d->refusal : "", refused ? " (" : "",
+  return corot_fail(d->fatal ? d->fatal : COROT_EINTEGRATE,
+                    "%s: cannot get past t = %.9g: %s%s%s%s%s", d->self->ops->name, d->self->t,
+                    refused ? d->refusal : "", refused ? " (" : "",
                     *why ? why : "the error test failed too often, or the step became too short",
                     limit, refused ? ")" : "");
 }
@@ -138,6 +205,7 @@ void corot_driver_watch(driver *d, double h, bool stopped) {
 }
 
 corot_status corot_driver_check(driver *d) {
+  d->fatal = COROT_OK;
   if (!d->collapsed) return COROT_OK;
   snprintf(d->message, sizeof d->message, "steps have shrunk to %.2g s", d->self->hlast);
   return corot_driver_give_up(d, d->message);

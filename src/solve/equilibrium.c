@@ -35,8 +35,12 @@ static double *values(N_Vector x) { return N_VGetArrayPointer(x); }
 static corot_status note(equilibrium *e, corot_status status) {
   e->refusal[0] = 0;
   if (status) snprintf(e->refusal, sizeof e->refusal, "%s", corot_error());
-  if (status < 0 && status != COROT_ESINGULAR) e->fatal = status;
+  if (sun_is_fatal(status)) e->fatal = status;
   return status;
+}
+
+static int answer(equilibrium *e, corot_status status) {
+  return sun_callback_code(note(e, status));
 }
 
 static corot_status residual(equilibrium *e, const double *u, double *r) {
@@ -49,9 +53,9 @@ static corot_status residual(equilibrium *e, const double *u, double *r) {
 static int system_function(N_Vector u, N_Vector F, void *user_data) {
   equilibrium *e = user_data;
   double *f = values(F);
-  int status = residual(e, values(u), f);
+  corot_status status = residual(e, values(u), f);
   for (int i = 0; !status && i < e->n; i++) f[i] = -f[i];
-  return status;
+  return sun_callback_code(status);
 }
 
 static void record(equilibrium *e, double r) {
@@ -78,24 +82,23 @@ static corot_status weigh(equilibrium *e, const double *u, const double *r) {
 }
 
 /* The tolerance keeps up with the forces, which may be far larger than where KINSOL started. */
+static corot_status begin_iteration(equilibrium *e, const double *u) {
+  if (e->recording) record(e, largest(e->n, e->r));
+  e->iterations++;
+  if (e->def->stop && e->def->stop(e->def->stop_data))
+    return corot_fail(COROT_EINTEGRATE, "stopped on the way to load factor %.6g", e->factor);
+  COROT_TRY(weigh(e, u, e->r));
+  if (KINSetFuncNormTol(e->memory, e->tolerance / e->unit))
+    return corot_fail(COROT_EINTEGRATE, "kinsol: no tolerance of %g N", e->tolerance);
+  return corot_pencil_assemble(e->pencil, e->factor * e->t, u, e->zero);
+}
+
 static int jacobian(N_Vector u, N_Vector F, SUNMatrix A, void *user_data, N_Vector tmp1,
                     N_Vector tmp2) {
   (void)A, (void)tmp1, (void)tmp2;
   equilibrium *e = user_data;
   for (int i = 0; i < e->n; i++) e->r[i] = -values(F)[i];
-  if (e->recording) record(e, largest(e->n, e->r));
-  e->iterations++;
-  if (e->def->stop && e->def->stop(e->def->stop_data))
-    return note(e,
-                corot_fail(COROT_EINTEGRATE, "stopped on the way to load factor %.6g", e->factor));
-  COROT_TRY(note(e, weigh(e, values(u), e->r)));
-  KINSetFuncNormTol(e->memory, e->tolerance / e->unit);
-  return note(e, corot_pencil_assemble(e->pencil, e->factor * e->t, values(u), e->zero));
-}
-
-static SUNLinearSolver_Type solver_type(SUNLinearSolver LS) {
-  (void)LS;
-  return SUNLINEARSOLVER_DIRECT;
+  return answer(e, begin_iteration(e, values(u)));
 }
 
 static corot_tangent tangent(const equilibrium *e) {
@@ -135,29 +138,22 @@ static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
   equilibrium *e = LS->content;
   corot_status status = factor_definite(e);
   if (status == COROT_RETRY) status = factor(e, COROT_TANGENT_CLAMPED);
-  return note(e, status);
+  return answer(e, status);
 }
 
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
   (void)A, (void)tol;
   equilibrium *e = LS->content;
-  return note(e, corot_pencil_solve(e->pencil, values(b), values(x)));
+  return sun_solve_code(note(e, corot_pencil_solve(e->pencil, values(b), values(x))));
 }
 
-static sun_status solver_free(SUNLinearSolver LS) {
-  LS->content = NULL;
-  SUNLinSolFreeEmpty(LS);
-  return 0;
-}
-
+/* The pencil's, but for what it does. */
 static SUNLinearSolver make_solver(equilibrium *e) {
-  SUNLinearSolver LS = SUNLinSolNewEmpty(e->ctx);
+  SUNLinearSolver LS = corot_sun_linsol(e->pencil, e->ctx);
   if (!LS) return NULL;
   LS->content = e;
-  LS->ops->gettype = solver_type;
   LS->ops->setup = solver_setup;
   LS->ops->solve = solver_solve;
-  LS->ops->free = solver_free;
   return LS;
 }
 
@@ -260,7 +256,7 @@ void corot_equilibrium_close(equilibrium *e) {
 static corot_status measure(equilibrium *e) {
   e->counts.nfe++;
   COROT_TRY(residual(e, values(e->u), e->r));
-  return weigh(e, values(e->u), e->r);
+  return note(e, weigh(e, values(e->u), e->r));
 }
 
 /* Runs KINSOL from e->u, with the present force as the unit. */
@@ -271,10 +267,9 @@ static int solve(equilibrium *e, int strategy) {
   e->reason[0] = 0;
   if (KINSetFuncNormTol(e->memory, e->tolerance / e->unit)) return KIN_ILL_INPUT;
   int flag = KINSol(e->memory, e->u, strategy, e->u_scale, e->f_scale);
-  KINGetNumNonlinSolvIters(e->memory, &nni);
-  KINGetNumFuncEvals(e->memory, &nfe);
-  KINGetNumBetaCondFails(e->memory, &nbcfails);
-  KINGetNumBacktrackOps(e->memory, &nbacktrack);
+  if (KINGetNumNonlinSolvIters(e->memory, &nni) || KINGetNumFuncEvals(e->memory, &nfe) ||
+      KINGetNumBetaCondFails(e->memory, &nbcfails) || KINGetNumBacktrackOps(e->memory, &nbacktrack))
+    note(e, corot_fail(COROT_EINTEGRATE, "kinsol: statistics: %s", e->reason));
   e->counts.nni += nni, e->counts.nfe += nfe;
   e->counts.nbcfails += nbcfails, e->counts.nbacktrack += nbacktrack;
   return flag;
@@ -329,9 +324,9 @@ static corot_status held_frames(equilibrium *e, int strategy) {
 
 /* Puts the model's own reason, if a state could not be evaluated, before KINSOL's. */
 static void explain(equilibrium *e) {
-  char why[256];
+  char why[248];
   if (!e->refusal[0]) return;
-  snprintf(why, sizeof why, "%.255s", e->reason);
+  snprintf(why, sizeof why, "%.247s", e->reason);
   snprintf(e->reason, sizeof e->reason, "%s%s%s%s", e->refusal, why[0] ? " (" : "", why,
            why[0] ? ")" : "");
 }

@@ -37,7 +37,7 @@ typedef struct equilibrium {
   int iterations;
   corot_status fatal;       /* of a callback; COROT_OK: none */
   char reason[SUN_MESSAGE]; /* why none was found */
-  char refusal[128]; /* why the last evaluation or factorisation was refused; "": it was not */
+  char refusal[256]; /* why the last evaluation, factor or solution was refused; "": it was not */
   corot_statics_counts counts;
   double force_s;
 } equilibrium;

@@ -115,15 +115,15 @@ static void find_reach(explicit_limit *l) {
   l->ratio = ratio;
 }
 
-void corot_explicit_limit_follow(explicit_limit *l, double t, const double *u) {
+corot_status corot_explicit_limit_follow(explicit_limit *l, double t, const double *u) {
   int iterations = l->steps == 0 ? FIRST_ITERATIONS : l->steps % STEPS_BETWEEN == 0;
   if (l->steps++ == 0) normalise(l);
-  if (iterations == 0) return;
-  for (int k = 0; k < iterations; k++)
-    if (iterate(l, t, u)) return;
-  if (apply(l, t, u, true)) return;
+  if (iterations == 0) return COROT_OK;
+  for (int k = 0; k < iterations; k++) COROT_TRY(iterate(l, t, u));
+  COROT_TRY(apply(l, t, u, true));
   l->damping = fmax(dot(l->n, l->x, l->y), 0);
   if (l->frequency > 0) find_reach(l);
+  return COROT_OK;
 }
 
 double corot_explicit_limit(const explicit_limit *l) {

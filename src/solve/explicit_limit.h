@@ -17,8 +17,9 @@ corot_status corot_explicit_limit_create(const corot_model *model, corot_state *
 /* Takes NULL. */
 void corot_explicit_limit_destroy(explicit_limit *limit);
 
-/* To be called before each step: follows the fastest vibration by an iteration now and then. */
-void corot_explicit_limit_follow(explicit_limit *limit, double t, const double *u);
+/* To be called before each step: follows the fastest vibration by an iteration now and then. Where
+   that fails, the limit is the old one. */
+corot_status corot_explicit_limit_follow(explicit_limit *limit, double t, const double *u);
 
 /* The longest stable step [s]; infinity: none was found. */
 double corot_explicit_limit(const explicit_limit *limit);

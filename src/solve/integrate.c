@@ -135,8 +135,13 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
   COROT_TRY(check_start(t, corot_model_ndof(model), u, v));
   corot_integrator *self = calloc(1, sizeof *self);
   if (!self) return corot_fail(COROT_ENOMEM, "no memory for an integrator");
-  *self = (corot_integrator){
-      .ops = ops, .model = model, .state = state, .def = *def, .t = t, .before = t};
+  *self = (corot_integrator){.ops = ops,
+                             .model = model,
+                             .state = state,
+                             .def = *def,
+                             .t = t,
+                             .before = t,
+                             .t_energies = NAN};
   choose(self);
 
   corot_status status = corot_mass_solver_create(model, &self->mass);
@@ -167,6 +172,15 @@ void corot_integrator_destroy(corot_integrator *self) {
 /* Two clocks that mean one instant differ by rounding, over which there is no step to take. */
 static bool within_rounding(const corot_integrator *self, double t_stop) {
   return t_stop - self->t <= 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
+}
+
+/* A clock that is late by rounding has passed a horizon that is no further away. A stop that the
+   step does not need is not set: SUNDIALS would shorten a later step to it, when there is another.
+ */
+double corot_integrator_sight(const corot_integrator *self, double h, double t_stop) {
+  double late = 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
+  double horizon = corot_model_horizon(self->model, self->t + late);
+  return h > 0 && self->t + h <= horizon ? t_stop : fmin(t_stop, horizon);
 }
 
 static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {
@@ -221,9 +235,24 @@ corot_status corot_integrator_work(corot_integrator *self, double t, double *dis
   return self->ops->work(self, t, dissipated, external);
 }
 
+corot_status corot_integrator_energy(corot_integrator *self, const double *u, const double *v,
+                                     corot_energies *energies) {
+  double near = 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
+  if (fabs(self->t_energies - self->t) <= near) {
+    *energies = self->energies;
+    return COROT_OK;
+  }
+  return corot_energy(self->model, self->state, self->t, u, v, energies);
+}
+
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
   if (self->pencil) corot_pencil_invalidate(self->pencil);
   return self->ops->changed(self, history);
+}
+
+corot_status corot_integrator_kink(corot_integrator *self) {
+  if (!corot_integrator_controls_error(self->ops->name)) return COROT_OK;
+  return self->ops->changed(self, COROT_HISTORY_AUTO);
 }
 
 corot_statistics corot_integrator_statistics(const corot_integrator *self) {
@@ -233,6 +262,7 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
                         .nli = p.niteration,
                         .nfactor = p.nfactor,
                         .nsolve = p.nsolve,
+                        .nlsfail = p.nlsfail,
                         .nfresh = p.nfresh,
                         .nindefinite = p.nindefinite,
                         .nclamped = p.nclamped,

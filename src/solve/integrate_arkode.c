@@ -47,6 +47,7 @@ static const rk_api api = {.advance = ARKStepEvolve,
                            .next_step = ARKStepGetCurrentStep,
                            .local_errors = ARKStepGetEstLocalErrors,
                            .error_weights = ARKStepGetErrWeights,
+                           .observe_stages = ARKStepSetPostprocessStageFn,
                            .nfe = count_rhs,
                            .netf = ARKStepGetNumErrTestFails,
                            .nsetups = ARKStepGetNumLinSolvSetups,
@@ -71,21 +72,24 @@ static void choose(corot_integrator *self) {
   if (d->convergence == 0) d->convergence = 0.02;
 }
 
-static int set_table(void *memory, const char *name) {
+static corot_status set_table(runge_kutta *m, const char *name) {
   ARKodeButcherTable B = ARKodeButcherTable_LoadDIRKByName(name);
-  int bad = !B || ARKStepSetTables(memory, B->q, B->p, B, NULL);
+  if (!B) return corot_fail(COROT_ENOMEM, "no memory for %s", name);
+  corot_status status = ARKStepSetTables(m->memory, B->q, B->p, B, NULL)
+                            ? corot_driver_refuse(&m->driver, "table")
+                            : corot_rk_keep_stages(m, B);
   ARKodeButcherTable_Free(B);
-  return bad;
+  return status;
 }
 
-static int configure(runge_kutta *m, const rk_table *table) {
+static int configure(runge_kutta *m) {
   const corot_integrator_def *d = &m->driver.self->def;
   void *a = m->memory;
   /* a step of 0 leaves it to SUNDIALS */
   return ARKStepSetUserData(a, m) || ARKStepWFtolerances(a, corot_driver_weights) ||
-         ARKStepSetMaxNumSteps(a, -1) || set_table(a, table->name) ||
+         ARKStepSetMaxNumSteps(a, -1) || ARKStepSetMaxErrTestFails(a, DRIVER_MOST_FAILURES) ||
          ARKStepSetLinearSolver(a, m->driver.LS, m->driver.A) ||
-         ARKStepSetLinSysFn(a, corot_sun_linsys_ark) ||
+         ARKStepSetLinSysFn(a, corot_driver_linsys_ark) ||
          ARKStepSetLSetupFrequency(a, d->refactorisation) ||
          ARKStepSetJacEvalFrequency(a, d->reassembly) ||
          ARKStepSetDeltaGammaMax(a, d->gamma_change) ||
@@ -113,8 +117,9 @@ static corot_status create(corot_integrator *self, const double *u, const double
   if (!m->memory) return corot_fail(COROT_ENOMEM, "no memory for arkode");
   if (SUN_CATCH_ERRORS(ARKStepSetErrHandlerFn, m->memory, d->ctx, corot_driver_on_error,
                        d->message) ||
-      configure(m, table))
+      configure(m))
     return corot_driver_refuse(d, "set-up");
+  COROT_TRY(set_table(m, table->name));
   self->table = table->name;
   self->def.order = table->order;
   return COROT_OK;

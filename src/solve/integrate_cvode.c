@@ -11,9 +11,7 @@ static int advance(multistep *m, double beyond, double *t) {
 
 static int restart(multistep *m) { return CVodeReInit(m->memory, m->driver.self->t, m->driver.y); }
 
-static const multistep_api api = {.setup_failed = CV_LSETUP_FAIL,
-                                  .solve_failed = CV_LSOLVE_FAIL,
-                                  .stopped = CV_TSTOP_RETURN,
+static const multistep_api api = {.stopped = CV_TSTOP_RETURN,
                                   .advance = advance,
                                   .restart = restart,
                                   .set_stop_time = CVodeSetStopTime,
@@ -39,10 +37,11 @@ static int configure(multistep *c) {
   void *m = c->memory;
   /* a step of 0 leaves it to SUNDIALS */
   return CVodeSetUserData(m, c) || CVodeWFtolerances(m, corot_driver_weights) ||
-         CVodeSetMaxNumSteps(m, -1) || CVodeSetMaxOrd(m, d->max_order) ||
-         CVodeSetStabLimDet(m, d->max_order > 2) ||
+         CVodeSetMaxNumSteps(m, -1) || CVodeSetMaxErrTestFails(m, DRIVER_MOST_FAILURES) ||
+         CVodeSetMaxOrd(m, d->max_order) || CVodeSetStabLimDet(m, d->max_order > 2) ||
          CVodeSetLinearSolver(m, c->driver.LS, c->driver.A) ||
-         CVodeSetLinSysFn(m, corot_sun_linsys) || CVodeSetLSetupFrequency(m, d->refactorisation) ||
+         CVodeSetLinSysFn(m, corot_driver_linsys) ||
+         CVodeSetLSetupFrequency(m, d->refactorisation) ||
          CVodeSetJacEvalFrequency(m, d->reassembly) ||
          CVodeSetDeltaGammaMaxLSetup(m, d->gamma_change) ||
          CVodeSetNonlinConvCoef(m, d->convergence) ||

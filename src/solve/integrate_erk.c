@@ -106,10 +106,11 @@ static int configure(runge_kutta *m, ARKodeButcherTable table) {
   void *e = m->memory;
   /* a step of 0 leaves it to SUNDIALS */
   return ERKStepSetUserData(e, m) || ERKStepWFtolerances(e, corot_driver_weights) ||
-         ERKStepSetMaxNumSteps(e, -1) || ERKStepSetTable(e, table) ||
-         ERKStepSetInterpolantDegree(e, 3) || ERKStepSetStabilityFn(e, stable_step, m->limit) ||
-         ERKStepSetCFLFraction(e, 0.95) || ERKStepSetInitStep(e, d->first_step) ||
-         ERKStepSetMinStep(e, d->min_step) || ERKStepSetMaxStep(e, d->max_step);
+         ERKStepSetMaxNumSteps(e, -1) || ERKStepSetMaxErrTestFails(e, DRIVER_MOST_FAILURES) ||
+         ERKStepSetTable(e, table) || ERKStepSetInterpolantDegree(e, 3) ||
+         ERKStepSetStabilityFn(e, stable_step, m->limit) || ERKStepSetCFLFraction(e, 0.95) ||
+         ERKStepSetInitStep(e, d->first_step) || ERKStepSetMinStep(e, d->min_step) ||
+         ERKStepSetMaxStep(e, d->max_step);
 }
 
 static corot_status start(runge_kutta *m, ARKodeButcherTable table) {

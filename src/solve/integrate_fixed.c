@@ -155,9 +155,10 @@ static void rotate_back(double *x[NHISTORY]) {
 static corot_status add_work(corot_integrator *self, double t, double h) {
   fixed *f = self->method;
   double start = clock_wall();
-  corot_energies e = {0};
-  COROT_TRY(corot_energy(self->model, self->state, t, f->u[0], f->v[0], &e));
-  double now[2] = {e.power_dissipated, e.power_external};
+  corot_energies *e = &self->energies;
+  COROT_TRY(corot_energy(self->model, self->state, t, f->u[0], f->v[0], e));
+  self->t_energies = t;
+  double now[2] = {e->power_dissipated, e->power_external};
   for (int k = 0; k < 2; k++) {
     f->old_work[k] = f->work[k];
     f->work[k] += 0.5 * h * (f->power[k] + now[k]);

@@ -17,17 +17,19 @@ typedef struct ida {
 
 static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector F, SUNMatrix A,
                     void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3) {
-  (void)yp;
+  (void)yp, (void)F, (void)A, (void)tmp1, (void)tmp2, (void)tmp3;
   ida *m = user_data;
-  corot_integrator *self = m->base.driver.self;
+  driver *d = user_data;
+  corot_integrator *self = d->self;
   long ncfn = 0;
-  IDAGetNumNonlinSolvConvFails(m->base.memory, &ncfn);
+  if (IDAGetNumNonlinSolvConvFails(m->base.memory, &ncfn))
+    return corot_driver_answer(d, corot_driver_refuse(d, "statistics"));
   bool current =
       m->assembled >= 0 && ncfn == m->ncfn && self->nst - m->assembled < self->def.reassembly;
   sunbooleantype anew;
-  int status = corot_sun_linsys(t, y, F, A, current, &anew, 1 / cj, user_data, tmp1, tmp2, tmp3);
+  corot_status status = corot_pencil_linsys(self->pencil, t, y, current, &anew, 1 / cj);
   if (!status && anew) m->assembled = self->nst, m->ncfn = ncfn;
-  return status;
+  return corot_driver_answer(d, status);
 }
 
 static int work_rate(sunrealtype t, N_Vector y, N_Vector yp, N_Vector rate, void *user_data) {
@@ -52,9 +54,7 @@ static int restart(multistep *m) {
   return IDAReInit(m->memory, m->driver.self->t, m->driver.y, m->rate);
 }
 
-static const multistep_api api = {.setup_failed = IDA_LSETUP_FAIL,
-                                  .solve_failed = IDA_LSOLVE_FAIL,
-                                  .stopped = IDA_TSTOP_RETURN,
+static const multistep_api api = {.stopped = IDA_TSTOP_RETURN,
                                   .advance = advance,
                                   .restart = restart,
                                   .set_stop_time = IDASetStopTime,
@@ -80,11 +80,12 @@ static int configure(multistep *c) {
   void *m = c->memory;
   /* a step of 0 leaves it to SUNDIALS */
   return IDASetUserData(m, c) || IDAWFtolerances(m, corot_driver_weights) ||
-         IDASetMaxNumSteps(m, -1) || IDASetMaxOrd(m, d->max_order) ||
-         IDASetLinearSolver(m, c->driver.LS, c->driver.A) || IDASetJacFn(m, jacobian) ||
-         IDASetDeltaCjLSetup(m, d->gamma_change) || IDASetNonlinConvCoef(m, d->convergence) ||
-         IDAQuadInit(m, work_rate, c->work) || IDASetInitStep(m, d->first_step) ||
-         IDASetMinStep(m, d->min_step) || IDASetMaxStep(m, d->max_step);
+         IDASetMaxNumSteps(m, -1) || IDASetMaxErrTestFails(m, DRIVER_MOST_FAILURES) ||
+         IDASetMaxOrd(m, d->max_order) || IDASetLinearSolver(m, c->driver.LS, c->driver.A) ||
+         IDASetJacFn(m, jacobian) || IDASetDeltaCjLSetup(m, d->gamma_change) ||
+         IDASetNonlinConvCoef(m, d->convergence) || IDAQuadInit(m, work_rate, c->work) ||
+         IDASetInitStep(m, d->first_step) || IDASetMinStep(m, d->min_step) ||
+         IDASetMaxStep(m, d->max_step);
 }
 
 /* There is no rule by the number of steps: the linear solver is set up when c changes. */
@@ -115,7 +116,7 @@ static corot_status create(corot_integrator *self, const double *u, const double
   c->rate = N_VClone(d->y);
   c->memory = IDACreate(d->ctx);
   if (!c->rate || !c->memory) return corot_fail(COROT_ENOMEM, "no memory for ida");
-  d->LS->ops->solve = corot_sun_solve_dae;
+  d->LS->ops->solve = corot_driver_solve_dae;
   if (find_rate(c)) return corot_driver_give_up(d, "no acceleration at the start");
   if (SUN_CATCH_ERRORS(IDASetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error, d->message) ||
       IDAInit(c->memory, corot_driver_residual, self->t, d->y, c->rate) || configure(c))

@@ -41,7 +41,14 @@ struct corot_integrator {
   double step_s;            /* wall time of all steps [s] */
   void *method;             /* the method's own part */
   const char *table;        /* the Butcher table in use; NULL: none */
+  corot_energies energies;  /* where the work integrands were last evaluated */
+  double t_energies;        /* when that was; NaN: nowhere yet */
 };
+
+/* Where the next step, h long as far as is known (0: not at all), must stop: at t_stop, or before,
+   at corot_model_horizon(). A step that goes past what an amplitude does has not seen it, and its
+   error is not controlled. */
+double corot_integrator_sight(const corot_integrator *self, double h, double t_stop);
 
 /* Defaults of the BDF methods for what is left open. */
 void corot_integrator_choose_bdf(corot_integrator *self);

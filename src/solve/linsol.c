@@ -16,6 +16,7 @@ static corot_status check_refinement(const corot_model *model, const corot_refin
 static corot_status make(const corot_model *model, const linsol_plan *plan, linsol *s) {
   s->ops = plan->ops;
   s->name = plan->name;
+  s->rival = plan->rival;
   if (s->ops->triangle == COROT_FULL) {
     corot_csc_destroy(s->csc);
     s->csc = NULL;

@@ -35,11 +35,19 @@ extern const linsol_ops corot_linsol_pcg;
 extern const linsol_ops corot_linsol_cholmod;
 #endif
 
+/* What a factor and a solution of a direct solver would cost, in iterations of the solver chosen in
+   its place; 0: there is none that would do. */
+typedef struct linsol_rival {
+  double factor, solution;
+} linsol_rival;
+
 struct linsol_plan {
   corot_linear_def def;
   const linsol_ops *ops;
   const char *name; /* static: "cholmod supernodal, amd", "klu, metis", "pcg, block-jacobi" */
-  int *order;       /* [unknowns] of a direct solver: an order of little fill; else NULL */
+  linsol_rival rival;
+  long most_iterations; /* of an iterative solver, for one system; 0: its own limit */
+  int *order;           /* [unknowns] of a direct solver: an order of little fill; else NULL */
 };
 
 /* `lower`: the lower triangle. COROT_EINVAL: a name that does not exist, or is not in this build.
@@ -58,6 +66,7 @@ typedef struct linsol {
   corot_csc *csc;
   double *value; /* [csc->nnz] */
   void *solver;
+  linsol_rival rival;
 } linsol;
 
 /* On the model's pattern. What is half made is released by clear. */

@@ -144,6 +144,8 @@ static const double per_edge = 9, per_length = 20;
 /* Larger factors (8 GB) do not fit many a memory. */
 static const double most_entries = 1e9;
 
+static double factor_ns(const graph_fill *f) { return operation_ns * f->flops + made_ns * f->nnz; }
+
 /* Whether conjugate gradients are the faster, by a margin: a factor does not depend on how well
    conditioned a matrix is, nor on the guesses above. */
 static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill *f,
@@ -152,13 +154,25 @@ static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill
   if (f->nnz > most_entries) return true;
   if (role == COROT_ROLE_STATIC && HAVE_CHOLMOD)
     return false; /* pcg cannot tell a stable equilibrium */
-  double factor = operation_ns * f->flops + made_ns * f->nnz, solution = solved_ns * f->nnz;
+  double factor = factor_ns(f), solution = solved_ns * f->nnz;
   if (role == COROT_ROLE_STATIC) {
     double iteration = per_length * (corot_graph_length(g) + 1) * iterated_ns * csc->nnz;
     return margin * iteration < factor + solution;
   }
   double iteration = per_edge * cbrt(g->n) * iterated_ns * csc->nnz;
   return margin * solutions * iteration < factor / steps + solutions * solution;
+}
+
+/* How well conditioned a matrix is shows only in the iterations: flat tets, stiff inclusions and
+   incompressible materials take many times those above, or go on without end. So the costs of the
+   direct solver that was not chosen are kept, and one system may cost three factors and solutions
+   (see corot_pencil_solve). */
+static void limit_iterations(const corot_csc *csc, const graph_fill *f, linsol_plan *plan) {
+  if (f->nnz > most_entries) return; /* there is no other */
+  double iteration = iterated_ns * csc->nnz;
+  plan->rival.factor = factor_ns(f) / iteration;
+  plan->rival.solution = solved_ns * f->nnz / iteration;
+  plan->most_iterations = 100 + lround(fmin(1e9, 3 * (plan->rival.factor + plan->rival.solution)));
 }
 
 static corot_status analyze(const corot_csc *csc, node_graph *g, linsol_plan *plan) {
@@ -174,8 +188,11 @@ static corot_status analyze(const corot_csc *csc, node_graph *g, linsol_plan *pl
     for (int j = g->first[nodes[k]]; j < g->first[nodes[k] + 1]; j++) plan->order[i++] = j;
   free(nodes);
   if (status) return status;
-  if (!d->solver)
-    d->solver = iteration_pays(csc, g, &fill, d->role) ? "pcg" : HAVE_CHOLMOD ? "cholmod" : "klu";
+  if (!d->solver && iteration_pays(csc, g, &fill, d->role)) {
+    d->solver = "pcg";
+    limit_iterations(csc, &fill, plan);
+  }
+  if (!d->solver) d->solver = corot_linsol_direct;
   if (!d->factor) d->factor = fill.flops > dense * fill.nnz ? "supernodal" : "simplicial";
   return COROT_OK;
 }

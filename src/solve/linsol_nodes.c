@@ -1,5 +1,6 @@
 #include "solve/linsol_nodes.h"
 
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -284,4 +285,20 @@ double corot_nodes_unscaled_norm(const node_matrix *A, const double *x) {
     square += a * a + b * b + c * c;
   }
   return sqrt(square);
+}
+
+double corot_nodes_rounding(node_matrix *A, const double *x) {
+  double *y = A->work[0]; /* [3 n] */
+  memset(y, 0, 3 * (size_t)A->n * sizeof *y);
+  for (int j = 0; j < A->n; j++)
+    for (int r = 0; r < 3; r++)
+      for (int c = 0; c < 3; c++) {
+        y[3 * j + r] += fabs(A->value[9 * j + 3 * c + r] * x[3 * j + c]);
+        for (int k = A->colptr[j]; k < A->colptr[j + 1]; k++) {
+          double entry = A->value[9 * ((size_t)A->n + k) + 3 * c + r];
+          y[3 * A->row[k] + r] += fabs(entry * x[3 * j + c]);
+          y[3 * j + c] += fabs(entry * x[3 * A->row[k] + r]);
+        }
+      }
+  return DBL_EPSILON * corot_nodes_unscaled_norm(A, y);
 }

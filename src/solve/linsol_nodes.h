@@ -56,6 +56,9 @@ void corot_nodes_unscale_transposed(const node_matrix *A, double *x);
 /* |C x| */
 double corot_nodes_unscaled_norm(const node_matrix *A, const double *x);
 
+/* |C |A| |x|| eps: what rounding alone may leave of a residual at x. */
+double corot_nodes_rounding(node_matrix *A, const double *x);
+
 /* Of a symmetric block. False: a pivot was not positive. */
 bool corot_nodes_invert(const double block[9], double inverse[9]);
 

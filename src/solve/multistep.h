@@ -11,7 +11,7 @@ typedef struct multistep multistep;
 typedef int multistep_count(void *memory, long *count);
 
 typedef struct multistep_api {
-  int setup_failed, solve_failed, stopped; /* what `advance` returns in these cases */
+  int stopped; /* what `advance` returns where it has reached the stop time */
   int (*advance)(multistep *m, double beyond, double *t); /* by one internal step */
   int (*restart)(multistep *m);                           /* from (self->t, y) */
   int (*set_stop_time)(void *memory, sunrealtype t);
@@ -35,6 +35,7 @@ struct multistep {
   N_Vector rate;                   /* [2n] y' at self->t, of IDA; NULL: CVODE knows it */
   N_Vector error, weight, scratch; /* [2n] */
   N_Vector work;                   /* [2] dissipated and external work at self->t */
+  double t_last;                   /* end of the last step; self->t may be after it by rounding */
   double t_stop;                   /* armed; NaN: none */
   corot_statistics before;         /* counts of earlier starts */
   long nni;                        /* at the end of the last step */

@@ -5,11 +5,17 @@
 
 #include "solve/clock.h"
 
-static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
-  COROT_TRY(corot_linsol_create(p->model, linear, &p->chosen));
+/* What is in p->chosen. */
+static void adopt(corot_pencil *p) {
   p->solver = &p->chosen;
   p->csc = p->chosen.csc;
   p->S = p->chosen.value;
+}
+
+static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
+  COROT_TRY(corot_linsol_create(p->model, linear, &p->chosen));
+  adopt(p);
+  p->tentative = p->tentative && p->chosen.ops->iterations;
   size_t nblock = corot_model_nblock(p->model);
   p->K = malloc(nblock * sizeof *p->K);
   p->D = malloc(nblock * sizeof *p->D);
@@ -29,6 +35,7 @@ corot_status corot_pencil_create(const corot_model *model, corot_state *state,
   p->state = state;
   p->n = corot_model_ndof(model);
   p->role = def.role;
+  p->tentative = !def.solver || strcmp(def.solver, "auto") == 0;
   p->dirty = true;
   corot_status status = allocate(&def, p);
   if (status) {
@@ -57,7 +64,8 @@ void corot_pencil_invalidate(corot_pencil *p) { p->dirty = true; }
 corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
   corot_pencil_counts counts = p->counts;
   const linsol *s = &p->chosen;
-  if (s->ops->iterations) counts.niteration = s->ops->iterations(s->solver);
+  counts.niteration = p->niteration;
+  if (s->ops->iterations) counts.niteration += s->ops->iterations(s->solver);
   return counts;
 }
 
@@ -127,28 +135,40 @@ static corot_status factor_clamped(corot_pencil *p) {
   return status;
 }
 
-/* By a solver that does not mind. */
-static corot_status factor_by_klu(corot_pencil *p) {
+/* A solver of that name, *s being set on success. */
+static corot_status make_solver(corot_pencil *p, const char *name, linsol *s) {
   double start = clock_wall();
   corot_linear_def def = corot_linear_defaults();
-  def.solver = "klu";
-  if (!p->klu.solver) {
-    linsol made;
-    corot_status status = corot_linsol_create(p->model, &def, &made);
-    p->counts.factor_s += clock_wall() - start;
-    if (status) {
-      corot_linsol_clear(&made);
-      return status;
-    }
-    p->klu = made;
-  }
+  def.solver = name, def.role = p->role;
+  linsol made;
+  corot_status status = corot_linsol_create(p->model, &def, &made);
+  p->counts.factor_s += clock_wall() - start;
+  if (status)
+    corot_linsol_clear(&made);
+  else
+    *s = made;
+  return status;
+}
+
+/* By a solver that does not mind. */
+static corot_status factor_by_klu(corot_pencil *p) {
+  if (!p->klu.solver) COROT_TRY(make_solver(p, "klu", &p->klu));
   combine(p, &p->klu);
   corot_status status = factor(p, &p->klu);
   p->counts.nfallback += status == COROT_OK;
   return status;
 }
 
-corot_status corot_pencil_factor(corot_pencil *p) {
+static corot_status solve(corot_pencil *p, double *x) {
+  double start = clock_wall();
+  corot_status status = p->solver->ops->solve(p->solver->solver, x);
+  p->counts.nsolve++;
+  p->counts.nlsfail += status != COROT_OK;
+  p->counts.solve_s += clock_wall() - start;
+  return status;
+}
+
+static corot_status factor_chosen(corot_pencil *p) {
   corot_status status = factor(p, &p->chosen);
   p->counts.nindefinite += status == COROT_RETRY;
   if (status != COROT_RETRY || p->role == COROT_ROLE_STATIC) return status;
@@ -156,11 +176,38 @@ corot_status corot_pencil_factor(corot_pencil *p) {
   return no_pivots(status) ? factor_by_klu(p) : status;
 }
 
+/* A direct solver in the place of conjugate gradients that were chosen, and do not do. */
+static corot_status choose_again(corot_pencil *p) {
+  linsol direct;
+  COROT_TRY(make_solver(p, corot_linsol_direct, &direct));
+  p->niteration += p->chosen.ops->iterations(p->chosen.solver);
+  corot_linsol_clear(&p->chosen);
+  p->chosen = direct;
+  p->tentative = false;
+  adopt(p);
+  combine(p, &p->chosen);
+  return factor_chosen(p);
+}
+
+/* Whether the iterations so far have cost twice as much as a direct solver would have. */
+static bool chosen_in_vain(const corot_pencil *p) {
+  const linsol *s = &p->chosen;
+  double direct = s->rival.factor * p->counts.nfactor + s->rival.solution * p->counts.nsolve;
+  return p->tentative && direct > 0 && s->ops->iterations(s->solver) > 100 + 2 * direct;
+}
+
+corot_status corot_pencil_factor(corot_pencil *p) {
+  if (!chosen_in_vain(p)) return factor_chosen(p);
+  corot_status status = choose_again(p);
+  if (status != COROT_ENOMEM || !p->tentative) return status;
+  p->tentative = false; /* slow, but right */
+  return factor_chosen(p);
+}
+
 corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
-  double start = clock_wall();
   if (x != b) memcpy(x, b, p->n * sizeof *x);
-  corot_status status = p->solver->ops->solve(p->solver->solver, x);
-  p->counts.nsolve++;
-  p->counts.solve_s += clock_wall() - start;
-  return status;
+  corot_status status = solve(p, x);
+  if (status != COROT_RETRY || !p->tentative || p->solver != &p->chosen) return status;
+  COROT_TRY(choose_again(p));
+  return solve(p, x);
 }

@@ -18,6 +18,8 @@ struct corot_pencil {
   corot_tangent assembled; /* and how */
   double a, b, c;          /* of S */
   linsol chosen;
+  bool tentative;       /* it is iterative, and was not asked for by name */
+  long niteration;      /* of what was chosen before it */
   linsol klu;           /* made when first needed */
   const linsol *solver; /* which of them holds the factor */
   const corot_csc *csc; /* of the chosen one */
@@ -27,7 +29,19 @@ struct corot_pencil {
   corot_pencil_counts counts;
 };
 
-/* The solve operation of corot_sun_linsol_dae. */
-int corot_sun_solve_dae(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol);
+/* What is behind the functions that SUNDIALS calls (corot_sun_*), with a corot_status as the value.
+
+   linsys: S at (t, y) for this gamma; *made: K and D were assembled, which `keep` spares unless
+   they are out of date. newton, newton_dae: x solves the Newton system of y' = f, or of F(t, y, y')
+   = 0, for the residual b. */
+corot_status corot_pencil_linsys(corot_pencil *pencil, double t, N_Vector y, bool keep,
+                                 sunbooleantype *made, double gamma);
+corot_status corot_pencil_newton(corot_pencil *pencil, N_Vector b, N_Vector x);
+corot_status corot_pencil_newton_dae(corot_pencil *pencil, N_Vector b, N_Vector x);
+
+/* ydot = (v, M^-1 r), and F = (u' - v, M v' - r). */
+corot_status corot_rate(const corot_sun_data *data, double t, N_Vector y, N_Vector ydot);
+corot_status corot_defect(const corot_sun_data *data, double t, N_Vector y, N_Vector yp,
+                          N_Vector F);
 
 #endif

@@ -12,17 +12,58 @@
    less than 1e-5 of the part's size do not hold it. */
 static const double ZERO = 1e-10;
 
-/* part [nnode]: the smallest node of each node's part. */
-static void find_parts(const corot_mesh *mesh, int *part) {
-  for (int n = 0; n < mesh->nnode; n++) part[n] = n;
+/* The nodes part by part. */
+typedef struct partition {
+  int npart;
+  int *begin; /* [nnode + 1] of which the first npart + 1 say where each part's nodes stand in */
+  int *node;  /* [nnode] ascending within a part, so that the first names it */
+  int *root;  /* [nnode] the smallest node of each node's part */
+} partition;
+
+static void partition_free(partition *p) {
+  free(p->begin);
+  free(p->node);
+  free(p->root);
+}
+
+/* root [nnode]: the smallest node of each node's part. */
+static void find_roots(const corot_mesh *mesh, int *root) {
+  for (int n = 0; n < mesh->nnode; n++) root[n] = n;
   for (int e = 0; e < mesh->ntet; e++)
     for (int a = 1; a < 4; a++) {
       int i = mesh->tet[e][0], j = mesh->tet[e][a];
-      while (part[i] != i) i = part[i] = part[part[i]];
-      while (part[j] != j) j = part[j] = part[part[j]];
-      part[i > j ? i : j] = i > j ? j : i;
+      while (root[i] != i) i = root[i] = root[root[i]];
+      while (root[j] != j) j = root[j] = root[root[j]];
+      root[i > j ? i : j] = i > j ? j : i;
     }
-  for (int n = 0; n < mesh->nnode; n++) part[n] = part[part[n]];
+  for (int n = 0; n < mesh->nnode; n++) root[n] = root[root[n]];
+}
+
+/* Counts the nodes of each root, gives the roots their places in ascending order, and fills them.
+ */
+static corot_status partition_create(const corot_mesh *mesh, partition *out) {
+  size_t nnode = (size_t)mesh->nnode;
+  partition p = {.begin = calloc(nnode + 1, sizeof *p.begin),
+                 .node = malloc(nnode * sizeof *p.node),
+                 .root = malloc(nnode * sizeof *p.root)};
+  int *place = calloc(nnode, sizeof *place);
+  if (!p.begin || !p.node || !p.root || !place) {
+    partition_free(&p);
+    free(place);
+    return corot_fail(COROT_ENOMEM, "no memory for %zu nodes", nnode);
+  }
+  find_roots(mesh, p.root);
+  for (int n = 0; n < mesh->nnode; n++) place[p.root[n]]++;
+  for (int n = 0, next = 0; n < mesh->nnode; n++) {
+    if (p.root[n] != n) continue;
+    int count = place[n];
+    p.begin[p.npart++] = place[n] = next;
+    p.begin[p.npart] = next += count;
+  }
+  for (int n = 0; n < mesh->nnode; n++) p.node[place[p.root[n]]++] = n;
+  free(place);
+  *out = p;
+  return COROT_OK;
 }
 
 /* Diagonalises G [6][6] by Jacobi's rotations; the columns of V are its eigenvectors. */
@@ -47,19 +88,16 @@ static void diagonalise(double G[6][6], double V[6][6]) {
 
 typedef struct part_shape {
   int nnode;
+  const int *node; /* [nnode] */
   double center[3], radius;
 } part_shape;
 
-static part_shape measure(const corot_mesh *mesh, const int *part, int which) {
-  part_shape p = {0};
-  for (int n = 0; n < mesh->nnode; n++) {
-    if (part[n] != which) continue;
-    p.nnode++;
-    for (int c = 0; c < 3; c++) p.center[c] += (mesh->x[n][c] - p.center[c]) / p.nnode;
-  }
-  for (int n = 0; n < mesh->nnode; n++) {
-    if (part[n] != which) continue;
-    const double *x = mesh->x[n], *o = p.center;
+static part_shape measure(const corot_mesh *mesh, int nnode, const int *node) {
+  part_shape p = {.nnode = nnode, .node = node};
+  for (int k = 0; k < nnode; k++)
+    for (int c = 0; c < 3; c++) p.center[c] += (mesh->x[node[k]][c] - p.center[c]) / (k + 1);
+  for (int k = 0; k < nnode; k++) {
+    const double *x = mesh->x[node[k]], *o = p.center;
     p.radius = fmax(p.radius, hypot(hypot(x[0] - o[0], x[1] - o[1]), x[2] - o[2]));
   }
   return p;
@@ -76,15 +114,14 @@ static void component_row(const part_shape *p, const double x[3], int c, double 
 
 /* free [6][6], of which the first rows, as many as the value says, span the motions that nothing
    holds. */
-static int free_motions(const corot_model *model, const int *part, int which, const part_shape *p,
-                        double motion[6][6]) {
+static int free_motions(const corot_model *model, const part_shape *p, double motion[6][6]) {
   const corot_mesh *mesh = corot_model_mesh(model);
   const int(*dof)[3] = corot_model_dof(model);
   double G[6][6] = {{0}}, V[6][6], row[6];
-  for (int n = 0; n < mesh->nnode; n++)
-    for (int c = 0; part[n] == which && c < 3; c++) {
-      if (dof[n][c] >= 0) continue;
-      component_row(p, mesh->x[n], c, row);
+  for (int k = 0; k < p->nnode; k++)
+    for (int c = 0; c < 3; c++) {
+      if (dof[p->node[k]][c] >= 0) continue;
+      component_row(p, mesh->x[p->node[k]], c, row);
       for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++) G[i][j] += row[i] * row[j];
     }
@@ -167,29 +204,55 @@ static void describe(int nfree, double motion[6][6], size_t size, char *text) {
   }
 }
 
-static corot_status check_parts(const corot_model *model, int *part) {
-  const corot_mesh *mesh = corot_model_mesh(model);
-  find_parts(mesh, part);
-  for (int n = 0; n < mesh->nnode; n++) {
-    if (part[n] != n) continue;
-    double motion[6][6];
-    part_shape p = measure(mesh, part, n);
-    int nfree = free_motions(model, part, n, &p, motion);
-    if (!nfree) continue;
-    char what[96], who[64] = "the body";
-    describe(nfree, motion, sizeof what, what);
-    if (p.nnode < mesh->nnode)
-      snprintf(who, sizeof who, "the part of the body with node %d (%d nodes)", n, p.nnode);
-    return corot_fail(COROT_ESINGULAR, "statics: %s can %s freely: no support hinders it", who,
-                      what);
+static void find_free(const corot_model *model, const int *node, corot_part *part) {
+  double motion[6][6];
+  part_shape p = measure(corot_model_mesh(model), part->nnode, node);
+  part->nfree = free_motions(model, &p, motion);
+  if (part->nfree) describe(part->nfree, motion, sizeof part->can, part->can);
+}
+
+/* model NULL: without motions. */
+static corot_status list_parts(const corot_mesh *mesh, const corot_model *model, int *npart,
+                               corot_part **out) {
+  partition p = {0};
+  COROT_TRY(partition_create(mesh, &p));
+  corot_part *part = calloc((size_t)p.npart, sizeof *part);
+  for (int k = 0; part && k < p.npart; k++) {
+    const int *node = p.node + p.begin[k];
+    part[k].first = node[0];
+    part[k].nnode = p.begin[k + 1] - p.begin[k];
+    if (model) find_free(model, node, &part[k]);
   }
+  int count = p.npart;
+  partition_free(&p);
+  if (!part) return corot_fail(COROT_ENOMEM, "no memory for %d parts of the body", count);
+  *npart = count;
+  *out = part;
   return COROT_OK;
 }
 
+corot_status corot_mesh_parts(const corot_mesh *mesh, int *npart, corot_part **part) {
+  return list_parts(mesh, NULL, npart, part);
+}
+
+corot_status corot_model_parts(const corot_model *model, int *npart, corot_part **part) {
+  return list_parts(corot_model_mesh(model), model, npart, part);
+}
+
 corot_status corot_rigid_check(const corot_model *model) {
-  int nnode = corot_model_mesh(model)->nnode, *part = malloc(nnode * sizeof *part);
-  if (!part) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", nnode);
-  corot_status status = check_parts(model, part);
+  int npart;
+  corot_part *part;
+  corot_status status = COROT_OK;
+  COROT_TRY(corot_model_parts(model, &npart, &part));
+  for (int k = 0; k < npart && !status; k++) {
+    char who[64] = "the body";
+    if (!part[k].nfree) continue;
+    if (npart > 1)
+      snprintf(who, sizeof who, "the part of the body with node %d (%d nodes)", part[k].first,
+               part[k].nnode);
+    status = corot_fail(COROT_ESINGULAR, "statics: %s can %s freely: no support hinders it", who,
+                        part[k].can);
+  }
   free(part);
   return status;
 }

@@ -214,6 +214,7 @@ corot_statics_counts corot_statics_statistics(const corot_statics *s) {
   corot_statics_counts c = s->e.counts;
   corot_pencil_counts p = corot_pencil_statistics(s->e.pencil);
   c.nje = p.nassembly, c.nfactor = p.nfactor, c.nsolve = p.nsolve, c.nli = p.niteration;
+  c.nlsfail = p.nlsfail;
   c.force_s = s->e.force_s;
   c.assembly_s = p.assembly_s, c.combine_s = p.combine_s;
   c.factor_s = p.factor_s, c.solve_s = p.solve_s;

@@ -13,7 +13,7 @@
 #include "core/trial.h"
 #include "solve/clock.h"
 #include "solve/pencil.h"
-#include "solve/sun_compat.h"
+#include "solve/sun_status.h"
 
 static SUNMatrix_ID matrix_id(SUNMatrix A) {
   (void)A;
@@ -47,16 +47,12 @@ static SUNLinearSolver_Type solver_type(SUNLinearSolver LS) {
   return SUNLINEARSOLVER_DIRECT;
 }
 
-/* A singular S is recoverable as well as an indefinite one: a smaller g brings it closer to M. */
 static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
   (void)A;
-  corot_status status = corot_pencil_factor(LS->content);
-  return status == COROT_ESINGULAR ? COROT_RETRY : status;
+  return sun_callback_code(corot_pencil_factor(LS->content));
 }
 
-static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
-  (void)A, (void)tol;
-  corot_pencil *p = LS->content;
+corot_status corot_pencil_newton(corot_pencil *p, N_Vector b, N_Vector x) {
   int n = p->n;
   double start = clock_wall(), g = p->gamma;
   const double *ru = N_VGetArrayPointer(b), *rv = ru + n;
@@ -66,13 +62,17 @@ static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b,
   corot_mass_multiply(p->model, rv, rhs);
   for (int i = 0; i < n; i++) rhs[i] -= g * Kru[i];
   p->counts.solve_s += clock_wall() - start;
-  corot_status status = corot_pencil_solve(p, rhs, rhs);
-  if (status) return status;
+  COROT_TRY(corot_pencil_solve(p, rhs, rhs));
   for (int i = 0; i < n; i++) {
     du[i] = ru[i] + g * rhs[i];
     dv[i] = rhs[i];
   }
-  return 0;
+  return COROT_OK;
+}
+
+static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
+  (void)A, (void)tol;
+  return sun_solve_code(corot_pencil_newton(LS->content, b, x));
 }
 
 static sun_status solver_free(SUNLinearSolver LS) {
@@ -93,19 +93,23 @@ SUNLinearSolver corot_sun_linsol(corot_pencil *pencil, SUNContext ctx) {
   return LS;
 }
 
-int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
-                     sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
-                     N_Vector tmp2, N_Vector tmp3) {
-  (void)fy, (void)user_data, (void)tmp1, (void)tmp2, (void)tmp3;
-  corot_pencil *p = A->content;
-  *jcur = !jok || p->dirty;
-  if (*jcur) {
+corot_status corot_pencil_linsys(corot_pencil *p, double t, N_Vector y, bool keep,
+                                 sunbooleantype *made, double gamma) {
+  *made = !keep || p->dirty;
+  if (*made) {
     const double *u = N_VGetArrayPointer(y);
     COROT_TRY(corot_pencil_assemble(p, t, u, u + p->n));
   }
   corot_pencil_combine(p, 1, gamma, gamma * gamma);
   p->gamma = gamma;
-  return 0;
+  return COROT_OK;
+}
+
+int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
+                     sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
+                     N_Vector tmp2, N_Vector tmp3) {
+  (void)fy, (void)user_data, (void)tmp1, (void)tmp2, (void)tmp3;
+  return sun_callback_code(corot_pencil_linsys(A->content, t, y, jok, jcur, gamma));
 }
 
 int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
@@ -115,8 +119,7 @@ int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SU
   return corot_sun_linsys(t, y, fy, A, jok, jcur, gamma, user_data, tmp1, tmp2, tmp3);
 }
 
-int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
-  const corot_sun_data *data = user_data;
+corot_status corot_rate(const corot_sun_data *data, double t, N_Vector y, N_Vector ydot) {
   int n = corot_model_ndof(data->model);
   const double *u = N_VGetArrayPointer(y), *v = u + n;
   double *du = N_VGetArrayPointer(ydot), *dv = du + n;
@@ -128,6 +131,10 @@ int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
   COROT_TRY(corot_residual_trial(data->model, data->state, t, u, v, dv));
   memcpy(du, v, n * sizeof *du);
   return corot_mass_solve(data->mass, dv, dv);
+}
+
+int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
+  return sun_callback_code(corot_rate(user_data, t, y, ydot));
 }
 
 const char *corot_sundials_version(void) {

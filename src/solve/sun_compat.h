@@ -1,10 +1,12 @@
 /* Every difference between SUNDIALS 6.4 (Debian 12) and 7.x stands here. Return values are only
-   ever compared with zero, whose meaning never changed. */
+   ever compared with zero, whose meaning never changed. What our functions return is in
+   sun_status.h. */
 #ifndef COROT_SOLVE_SUN_COMPAT_H
 #define COROT_SOLVE_SUN_COMPAT_H
 
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_version.h>
 
 /* Error handlers: one function of these arguments, installed on an integrator's memory in 6.4 by
@@ -31,6 +33,11 @@ static inline int sun_context_create(SUNContext *ctx) {
   if (logger) SUNLogger_SetWarningFilename(logger, "/dev/null");
   return 0;
 }
+
+/* Failures of a linear solver's solve for which there is no remedy: SUNLS_* of 6.4 that 7.x renamed
+   (SUNLS_CONV_FAIL is the same in both). */
+enum { SUN_SOLVE_NO_MEMORY = SUN_ERR_MEM_FAIL, SUN_SOLVE_FATAL = SUN_ERR_EXT_FAIL };
+
 #define SUN_ERROR_HANDLER_ARGUMENTS                                                                \
   int line, const char *function, const char *file, const char *text, SUNErrCode code, void *data, \
       SUNContext ctx
@@ -40,6 +47,7 @@ static inline int sun_context_create(SUNContext *ctx) {
   SUNContext_PushErrHandler(ctx, handler, data)
 #else
 typedef int sun_status;
+enum { SUN_SOLVE_NO_MEMORY = SUNLS_MEM_FAIL, SUN_SOLVE_FATAL = SUNLS_PACKAGE_FAIL_UNREC };
 static inline int sun_context_create(SUNContext *ctx) { return SUNContext_Create(NULL, ctx); }
 #define SUN_ERROR_HANDLER_ARGUMENTS \
   int code, const char *module, const char *function, char *text, void *data

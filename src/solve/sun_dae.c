@@ -10,11 +10,9 @@
 #include "core/trial.h"
 #include "solve/clock.h"
 #include "solve/pencil.h"
-#include "solve/sun_compat.h"
+#include "solve/sun_status.h"
 
-int corot_sun_solve_dae(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
-  (void)A, (void)tol;
-  corot_pencil *p = LS->content;
+corot_status corot_pencil_newton_dae(corot_pencil *p, N_Vector b, N_Vector x) {
   int n = p->n;
   double start = clock_wall(), g = p->gamma;
   const double *Fu = N_VGetArrayPointer(b), *Fv = Fu + n;
@@ -23,18 +21,22 @@ int corot_sun_solve_dae(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b,
   corot_block_multiply(p->model, (const double(*)[9])p->K, Fu, KFu);
   for (int i = 0; i < n; i++) rhs[i] = g * (Fv[i] - g * KFu[i]);
   p->counts.solve_s += clock_wall() - start;
-  corot_status status = corot_pencil_solve(p, rhs, rhs);
-  if (status) return status;
+  COROT_TRY(corot_pencil_solve(p, rhs, rhs));
   for (int i = 0; i < n; i++) {
     du[i] = g * (Fu[i] + rhs[i]);
     dv[i] = rhs[i];
   }
-  return 0;
+  return COROT_OK;
+}
+
+static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
+  (void)A, (void)tol;
+  return sun_solve_code(corot_pencil_newton_dae(LS->content, b, x));
 }
 
 SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx) {
   SUNLinearSolver LS = corot_sun_linsol(pencil, ctx);
-  if (LS) LS->ops->solve = corot_sun_solve_dae;
+  if (LS) LS->ops->solve = solver_solve;
   return LS;
 }
 
@@ -46,20 +48,22 @@ int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector y
   return corot_sun_linsys(t, y, F, A, 0, &current, 1 / cj, user_data, tmp1, tmp2, tmp3);
 }
 
-int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data) {
-  const corot_sun_data *data = user_data;
+corot_status corot_defect(const corot_sun_data *data, double t, N_Vector y, N_Vector yp,
+                          N_Vector F) {
   int n = corot_model_ndof(data->model);
   const double *u = N_VGetArrayPointer(y), *v = u + n;
   const double *ut = N_VGetArrayPointer(yp), *vt = ut + n;
   double *Fu = N_VGetArrayPointer(F), *Fv = Fu + n;
 
-  corot_status status =
-      corot_residual_trial(data->model, data->state, t, u, v, Fu); /* r, for now */
-  if (status) return status;
+  COROT_TRY(corot_residual_trial(data->model, data->state, t, u, v, Fu)); /* r, for now */
   corot_mass_multiply(data->model, vt, Fv);
   for (int i = 0; i < n; i++) {
     Fv[i] -= Fu[i];
     Fu[i] = ut[i] - v[i];
   }
-  return 0;
+  return COROT_OK;
+}
+
+int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data) {
+  return sun_callback_code(corot_defect(user_data, t, y, yp, F));
 }

@@ -1,142 +1,68 @@
+/* The error budget as JSON: the runs of budget_runs.c, by the claims of budget_claims.c. */
 #include "budget.h"
 
+#include <app/json_text.h>
+#include <app/no_memory.h>
 #include <math.h>
+#include <report/lookup.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <app/json_text.h>
-#include <report/lookup.h>
-
-#include "budget_plan.h"
-#include "errors.h"
+#include "budget_parts.h"
 #include "json_file.h"
-#include "store.h"
-#include "variants.h"
+#include "states_sum.h"
 
-/* Runs: as given; the chain, one more approximation gone in each; each gone alone; the check. */
-enum {
-  NCHAIN = BUDGET_KINDS,
-  NRUN_MAX = 2 * BUDGET_KINDS + 2,
-  NSET_MAX = (BUDGET_KINDS + 1) * BUDGET_SETTINGS,
-  LABEL_SIZE = 64,
-};
+/* --- Parts --- */
 
-typedef struct budgeting {
-  const scenario *scenario;
-  budget_plan plan;
-  int nrun;
-  variant variant[NRUN_MAX];
-  char label[NRUN_MAX][LABEL_SIZE];
-  const char *chain_set[NSET_MAX], *alone_set[BUDGET_KINDS][BUDGET_SETTINGS];
-  const char *check_set[NSET_MAX];
-  int run[NRUN_MAX]; /* of the manifest */
-  manifest *manifest;
-  trajectory states[NRUN_MAX]; /* without records where the run failed */
-  double cpu[NRUN_MAX];        /* [s]; NaN: failed */
-  const char *status[NRUN_MAX];
-  yardstick *yardstick;
-} budgeting;
-
-static int chain_run(int part) { return 1 + part; }
-static int alone_run(const budgeting *b, int part) { return 1 + b->plan.npart + part; }
-static int check_run(const budgeting *b) { return 1 + 2 * b->plan.npart; }
-
-/* --- The runs --- */
-
-static void name_run(budgeting *b, int run, const char *what, const char *how) {
-  snprintf(b->label[run], LABEL_SIZE, "%s%s", what, how);
-  b->variant[run].label = b->label[run];
+static void set_real(json_t *object, const char *prefix, const char *key, double value) {
+  char name[64];
+  snprintf(name, sizeof name, "%s%s", prefix, key);
+  json_object_set_new(object, name, json_text_real(value));
 }
 
-/* The check differs from the chain up to the part of time in the method alone. */
-static void plan_check(budgeting *b, int ntime) {
-  int n = 0;
-  for (; n < ntime; n++) b->check_set[n] = b->chain_set[n];
-  for (int k = 0; k < b->plan.check.nset; k++) b->check_set[n++] = b->plan.check.set[k];
-  b->variant[check_run(b)].nset = n;
-  b->variant[check_run(b)].set = b->check_set;
-  name_run(b, check_run(b), "time integration", ", by another method");
+static void set_bound(json_t *object, const char *prefix, claim_bound b) {
+  char name[64];
+  snprintf(name, sizeof name, "%sbound", prefix);
+  json_object_set_new(object, name, json_string(claim_words[b.kind]));
+  set_real(object, prefix, "low", b.low);
+  set_real(object, prefix, "high", b.high);
+  set_real(object, prefix, "floor", b.floor);
 }
 
-static void plan_runs(budgeting *b) {
-  int n = 0, ntime = -1;
-
-  name_run(b, 0, "as given", "");
-  for (int i = 0; i < b->plan.npart; i++) {
-    const budget_part *part = &b->plan.part[i];
-    if (part->kind == BUDGET_TIME) ntime = n;
-    for (int k = 0; k < part->nset; k++) b->chain_set[n++] = b->alone_set[i][k] = part->set[k];
-    b->variant[chain_run(i)] = (variant){.nset = n, .set = b->chain_set};
-    b->variant[alone_run(b, i)] = (variant){.nset = part->nset, .set = b->alone_set[i]};
-    name_run(b, chain_run(i), "less ", budget_names[part->kind]);
-    name_run(b, alone_run(b, i), budget_names[part->kind], ", alone");
-  }
-  b->nrun = check_run(b) + (ntime >= 0);
-  if (ntime >= 0) plan_check(b, ntime);
+/* The displacement of the last time, of the second less the first. */
+static double change(const trajectory *first, const trajectory *second, int i) {
+  int k = first->count - 1;
+  return states_u(second, second->count - 1)[i] - states_u(first, k)[i];
 }
 
-static corot_status load_run(budgeting *b, const char *dir, int i) {
-  const study_run *run = &b->manifest->run[b->run[i]];
-  run_record record;
-  COROT_TRY(store_look(dir, run, &record));
-  b->status[i] = record.state == RUN_DONE ? "done" : "failed";
-  b->cpu[i] = NAN;
-  corot_status status = COROT_OK;
-  if (record.state == RUN_DONE) {
-    json_t *cpu = json_object_get(json_object_get(record.result, "timings"), "cpu");
-    b->cpu[i] = json_number_value(cpu);
-    char *folder = store_path(dir, run, "");
-    status = folder ? states_read(folder, &b->states[i]) : COROT_ENOMEM;
-    free(folder);
-  }
-  run_record_free(&record);
-  return status;
+/* A chain's run may be of a finer mesh: only claims at the places of the scenario's are signed. */
+static json_t *signed_change(const budgeting *b, const trajectory *before, const trajectory *after,
+                             int probe) {
+  const yardstick *y = b->yardstick;
+  const int *dof = corot_model_dof(y->model)[y->probe[probe]];
+  json_t *list = json_array();
+  for (int c = 0; c < 3; c++)
+    json_array_append_new(list, json_text_real(dof[c] >= 0 ? change(before, after, dof[c]) : 0));
+  return list;
 }
 
-static corot_status carry_out(budgeting *b, int nset, const char *const *set,
-                              const execute_options *options, int *signal_number) {
-  variants v = {.what = "Error budget",
-                .scenario = b->scenario,
-                .nset = nset,
-                .set = set,
-                .nvariant = b->nrun,
-                .variant = b->variant};
-  COROT_TRY(variants_execute(&v, options, &b->manifest, b->run, signal_number));
-  for (int i = 0; i < b->nrun && !*signal_number; i++) COROT_TRY(load_run(b, options->dir, i));
-  return COROT_OK;
-}
-
-/* --- Their distances --- */
-
-/* Of two runs, the second taken as exact. Without an error of both, NaN and NULL. */
-typedef struct distance {
-  error_pair displacement;
-  json_t *probes; /* the caller's to decref */
-} distance;
-
-static json_t *probe_distances(const budgeting *b, const errors *e) {
+static json_t *probes_json(const budgeting *b, const claim *c, const errors *bare,
+                           const trajectory *after) {
   json_t *all = json_object();
-  for (int i = 0; i < b->scenario->nprobe; i++) {
-    error_pair of = e->of[ERROR_PROBES + i];
-    all = json_text_with(
-        all, b->scenario->probe[i].name,
-        json_pack("{s:o, s:o}", "max", json_text_real(of.max), "end", json_text_real(of.end)));
+  for (int i = 0; i < b->scenario->nprobe && c->error.n > 0; i++) {
+    error_pair of = c->error.of[ERROR_PROBES + i];
+    json_t *probe =
+        json_pack("{s:o, s:o}", "max", json_text_real(of.max), "end", json_text_real(of.end));
+    set_bound(probe, "", claim_bounds(c, ERROR_PROBES + i, false));
+    if (bare->n > 0) {
+      set_real(probe, "", "difference", bare->of[ERROR_PROBES + i].max);
+      set_real(probe, "", "difference_end", bare->of[ERROR_PROBES + i].end);
+    }
+    if (after) json_object_set_new(probe, "signed", signed_change(b, c->before, after, i));
+    all = json_text_with(all, b->scenario->probe[i].name, probe);
   }
   return all;
 }
-
-static corot_status measure(const budgeting *b, int run, int reference, distance *out) {
-  *out = (distance){.displacement = {NAN, NAN}};
-  if (b->states[run].count == 0 || b->states[reference].count == 0) return COROT_OK;
-  errors e;
-  COROT_TRY(errors_measure(b->yardstick, &b->states[run], &b->states[reference], &e));
-  out->displacement = e.of[ERROR_DISPLACEMENT];
-  out->probes = probe_distances(b, &e);
-  errors_free(&e);
-  return COROT_OK;
-}
-
-/* --- As JSON --- */
 
 static json_t *settings_text(const budget_part *part) {
   char text[BUDGET_SETTINGS * BUDGET_SETTING_SIZE] = "";
@@ -147,117 +73,241 @@ static json_t *settings_text(const budget_part *part) {
   return json_text_string(text);
 }
 
-static corot_status part_json(const budgeting *b, int i, json_t **out) {
-  const budget_part *part = &b->plan.part[i];
-  distance chain, alone;
-  COROT_TRY(measure(b, i == 0 ? 0 : chain_run(i - 1), chain_run(i), &chain));
-  corot_status status = measure(b, 0, alone_run(b, i), &alone);
-  *out = json_pack(
-      "{s:s, s:o, s:o, s:o, s:o, s:o, s:o?, s:o, s:s}", "part", budget_names[part->kind], "pair",
-      settings_text(part), "error", json_text_real(chain.displacement.max), "end",
-      json_text_real(chain.displacement.end), "alone", json_text_real(alone.displacement.max),
-      "alone_end", json_text_real(alone.displacement.end), "probes", chain.probes, "cost",
-      json_text_real(b->cpu[alone_run(b, i)] / b->cpu[0]), "advice", budget_remedies[part->kind]);
-  json_decref(alone.probes);
-  if (status != COROT_OK) {
-    json_decref(*out);
-    *out = NULL;
+static error_pair displacement_of(const errors *e) {
+  return e->n > 0 ? e->of[ERROR_DISPLACEMENT] : (error_pair){NAN, NAN};
+}
+
+/* What an error `alone` is worth: the errors of time and algebra are in both of its runs. */
+static const char *alone_bound(const budgeting *b, const budget_claims *all, int place,
+                               double alone) {
+  int time = b->place[BUDGET_TIME], algebra = b->place[BUDGET_ALGEBRA];
+  double noise = 0;
+  if (isnan(alone)) return claim_words[CLAIM_MISSING];
+  if (place == time) {
+    noise = displacement_of(&all->chain).max;
+  } else if (place == algebra) {
+    noise = displacement_of(&all->part[place].known).max;
+  } else {
+    if (time >= 0) noise = displacement_of(&all->part[time].error).max;
+    if (algebra >= 0) noise = fmax(noise, displacement_of(&all->part[algebra].error).max);
   }
+  if (!(alone >= ERROR_FLOOR * noise)) return "doubtful";
+  return claim_words[place == b->place[BUDGET_SPACE] ? CLAIM_AT_LEAST : CLAIM_ABOUT];
+}
+
+/* The part's product with the total, and the total's with itself, at the end. */
+static corot_status share_of(const budgeting *b, const budget_claims *all, const trajectory *before,
+                             const trajectory *after, double *share) {
+  const claim *total = &all->total;
+  int n = total->before ? total->before->n : 0;
+  *share = NAN;
+  if (!before || !after || total->after != &total->made) return COROT_OK;
+  double *d = calloc(2 * (size_t)n + 1, sizeof *d);
+  if (!d) return no_memory();
+  for (int i = 0; i < n; i++) {
+    d[i] = change(before, after, i);
+    d[n + i] = change(total->before, total->after, i);
+  }
+  double square = yardstick_product(b->yardstick, d + n, d + n);
+  if (square > 0) *share = yardstick_product(b->yardstick, d, d + n) / square;
+  free(d);
+  return COROT_OK;
+}
+
+/* The settings that take a part away, and the run that shows what they cost: for time, the last
+   that was tried. */
+static const budget_part *settings_of(const budgeting *b, int i, int *run) {
+  bool finer = i == b->place[BUDGET_TIME] && b->ntight > 1;
+  *run = finer ? b->tight[b->ntight - 1] : budget_alone_run(b, i);
+  return finer ? &b->finer[b->ntight - 2][0] : &b->plan.part[i];
+}
+
+static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, const errors *bare,
+                         const errors *alone, const trajectory *after, double share) {
+  int run;
+  const budget_part *part = settings_of(b, i, &run);
+  const claim *c = &all->part[i];
+  error_pair error = displacement_of(&c->error), single = displacement_of(alone),
+             difference = displacement_of(bare);
+  char verdict[512];
+  claim_verdict(c, b->left_out, sizeof verdict, verdict);
+  json_t *json = json_pack(
+      "{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s}", "part", budget_names[part->kind], "pair",
+      settings_text(part), "error", json_text_real(error.max), "end", json_text_real(error.end),
+      "alone", json_text_real(single.max), "alone_end", json_text_real(single.end), "probes",
+      probes_json(b, c, bare, after), "cost", json_text_real(b->run[run].cpu / b->run[0].cpu),
+      "advice", budget_remedy(part->kind, b->options->still));
+  if (!json) return NULL;
+  set_bound(json, "", claim_bounds(c, ERROR_DISPLACEMENT, false));
+  set_bound(json, "end_", claim_bounds(c, ERROR_DISPLACEMENT, true));
+  set_real(json, "", "difference", difference.max);
+  set_real(json, "", "difference_end", difference.end);
+  set_real(json, "", "share", share);
+  set_real(json, "", "order", c->nlevel == 3 ? c->convergence.order : NAN);
+  json_object_set_new(json, "levels", c->is_space ? json_integer(c->nlevel) : json_null());
+  json_object_set_new(json, "alone_bound", json_string(alone_bound(b, all, i, single.max)));
+  json_object_set_new(json, "verdict", json_string(verdict));
+  return json;
+}
+
+/* `after` at the places of the scenario's own mesh. */
+static corot_status restrict_to(const claim *c, trajectory *own, const trajectory **after) {
+  static const double one = 1;
+  *after = c->before && c->after ? c->after : NULL;
+  if (!*after || c->after->n == c->before->n) return COROT_OK;
+  COROT_TRY(states_sum(c->before, 1, &one, after, own));
+  *after = own;
+  return COROT_OK;
+}
+
+static corot_status part_json(const budgeting *b, const budget_claims *all, int i, json_t **out) {
+  const trajectory *after = NULL;
+  trajectory own = {0};
+  errors bare = {0}, alone = {0};
+  double share = NAN;
+  corot_status status = restrict_to(&all->part[i], &own, &after);
+  if (status == COROT_OK)
+    status = budget_distance(b, budget_states(b, budget_before_run(b, i)),
+                             budget_states(b, budget_chain_run(b, i)), &bare);
+  if (status == COROT_OK)
+    status =
+        budget_distance(b, budget_states(b, 0), budget_states(b, budget_alone_run(b, i)), &alone);
+  if (status == COROT_OK) status = share_of(b, all, all->part[i].before, after, &share);
+  *out = status == COROT_OK ? pack_part(b, all, i, &bare, &alone, after, share) : NULL;
+  if (status == COROT_OK && !*out) status = no_memory();
+  errors_free(&bare);
+  errors_free(&alone);
+  states_free(&own);
   return status;
 }
 
-/* The largest part, and what to do about it. Parts of opposite directions may leave less than the
-   largest of them: then to take away one alone can make things worse. */
-static json_t *advice(const json_t *parts, double total) {
-  const json_t *part, *largest = NULL;
-  size_t i;
-  json_array_foreach(parts, i, part) {
-    double error = lookup_number(part, "error");
-    if (isfinite(error) && (!largest || error > lookup_number(largest, "error"))) largest = part;
-  }
-  if (!largest) return json_null();
-  char cancel[128] = "";
-  if (total < 0.7 * lookup_number(largest, "error"))
-    snprintf(cancel, sizeof cancel,
-             " Parts cancel one another: together they are %.1e; look at each alone.", total);
-  return json_sprintf(
-      "The largest part is that of %s, %.1e of the displacement. Change first: %s.%s",
-      json_string_value(json_object_get(largest, "part")), lookup_number(largest, "error"),
-      json_string_value(json_object_get(largest, "advice")), cancel);
-}
+/* --- The whole --- */
 
 static json_t *runs_json(const budgeting *b) {
   json_t *list = json_array();
-  for (int i = 0; i < b->nrun; i++)
-    list = json_text_push(list, json_pack("{s:s, s:s, s:s, s:o}", "run", b->label[i], "id",
-                                          b->manifest->run[b->run[i]].id, "status", b->status[i],
-                                          "cpu", json_text_real(b->cpu[i])));
+  for (int i = 0; i < b->nrun; i++) {
+    const budget_run *run = &b->run[i];
+    list = json_text_push(list, json_pack("{s:s, s:s, s:s, s:o, s:b}", "run", run->label, "id",
+                                          b->manifest->run[run->at].id, "status", run->status,
+                                          "cpu", json_text_real(run->cpu), "spare", run->spare));
+  }
   return list;
 }
 
-static corot_status totals(const budgeting *b, json_t *parts, json_t **out) {
-  distance total, check = {.displacement = {NAN, NAN}};
-  int ntime = -1;
-  double sum = 0;
-  for (int i = 0; i < b->plan.npart; i++) {
-    if (b->plan.part[i].kind == BUDGET_TIME) ntime = i;
-    sum += lookup_number(json_array_get(parts, (size_t)i), "error");
+static json_t *missing_json(const json_t *parts) {
+  json_t *list = json_array();
+  for (size_t i = 0; i < json_array_size(parts); i++) {
+    const json_t *part = json_array_get(parts, i);
+    if (strcmp(lookup_text(part, "bound"), claim_words[CLAIM_MISSING]) == 0)
+      json_array_append(list, json_object_get(part, "part"));
   }
-  COROT_TRY(measure(b, 0, chain_run(b->plan.npart - 1), &total));
-  corot_status status = COROT_OK;
-  if (ntime >= 0) status = measure(b, check_run(b), chain_run(ntime), &check);
-  json_decref(check.probes);
-  *out = json_pack("{s:o, s:s, s:s, s:O, s:o, s:o, s:o?, s:o, s:o, s:o, s:o, s:o}", "title",
-                   json_text_string(b->scenario->title), "scenario", b->scenario->path, "measure",
-                   "displacement in the mass norm, relative to its largest; largest over time",
-                   "parts", parts, "total", json_text_real(total.displacement.max), "total_end",
-                   json_text_real(total.displacement.end), "total_probes", total.probes, "sum",
-                   json_text_real(sum), "interaction", json_text_real(total.displacement.max - sum),
-                   "check", json_text_real(check.displacement.max), "first",
-                   advice(parts, total.displacement.max), "runs", runs_json(b));
-  if (status == COROT_OK && !*out) status = corot_fail(COROT_ENOMEM, "out of memory");
-  return status;
+  return list;
 }
 
-static corot_status rate(budgeting *b, json_t **out) {
-  COROT_TRY(yardstick_create(b->scenario, &b->yardstick));
+/* The total is as uncertain as all parts together. */
+static claim_bound total_bound(const budgeting *b, const budget_claims *all) {
+  claim_bound total = claim_bounds(&all->total, ERROR_DISPLACEMENT, false);
+  if (total.kind == CLAIM_MISSING || total.kind == CLAIM_AT_MOST) return total;
+  bool open = false;
+  total.low = total.high = total.value;
+  for (int i = 0; i < b->plan.npart; i++) {
+    claim_bound part = claim_bounds(&all->part[i], ERROR_DISPLACEMENT, false);
+    open |= part.kind == CLAIM_AT_LEAST || part.kind == CLAIM_MISSING;
+    if (part.kind == CLAIM_ABOUT) total.low -= part.value - part.low;
+    total.high += part.high - part.value;
+  }
+  total.low = fmax(0, total.low);
+  if (open) total.kind = CLAIM_AT_LEAST;
+  return total;
+}
+
+static double sum_of(const json_t *parts) {
+  double sum = 0;
+  for (size_t i = 0; i < json_array_size(parts); i++)
+    sum += lookup_number(json_array_get(parts, i), "error");
+  return sum;
+}
+
+/* The tolerance at which the last check of time was made. */
+static double check_rtol(const budgeting *b) {
+  double rtol = budget_tight_rtol(b->scenario);
+  budget_part ignored[2];
+  for (int k = 1; k < b->ntight; k++)
+    rtol = budget_plan_tighten(b->scenario, k, &ignored[0], &ignored[1]);
+  return b->ntight > 0 ? rtol : NAN;
+}
+
+static corot_status totals(const budgeting *b, const budget_claims *all, json_t *parts,
+                           json_t **out) {
+  error_pair total = displacement_of(&all->total.error);
+  double sum = sum_of(parts);
+  errors none = {0};
+  json_t *missing = missing_json(parts), *verdict = budget_verdict(parts, total.max);
+  json_t *json = json_pack(
+      "{s:o, s:s, s:s, s:b, s:O, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:O?, s:o?, s:o}",
+      "title", json_text_string(b->scenario->title), "scenario", b->scenario->path, "measure",
+      b->options->still
+          ? "displacement in the mass norm, relative to its size"
+          : "displacement in the mass norm, relative to its largest; largest over time",
+      "static", b->options->still, "parts", parts, "total", json_text_real(total.max), "total_end",
+      json_text_real(total.end), "total_probes",
+      probes_json(b, &all->total, &none,
+                  all->total.after == &all->total.made ? all->total.after : NULL),
+      "sum", json_text_real(sum), "interaction", json_text_real(total.max - sum), "check",
+      json_text_real(displacement_of(&all->check).max), "check_rtol", json_text_real(check_rtol(b)),
+      "complete", json_array_size(missing) == 0, "missing", missing, "first", verdict, "verdict",
+      verdict, "runs", runs_json(b));
+  if (!json) return no_memory();
+  set_bound(json, "total_", total_bound(b, all));
+  set_bound(json, "total_end_", claim_bounds(&all->total, ERROR_DISPLACEMENT, true));
+  *out = json;
+  return COROT_OK;
+}
+
+static corot_status rate(const budgeting *b, json_t **out) {
+  budget_claims all;
+  COROT_TRY(budget_claims_make(b, &all));
   json_t *parts = json_array();
   corot_status status = COROT_OK;
   for (int i = 0; i < b->plan.npart && status == COROT_OK; i++) {
     json_t *part;
-    status = part_json(b, i, &part);
-    if (status == COROT_OK && json_array_append_new(parts, part))
-      status = corot_fail(COROT_ENOMEM, "out of memory");
+    status = part_json(b, &all, i, &part);
+    if (status == COROT_OK && json_array_append_new(parts, part)) status = no_memory();
   }
-  if (status == COROT_OK) status = totals(b, parts, out);
+  if (status == COROT_OK) status = totals(b, &all, parts, out);
   json_decref(parts);
+  budget_claims_free(&all);
   return status;
 }
 
 static void release(budgeting *b) {
-  for (int i = 0; i < b->nrun; i++) states_free(&b->states[i]);
+  for (int i = 0; i < b->nrun; i++) states_free(&b->run[i].states);
   yardstick_destroy(b->yardstick);
   manifest_destroy(b->manifest);
   free(b);
 }
 
-corot_status budget_make(const scenario *s, int nset, const char *const *set, const bool *skip,
-                         const execute_options *options, json_t **out, int *signal_number) {
+corot_status budget_make(const scenario *s, int nset, const char *const *set,
+                         const budget_options *options, const execute_options *execute,
+                         json_t **out, int *signal_number) {
   budgeting *b = calloc(1, sizeof *b);
-  if (!b) return corot_fail(COROT_ENOMEM, "out of memory");
+  if (!b) return no_memory();
   b->scenario = s;
-  budget_plan_make(s, &b->plan);
+  b->options = options;
+  if (options->still)
+    budget_plan_make_static(s, &b->plan);
+  else
+    budget_plan_make(s, &b->plan);
   for (int k = 0; k < BUDGET_KINDS; k++)
-    if (skip[k]) budget_plan_skip(&b->plan, (budget_kind)k);
+    if (options->skip[k]) budget_plan_skip(&b->plan, (budget_kind)k);
   if (b->plan.npart == 0) {
     free(b);
     return corot_fail(COROT_EINVAL, "nothing is left of the budget");
   }
-  plan_runs(b);
   json_t *made = NULL;
-  corot_status status = carry_out(b, nset, set, options, signal_number);
+  corot_status status = budget_runs_make(b, nset, set, execute, signal_number);
   if (status == COROT_OK && !*signal_number) status = rate(b, &made);
-  if (status == COROT_OK && made) status = json_file_write(options->dir, "budget.json", made);
+  if (status == COROT_OK && made) status = json_file_write(execute->dir, "budget.json", made);
   release(b);
   if (status != COROT_OK) {
     json_decref(made);
@@ -265,44 +315,4 @@ corot_status budget_make(const scenario *s, int nset, const char *const *set, co
   }
   *out = made;
   return COROT_OK;
-}
-
-/* --- As text --- */
-
-static void print_error(double error, FILE *out) {
-  if (isfinite(error))
-    fprintf(out, "  %9.2e", error);
-  else
-    fprintf(out, "  %9s", "?");
-}
-
-void budget_print(const json_t *budget, FILE *out) {
-  const json_t *parts = json_object_get(budget, "parts"), *part;
-  size_t i;
-  fprintf(out, "%-18s  %9s  %9s  %9s  %5s  %s\n", "part", "largest", "at end", "alone", "cost",
-          "taken away by");
-  json_array_foreach(parts, i, part) {
-    fprintf(out, "%-18s", json_string_value(json_object_get(part, "part")));
-    print_error(lookup_number(part, "error"), out);
-    print_error(lookup_number(part, "end"), out);
-    print_error(lookup_number(part, "alone"), out);
-    double cost = lookup_number(part, "cost");
-    if (isfinite(cost))
-      fprintf(out, "  %5.3g", cost);
-    else
-      fprintf(out, "  %5s", "?");
-    fprintf(out, "  %s\n", json_string_value(json_object_get(part, "pair")));
-  }
-  fprintf(out, "%-18s", "total");
-  print_error(lookup_number(budget, "total"), out);
-  print_error(lookup_number(budget, "total_end"), out);
-  fprintf(out, "\n%-18s", "sum of the parts");
-  print_error(lookup_number(budget, "sum"), out);
-  fprintf(out, "\n%-18s", "interaction");
-  print_error(lookup_number(budget, "interaction"), out);
-  fprintf(out, "\n%-18s", "check of time");
-  print_error(lookup_number(budget, "check"), out);
-  fputs("\n", out);
-  const char *first = json_string_value(json_object_get(budget, "first"));
-  if (first) fprintf(out, "%s\n", first);
 }

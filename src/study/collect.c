@@ -3,6 +3,7 @@
 #include <app/escape.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
+#include <app/warnings.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,10 +16,6 @@ int measure_named(const char *name) {
   for (int i = 0; i < ERROR_PROBES; i++)
     if (strcmp(error_words[i], name) == 0) return i;
   return -1;
-}
-
-bool is_rated(const error_pair *error, const error_pair *floor, bool end) {
-  return end ? error->end >= 10 * floor->end : error->max >= 10 * floor->max;
 }
 
 static corot_status copy_text(const char *text, char **out) {
@@ -50,6 +47,7 @@ static corot_status look_reference(measuring *g, int index, table_reference *t) 
     if (record[i].reason && !t->reason) status = copy_text(record[i].reason, &t->reason);
   }
   if (status == COROT_OK && t->state == RUN_DONE) {
+    t->approximations = approximations_of(record[0].result);
     drift ignored;
     corot_status measured =
         measure_run(g, &g->m->run[r->run[1]], record[1].result, index, &t->floor, &ignored);
@@ -70,6 +68,7 @@ static corot_status measure_cell(measuring *g, const table_reference *references
   const study_cell *c = t->cell;
   const table_reference *r = c->reference >= 0 ? &references[c->reference] : NULL;
   bool known = r && r->known;
+  t->approximations = approximations_of(result);
   COROT_TRY(costs_read(g->dir, t->run, result, &t->cost));
   corot_status status =
       measure_run(g, t->run, result, known ? c->reference : -1, &t->error, &t->drift);
@@ -82,6 +81,30 @@ static corot_status measure_cell(measuring *g, const table_reference *references
   return t->error_json && t->unrated ? COROT_OK : no_memory();
 }
 
+static bool has_text(const json_t *list, const char *text) {
+  for (size_t i = 0; i < json_array_size(list); i++)
+    if (strcmp(json_string_value(json_array_get(list, i)), text) == 0) return true;
+  return false;
+}
+
+/* The codes in a run's result, each once, in the order they were given in. */
+static corot_status read_warnings(const json_t *result, json_t **out) {
+  const json_t *given = json_object_get(result, "warnings");
+  json_t *list = json_array();
+  bool complete = list != NULL;
+  for (size_t i = 0; complete && i < json_array_size(given); i++) {
+    const char *code = json_string_value(json_object_get(json_array_get(given, i), "code"));
+    if (code && !has_text(list, code))
+      complete = json_array_append_new(list, json_string(code)) == 0;
+  }
+  if (complete) {
+    *out = list;
+    return COROT_OK;
+  }
+  json_decref(list);
+  return no_memory();
+}
+
 static corot_status look_cell(measuring *g, const table_reference *references, int index,
                               table_row *t) {
   const study_cell *c = &g->m->cell[index];
@@ -92,7 +115,9 @@ static corot_status look_cell(measuring *g, const table_reference *references, i
   t->reason = record.reason;
   record.reason = NULL;
   corot_status status = COROT_OK;
-  if (record.state == RUN_DONE) status = measure_cell(g, references, record.result, t);
+  if (record.state == RUN_DONE) status = read_warnings(record.result, &t->warnings);
+  if (record.state == RUN_DONE && status == COROT_OK)
+    status = measure_cell(g, references, record.result, t);
   run_record_free(&record);
   return status;
 }
@@ -152,14 +177,16 @@ static json_t *cell_json(const table_rows *t, const table_row *r) {
   bool below = floor && !is_rated(&r->error.of[t->measure], &floor->of[t->measure], false);
   json_t *drifts = json_pack("{s:o, s:o}", "energy", json_text_real(r->drift.energy), "momentum",
                              json_text_real(r->drift.momentum));
-  return json_pack("{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:s?}",
-                   "id", r->run->id, "series", c->series, "settings", c->settings, "tolerance",
-                   json_text_real(c->tolerance), "tolerance_key", c->tolerance_key, "status",
-                   state_words[r->state], "reason", r->reason, "cost",
-                   r->state == RUN_DONE ? costs_json(&r->cost) : json_null(), "error",
-                   owned(r->error_json), "digits", floor ? digits(&r->error, floor) : json_null(),
-                   "below_floor", below, "unrated", owned(r->unrated), "drift", drifts, "reference",
-                   c->reference >= 0 ? json_integer(c->reference) : json_null(), "note", r->note);
+  return json_pack(
+      "{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:s?, s:o, s:o}",
+      "id", r->run->id, "series", c->series, "settings", c->settings, "tolerance",
+      json_text_real(c->tolerance), "tolerance_key", c->tolerance_key, "status",
+      state_words[r->state], "reason", r->reason, "cost",
+      r->state == RUN_DONE ? costs_json(&r->cost) : json_null(), "error", owned(r->error_json),
+      "digits", floor ? digits(&r->error, floor) : json_null(), "below_floor", below, "unrated",
+      owned(r->unrated), "drift", drifts, "reference",
+      c->reference >= 0 ? json_integer(c->reference) : json_null(), "note", r->note, "shared",
+      cell_shared(t, r), "warnings", owned(r->warnings));
 }
 
 /* How far two references agree, in words. */
@@ -204,18 +231,19 @@ static json_t *columns_json(const manifest *m) {
   return list;
 }
 
-static corot_status make_table(const manifest *m, const table_rows *t, json_t **out) {
+static corot_status make_table(const manifest *m, const table_rows *t, json_t *space,
+                               json_t **out) {
   json_t *cells = json_array(), *references = json_array();
   for (int i = 0; i < t->n; i++) cells = json_text_push(cells, cell_json(t, &t->row[i]));
   for (int i = 0; i < m->nreference; i++)
     references = json_text_push(references, reference_json(m, &t->reference[i]));
   bool whole =
       (int)json_array_size(cells) == t->n && (int)json_array_size(references) == m->nreference;
-  json_t *table =
-      json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "title", m->title, "cost",
-                m->cost, "measure", m->measure, "corot", m->version, "columns", columns_json(m),
-                "series", series_json(t), "references", references, "fits", collect_fits(t),
-                "rankings", collect_rankings(t), "cells", cells);
+  json_t *table = json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}", "title",
+                            m->title, "cost", m->cost, "measure", m->measure, "corot", m->version,
+                            "columns", columns_json(m), "series", series_json(t), "shared",
+                            table_shared(t), "references", references, "fits", collect_fits(t),
+                            "rankings", collect_rankings(t), "cells", cells, "space", space);
   if (!whole || !table) {
     json_decref(table);
     return no_memory();
@@ -238,7 +266,11 @@ static corot_status collect(measuring *g, table_reference *references, table_row
                   .cost = m->cost};
   if (t.measure < 0 || !is_cost(t.cost))
     return corot_fail(COROT_EFORMAT, "%s/study.json: unknown measure or cost", g->dir);
-  return make_table(m, &t, out);
+  json_t *space;
+  COROT_TRY(collect_space(g, references, &space));
+  corot_status status = make_table(m, &t, space, out);
+  json_decref(space);
+  return status;
 }
 
 static void free_rows(int n, table_row *row) {
@@ -248,6 +280,8 @@ static void free_rows(int n, table_row *row) {
     errors_free(&row[i].error);
     json_decref(row[i].error_json);
     json_decref(row[i].unrated);
+    json_decref(row[i].approximations);
+    json_decref(row[i].warnings);
   }
   free(row);
 }
@@ -258,6 +292,7 @@ static void free_references(int n, table_reference *reference) {
     free(reference[i].note);
     errors_free(&reference[i].floor);
     json_decref(reference[i].floor_json);
+    json_decref(reference[i].approximations);
   }
   free(reference);
 }
@@ -271,6 +306,23 @@ corot_status collect_table(const manifest *m, const char *dir, json_t **table) {
   if (references) free_references(m->nreference, references);
   measuring_free(&g);
   return status;
+}
+
+/* "warning: bending: 2 of 8 cells: ID ID", all too many left out. */
+static void tell_code(const json_t *cells, const char *code, FILE *out) {
+  enum { MOST = 8 };
+  size_t count = 0, told = 0;
+  for (size_t i = 0; i < json_array_size(cells); i++)
+    count += has_text(json_object_get(json_array_get(cells, i), "warnings"), code);
+  if (count == 0) return;
+  fprintf(out, "warning: %s: %zu of %zu cells:", code, count, json_array_size(cells));
+  for (size_t i = 0; i < json_array_size(cells) && told < MOST; i++) {
+    const json_t *c = json_array_get(cells, i);
+    if (!has_text(json_object_get(c, "warnings"), code)) continue;
+    fprintf(out, " %s", json_string_value(json_object_get(c, "id")));
+    told++;
+  }
+  fputs(count > MOST ? " ...\n" : "\n", out);
 }
 
 static void warn(const json_t *table, FILE *out) {
@@ -290,16 +342,17 @@ static void warn(const json_t *table, FILE *out) {
   if (nbelow > 0)
     fprintf(out, "%d of %zu cells are not rated: less than ten times what the references know\n",
             nbelow, json_array_size(cells));
+  for (int code = 0; code < WARNING_CODES; code++) tell_code(cells, warning_kinds[code].word, out);
 }
 
-corot_status collect_study(const manifest *m, const char *dir, FILE *warnings) {
+corot_status collect_study(const manifest *m, const char *dir, FILE *remarks) {
   json_t *table = NULL;
   json_text_starved(); /* an earlier lack of memory is none of this table */
   COROT_TRY(collect_table(m, dir, &table));
   corot_status status = json_file_write(dir, "table.json", table);
   if (status == COROT_OK) status = table_write_csv(table, dir);
   if (status == COROT_OK) status = table_write_sqlite(table, dir);
-  if (status == COROT_OK && warnings) warn(table, warnings);
+  if (status == COROT_OK && remarks) warn(table, remarks);
   json_decref(table);
   return status;
 }

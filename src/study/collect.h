@@ -4,6 +4,8 @@
      title, cost, measure   as in the study file; corot: the version that made the runs
      columns     names of the cells' coordinates
      series      names, in alphabetical order
+     shared      a sentence: what errors are of, and what the runs have in common with their
+                 references, so that no error says anything of it
      cells       by series, each from coarse to fine:
        id, series, settings {column: value}, tolerance, tolerance_key
        status      done | failed | missing;  reason: of a failure
@@ -17,8 +19,13 @@
        drift       energy, momentum
        reference   number in the list of references
        note        why there are no errors, though the run is done
+       shared      approximations that it has in common with its reference, in words
+       warnings    the codes of what the run warns of, each once: a list (app/warnings.h)
      references  {runs: [two ids], methods, rtol, settings, status, reason, agree, parts_at [s],
                   floor: error of the one against the other, digits, note}
+     space       of the meshes, where mesh.refine is varied: by references of neighbouring levels,
+                 {reference, refine, levels, error, bound, low, high, floor, order, verdict} as in
+                 a budget (budget.h)
      fits        {series, tolerance_key, exponent, constant, residual, points, verdict} of the
                  study's measure, over the points that are rated
      rankings    {error, best: [{series, id, cost, tolerance}]}: for each power of ten the
@@ -33,8 +40,8 @@
 /* The caller's to json_decref. */
 corot_status collect_table(const manifest *m, const char *dir, json_t **table);
 
-/* Collects, and writes all three files. To `warnings` (or NULL): references that part ways or are
-   not known, and how many cells are not rated. */
-corot_status collect_study(const manifest *m, const char *dir, FILE *warnings);
+/* Collects, and writes all three files. To `remarks` (or NULL): references that part ways or are
+   not known, how many cells are not rated, and which cells carry which warnings. */
+corot_status collect_study(const manifest *m, const char *dir, FILE *remarks);
 
 #endif

@@ -74,11 +74,15 @@ static corot_status read_states(const char *dir, const study_run *run, trajector
   return status;
 }
 
+corot_status measure_states(measuring *g, int reference, trajectory *out) {
+  return read_states(g->dir, &g->m->run[g->m->reference[reference].run[0]], out);
+}
+
 static corot_status hold_reference(measuring *g, int reference) {
   if (g->reference == reference) return COROT_OK;
   states_free(&g->kept);
   g->reference = -1;
-  COROT_TRY(read_states(g->dir, &g->m->run[g->m->reference[reference].run[0]], &g->kept));
+  COROT_TRY(measure_states(g, reference, &g->kept));
   g->reference = reference;
   return COROT_OK;
 }
@@ -97,6 +101,17 @@ corot_status measure_run(measuring *g, const study_run *run, const json_t *resul
   COROT_TRY(read_states(g->dir, run, &t));
   status = errors_measure(g->yardstick, &t, &g->kept, e);
   states_free(&t);
+  return status;
+}
+
+corot_status measure_hold(measuring *g, int reference) {
+  const study_run *run = &g->m->run[g->m->reference[reference].run[0]];
+  run_record record;
+  COROT_TRY(store_look(g->dir, run, &record));
+  corot_status status = record.state == RUN_DONE
+                            ? hold_yardstick(g, record.result)
+                            : corot_fail(COROT_EINVAL, "the reference is not known");
+  run_record_free(&record);
   return status;
 }
 

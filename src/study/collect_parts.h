@@ -24,6 +24,8 @@ typedef struct table_row {
   errors error;
   drift drift;
   json_t *error_json, *unrated; /* of what is measured, by name */
+  json_t *approximations;       /* that the run makes; NULL: it is not done */
+  json_t *warnings;             /* the codes of the run's own, each once: a list */
 } table_row;
 
 typedef struct table_reference {
@@ -34,6 +36,7 @@ typedef struct table_reference {
   bool known;      /* the floor is */
   errors floor;
   json_t *floor_json;
+  json_t *approximations; /* that its runs make; NULL: they are not done */
 } table_reference;
 
 /* Errors by name: an object. */
@@ -54,9 +57,6 @@ json_t *costs_json(const costs *c);
 /* The measure of that name; -1: there is none. */
 int measure_named(const char *name);
 
-/* An error is rated if it is ten times what is known of the reference. */
-bool is_rated(const error_pair *error, const error_pair *floor, bool end);
-
 /* Fits and rankings of rows [n], as lists. NULL: no memory. */
 typedef struct table_rows {
   int n;
@@ -65,6 +65,14 @@ typedef struct table_rows {
   int measure;
   const char *cost;
 } table_rows;
+
+/* The approximations that a run makes beside that of time, a list of words by kind: "" none of that
+   kind. The caller's. */
+json_t *approximations_of(const json_t *result);
+
+/* Those that a row has in common with its reference, in words; and a sentence for all rows. */
+json_t *cell_shared(const table_rows *t, const table_row *r);
+json_t *table_shared(const table_rows *t);
 
 json_t *collect_fits(const table_rows *t);
 json_t *collect_rankings(const table_rows *t);
@@ -84,6 +92,14 @@ typedef struct measuring {
    are none, and the message says why. */
 corot_status measure_run(measuring *g, const study_run *run, const json_t *result, int reference,
                          errors *e, drift *d);
+
+/* Makes the yardstick that of a reference, and reads the states of its first run. */
+corot_status measure_hold(measuring *g, int reference);
+corot_status measure_states(measuring *g, int reference, trajectory *out);
+
 void measuring_free(measuring *g);
+
+/* What references of neighbouring mesh.refine say of the meshes: a list, the caller's. */
+corot_status collect_space(measuring *g, const table_reference *reference, json_t **out);
 
 #endif

@@ -5,7 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "states_sum.h"
+
 const char *const error_words[ERROR_PROBES] = {"displacement", "velocity", "energy", "mixed"};
+
+bool is_rated(const error_pair *error, const error_pair *known, bool end) {
+  return end ? error->end >= ERROR_FLOOR * known->end : error->max >= ERROR_FLOOR * known->max;
+}
 
 /* --- The yardstick --- */
 
@@ -65,12 +71,14 @@ static double dot(int n, const double *x, const double *y) {
   return sum;
 }
 
-static double mass_norm(yardstick *y, const double *x) {
+double yardstick_product(yardstick *y, const double *x, const double *z) {
   int n = corot_model_ndof(y->model);
   double *Mx = y->work + 2 * n;
   corot_mass_multiply(y->model, x, Mx);
-  return sqrt(dot(n, x, Mx));
+  return dot(n, z, Mx);
 }
+
+static double mass_norm(yardstick *y, const double *x) { return sqrt(yardstick_product(y, x, x)); }
 
 static double energy_norm(yardstick *y, const double *x) {
   int n = corot_model_ndof(y->model);
@@ -90,30 +98,19 @@ typedef struct pairing {
 } pairing;
 
 static corot_status match_places(pairing *p) {
-  const trajectory *run = p->run, *r = p->reference;
   int n = corot_model_ndof(p->y->model);
-  if (run->n != n)
-    return corot_fail(COROT_EINVAL, "states of %d degrees of freedom, of a model of %d", run->n, n);
-  p->at = malloc(((size_t)n + 1) * sizeof *p->at);
-  if (!p->at) return corot_fail(COROT_ENOMEM, "out of memory");
-  for (int i = 0, k = 0; i < n; i++) {
-    while (k < r->n && r->place[k] < run->place[i]) k++;
-    if (k == r->n || r->place[k] != run->place[i])
-      return corot_fail(COROT_EINVAL, "the reference has no free component %d of node %d",
-                        run->place[i] % 3, run->place[i] / 3);
-    p->at[i] = k;
-  }
-  return COROT_OK;
+  if (p->run->n != n)
+    return corot_fail(COROT_EINVAL, "states of %d degrees of freedom, of a model of %d", p->run->n,
+                      n);
+  return states_places(p->run, p->reference, &p->at);
 }
-
-static bool same_time(double s, double t, double end) { return fabs(s - t) <= 1e-9 * end; }
 
 static corot_status check_ends(const pairing *p) {
   if (p->run->count == 0 || p->reference->count == 0)
     return corot_fail(COROT_EINVAL, "no states were written");
   double end = states_t(p->run, p->run->count - 1);
   double other = states_t(p->reference, p->reference->count - 1);
-  if (same_time(end, other, fmax(end, other))) return COROT_OK;
+  if (states_same_time(end, other, fmax(end, other))) return COROT_OK;
   return corot_fail(COROT_EINVAL, "ends at t = %g s, its reference at %g s", end, other);
 }
 
@@ -191,7 +188,7 @@ static corot_status measure(pairing *p) {
   double end = states_t(p->run, p->run->count - 1);
   for (int i = 0, k = 0; i < p->run->count && k < p->reference->count;) {
     double s = states_t(p->run, i), t = states_t(p->reference, k);
-    if (same_time(s, t, end))
+    if (states_same_time(s, t, end))
       compare(p, i++, k++);
     else if (s < t)
       i++;
@@ -214,6 +211,15 @@ corot_status errors_measure(yardstick *y, const trajectory *run, const trajector
   else
     errors_free(&e);
   return status;
+}
+
+corot_status errors_copy(const errors *e, errors *out) {
+  errors copy = *e;
+  copy.of = malloc(((size_t)e->n + 1) * sizeof *copy.of);
+  if (!copy.of) return corot_fail(COROT_ENOMEM, "out of memory");
+  if (e->n > 0) memcpy(copy.of, e->of, (size_t)e->n * sizeof *copy.of);
+  *out = copy;
+  return COROT_OK;
 }
 
 void errors_free(errors *e) {

@@ -23,6 +23,7 @@
 
 #include <app/scenario.h>
 #include <app/states.h>
+#include <stdbool.h>
 
 enum { ERROR_DISPLACEMENT, ERROR_VELOCITY, ERROR_ENERGY, ERROR_MIXED, ERROR_PROBES };
 extern const char *const error_words[ERROR_PROBES];
@@ -30,6 +31,13 @@ extern const char *const error_words[ERROR_PROBES];
 typedef struct error_pair {
   double max, end; /* over time; at the last time */
 } error_pair;
+
+/* One rule of floors for all that is claimed: an error is rated if it is at least so many times
+   what its reference is known by; below that it is said to be below the floor, and nothing else. */
+#define ERROR_FLOOR 10.0
+
+/* known: how far the reference is from the truth, as far as is known; NaN: nobody knows. */
+bool is_rated(const error_pair *error, const error_pair *known, bool end);
 
 typedef struct errors {
   int n;          /* ERROR_PROBES and the number of probes */
@@ -57,7 +65,11 @@ void yardstick_destroy(yardstick *y);
    COROT_EINVAL: they do not fit together. */
 corot_status errors_measure(yardstick *y, const trajectory *run, const trajectory *reference,
                             errors *out);
+corot_status errors_copy(const errors *e, errors *out);
 void errors_free(errors *e);
+
+/* x' M z, each [n]. */
+double yardstick_product(yardstick *y, const double *x, const double *z);
 
 /* What ought to be conserved, NaN where it is not known or cannot be said:
 

@@ -92,7 +92,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
   if (status == COROT_OK) {
     int n = 0;
     argv[n++] = "corot";
-    argv[n++] = "run";
+    argv[n++] = e->o->command ? e->o->command : "run";
     argv[n++] = e->m->base;
     argv[n++] = "--quiet";
     argv[n++] = "--output";

@@ -6,6 +6,7 @@
 
 typedef struct execute_options {
   const char *dir;
+  const char *command;   /* of the program that makes a run; NULL: run */
   int njob;              /* runs at once */
   int shard, nshard;     /* this one of so many parts of the runs, 1 to nshard */
   bool retry_failed;     /* those that failed before, too */

@@ -11,7 +11,7 @@ static const char *const costs[] = {"cpu",      "cpu_min", "cpu_max", "wall",   
                                     "repeats"};
 static const char *const before[] = {"id", "series"};
 static const char *const after[] = {"tolerance", "tolerance_key", "status", "reason"};
-static const char *const last[] = {"digits", "below_floor", "note"};
+static const char *const last[] = {"digits", "below_floor", "note", "shared", "warnings"};
 static const char *const drifts[] = {"energy", "momentum"};
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))

@@ -137,6 +137,15 @@ static void print_references(const json_t *list, FILE *out) {
   }
 }
 
+static void print_space(const json_t *list, FILE *out) {
+  if (json_array_size(list) > 0) fputs("\nspace, by references of neighbouring levels\n", out);
+  for (size_t i = 0; i < json_array_size(list); i++) {
+    const json_t *s = json_array_get(list, i);
+    fprintf(out, "  mesh.refine %.0f, reference %.0f: %s\n", number_at(s, "refine"),
+            number_at(s, "reference"), text_at(s, "verdict"));
+  }
+}
+
 static void print_fits(const json_t *list, FILE *out) {
   if (json_array_size(list) > 0) fputs("\nerror = constant * tolerance^exponent\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
@@ -179,7 +188,10 @@ corot_status table_print(const json_t *table, FILE *out) {
   escape_line(text_at(table, "title"), out);
   fputs("\n\n", out);
   print_cells(table, out);
+  if (json_is_string(json_object_get(table, "shared")))
+    fprintf(out, "\n%s\n", text_at(table, "shared"));
   print_references(json_object_get(table, "references"), out);
+  print_space(json_object_get(table, "space"), out);
   print_fits(json_object_get(table, "fits"), out);
   print_rankings(table, out);
   return COROT_OK;

@@ -17,7 +17,7 @@ typedef struct variants_arguments {
 typedef struct variants_command {
   const char *program, *help;
   const char *suffix;        /* of the default folder, out/MODELSUFFIX */
-  const struct option *more; /* options of its own, each with a value, or NULL */
+  const struct option *more; /* options of its own, or NULL */
   int (*take)(void *context, int option, const char *value); /* one of them: -1, or an exit code */
   /* After all options, NULL or: -1, or an exit code. May add one setting. */
   int (*ready)(void *context, variants_arguments *a);

@@ -33,6 +33,7 @@ static corot_status make_model(corot_mesh *mesh, const char *strain, corot_model
   corot_load load = {COROT_TRACTION, "highest face", {200, 0, 0}, {2, time, value}};
   corot_model_def def = corot_model_defaults();
   def.mesh = mesh, def.strain = strain;
+  def.viscosity = COROT_COROTATED; /* the paper's */
   def.nmaterial = 1, def.material = &material;
   def.nfix = 1, def.fix = &fix;
   def.nload = 1, def.load = &load;

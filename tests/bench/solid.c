@@ -52,6 +52,7 @@ corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, sol
   corot_fix fix = {"base", {true, true, true}};
   corot_model_def def = corot_model_defaults();
   def.mesh = mesh, def.strain = strain;
+  def.viscosity = COROT_COROTATED; /* the paper's */
   def.nmaterial = 1, def.material = &material;
   def.nfix = 1, def.fix = &fix;
   solid s = {0};

@@ -19,8 +19,9 @@ FLAGS = """--headless --no-sandbox --use-gl=angle --use-angle=swiftshader --enab
 --disable-quic --no-first-run --disable-background-networking --disable-component-update
 --disable-sync --disable-default-apps""".split()
 
-# How many pixels the body covers, and a number that depends on all of them.
-PIXELS = """const c = document.createElement('canvas'), of = document.querySelector('canvas');
+# How many pixels a canvas, the body's unless another is named, covers, and a number that depends
+# on all of them.
+PIXELS = """const c = document.createElement('canvas'), of = document.querySelector(arguments[0] || 'canvas');
 c.width = of.width; c.height = of.height;
 const d = c.getContext('2d'); d.drawImage(of, 0, 0);
 const p = d.getImageData(0, 0, c.width, c.height).data;
@@ -75,8 +76,14 @@ def table(path):
         return list(csv.DictReader(file))
 
 
+def drawn(run, name):
+    """The table that the charts are of: with every step, if the run has left one."""
+    fine = f"{run}/history.csv"
+    return table(fine if name != "steps" and os.path.exists(fine) else f"{run}/{name}.csv")
+
+
 def check_charts(page, run):
-    rows = {name: table(f"{run}/{name}.csv") for name in ("probes", "steps", "energy")}
+    rows = {name: drawn(run, name) for name in ("probes", "steps", "energy")}
     expected = {"probe-0": ("probes", 3), "probe-1": ("probes", 3), "step-size": ("steps", 1),
                 "order": ("steps", 1), "error-estimate": ("steps", 1), "newton": ("steps", 1),
                 "frame-angle": ("steps", 1), "energies": ("energy", 4), "balance": ("energy", 2)}
@@ -94,20 +101,23 @@ def check_charts(page, run):
         assert "[" in label or name in ("order", "newton", "error-estimate"), label  # has its unit
     # No point is left out of a line that is not crowded.
     path = page.find("#probe-0 g.series .line").get_attribute("d")
-    assert path.count("L") + path.count("M") == len(rows["probes"])
+    if len(rows["probes"]) < 1000:
+        assert path.count("L") + path.count("M") == len(rows["probes"])
     updates = sum(1 for r in rows["steps"] if "frames" in r["event"])
     assert updates > 10 and len(page.all("#frame-angle .frame .mark")) == updates
 
 
 def check_pointer(page, run):
-    rows = table(f"{run}/probes.csv")
+    rows = drawn(run, "probes")
     svg = page.find("#probe-0 .frame > svg")
     page.js("arguments[0].scrollIntoView({block: 'center'})", svg)
     at = lambda x: page.js("""const c = corot.charts['probe-0'], b = c.svg.getBoundingClientRect();
         return Math.round(c.across(arguments[0]) - b.width / 2)""", x)
     ActionChains(page.browser).move_to_element_with_offset(svg, at(0.5), 0).perform()
     tip = page.find("#probe-0 .tip").text
-    row = next(r for r in rows if abs(float(r["t"]) - 0.5) < 1e-9)
+    shown = float(tip.split("t = ")[1].split("\n")[0])
+    assert abs(shown - 0.5) < 0.01, tip
+    row = min(rows, key=lambda r: abs(float(r["t"]) - shown))
     for c in "ux", "uy", "uz":
         shown = float(tip.split(c + ": ")[1].split("\n")[0])
         assert abs(shown - float(row["corner." + c])) <= 1e-4 * abs(shown), (tip, row)
@@ -176,6 +186,144 @@ def check_body(page, run):
     assert page.js("return corot.timeline.moment") > 0  # shown in the charts, too
 
 
+def check_opening(page, run):
+    """The page opens at the largest displacement of all frames."""
+    rows = table(f"{run}/probes.csv")
+    frame, furthest = page.js("""const b = corot.body, { q, count } = b.fields[0];
+        const most = b.t.reduce((list, _, k) => [...list, Math.max(...q.subarray(k * count, (k + 1) * count))], []);
+        return [b.frame, most.indexOf(Math.max(...most))]""")
+    assert frame == furthest and page.find("#frame").get_attribute("value") == str(frame), (frame, furthest)
+    assert f"t = {float(rows[frame]['t']):g} s" in page.find(".player output").text
+    assert page.js("return corot.timeline.moment === corot.body.t[corot.body.frame]")
+
+
+def check_warnings(page, run):
+    """Those of result.json, or that there are none; returns their texts."""
+    with open(f"{run}/result.json") as file:
+        warnings = [w if isinstance(w, str) else w["text"] for w in json.load(file)["warnings"]]
+    shown = [li.text for li in page.all("#warnings li")]
+    assert len(shown) == len(warnings) and all(s.startswith(w) for s, w in zip(shown, warnings)), shown
+    assert warnings or page.find("#warnings").text == "No warnings."
+    return warnings
+
+
+def toggle(page):
+    page.js("""for (const l of document.querySelectorAll('.controls label'))
+        if (l.textContent.includes('supports and loads')) l.querySelector('input').click()""")
+
+
+def check_marks(page, texts):
+    """Supports and loads are drawn over the body, and said beneath it; they can be hidden."""
+    items = [li.text for li in page.all("#conditions li")]
+    assert len(items) == len(texts) and all(i.startswith(t) for i, t in zip(items, texts)), items
+    covered, picture = page.js(PIXELS, ".overlay")
+    assert 0.001 < covered < 0.2, covered
+    body = page.js(PIXELS)
+    toggle(page)
+    assert not page.find(".overlay").is_displayed() and not page.find("#conditions").is_displayed()
+    assert page.js(PIXELS) == body
+    toggle(page)
+    assert page.js(PIXELS, ".overlay") == [covered, picture]
+    page.js("corot.body.camera.turn(0.5, 0.2); corot.body.draw()")  # they turn with it
+    assert page.js(PIXELS, ".overlay")[1] != picture
+
+
+def check_moving(run):
+    with Page(f"{run}/report.html") as page:
+        title = '</script><b id=bad onclick=alert(1)>A title & "others" </b>'
+        assert page.browser.title.strip() == title and page.find("h1").text == title
+        assert not page.all("#bad")
+        assert any("nu = 0.495" in text for text in check_warnings(page, run))
+        assert page.find("#warnings").rect["y"] < 400 < page.find("#body").rect["y"]
+        check_marks(page, ["base: x, z held", "top: turned about (0, 0, 1) at 1 rad/s",
+                           "traction on side: (300, 0, 0) Pa", "gravity: (0, 0, -9.81) m/s^2",
+                           "pressure on side: 10 Pa"])
+        # The traction turns round, and is gone half-way.
+        page.js("corot.body.exaggeration = 0; corot.body.camera.reset()")
+        seen = {}
+        for frame, factor in (0, "1"), (5, "0"), (10, "-1"):
+            page.js("corot.body.show(arguments[0])", frame)
+            assert f"× {factor} now" in page.all("#conditions li")[2].text, page.all("#conditions li")[2].text
+            seen[frame] = page.js(PIXELS, ".overlay")
+        assert len({picture for _, picture in seen.values()}) == 3
+        assert seen[5][0] < 0.95 * min(seen[0][0], seen[10][0]), seen  # dots have fewer pixels
+        check_looks(page)
+
+
+def check_static(run):
+    with open(run + "/result.json") as file:
+        result = json.load(file)
+    rows, steps = table(f"{run}/probes.csv"), result["statics"]["steps"]
+    with Page(f"{run}/report.html") as page:
+        charts = page.js("return Object.keys(corot.charts)")
+        assert charts == ["curve-0", "curve-1", "reaction-0", "residuals", "newton", "energies"], charts
+        xs, ys = page.js("const s = corot.charts['curve-0'].series[0]; return [[...s.x], [...s.y]]")
+        assert xs == [float(r["corner.ux"]) for r in rows]
+        assert max(abs(y - f) for y, f in zip(ys, [0, 0.25, 0.5, 0.75, 1])) < 1e-12, ys
+        # 200 and 50 Pa on 0.01 m^2, to the tolerance of the equilibrium.
+        held = page.js("return corot.charts['reaction-0'].series.map((s) => s.y[s.y.length - 1])")
+        assert abs(held[0] + 2) < 1e-6 and abs(held[1] + 0.5) < 1e-6, held
+        expected = [r / s["force"] for s in steps for r in s["residual"]]
+        shown = page.js("return [...corot.charts.residuals.series[0].y].filter((y) => !isNaN(y))")
+        assert shown == expected and page.js("return corot.charts.residuals.data.yLog")
+        assert not any(n.is_displayed() for n in page.all("#residuals .note"))
+        for word in "t [s]", "balance", "kinetic", "dissipated":
+            assert not any(word in e.text for e in page.all("h3, th, .facts, .legend, svg")), word
+        check_warnings(page, run)
+        # Load factors, which the slider goes through; nothing plays.
+        assert page.find(".player output").text == "load factor = 1"
+        assert page.find("#frame").is_displayed() and not page.find("#play").is_displayed()
+        page.js("const s = document.querySelector('#frame'); s.value = 1; s.dispatchEvent(new Event('input'))")
+        assert page.find(".player output").text == "load factor = 0.25"
+        assert "× 0.25 now" in page.all("#conditions li")[1].text
+        assert page.js("return corot.timeline.moment") == 0.25
+        check_marks(page, ["base: x, y, z held", "traction on top: (200, 50, 0) Pa"])
+        check_looks(page)
+
+
+def check_small(one, bare, gone):
+    with Page(f"{one}/report.html") as page:  # a single load step: there is nothing to slide through
+        assert not page.find("#frame").is_displayed() and not page.find("#play").is_displayed()
+        assert page.find(".player output").text == "load factor = 1"
+        assert "in 1 load step and" in page.find(".lead").text
+    with Page(f"{bare}/report.html") as page:  # no fields: no body, and all else
+        check_warnings(page, bare)
+        assert not page.all("#body") and page.all("#probe-0") and page.all("#energies")
+        check_looks(page)
+    with Page(f"{gone}/report.html") as page:  # failed at once: one row, one frame
+        assert page.find(".outcome").text.startswith("failed at t = 0 s of 1 s: newmark")
+        assert len(page.all("#probe-0 .mark")) == 3 and not page.find("#play").is_displayed()
+        check_looks(page)
+
+
+def check_long(run):
+    """A page stays small however long the run was, and no peak is lost."""
+    path = f"{run}/report.html"
+    extremes = json.load(open(f"{run}/result.json"))["extremes"]
+    with Page(path) as page:
+        data = page.js("""const s = corot.charts['probe-0'].series[0];
+            return [s.x.length, Math.min(...s.y), Math.max(...s.y), s.x[0], s.x[s.x.length - 1]]""")
+        peak, dip = extremes["corner.ux"]["max"], extremes["corner.ux"]["min"]
+        assert 2000 < data[0] <= 4000 and data[3:] == [0, 1], data
+        assert abs(data[1] - dip["value"]) < 1e-6 and abs(data[2] - peak["value"]) < 1e-6, data
+        # 12 curves of the history, and of the steps.
+        assert os.path.getsize(path) < 3e6, os.path.getsize(path)
+        assert page.find("#warnings h3").text == "2 warnings"
+        assert [li.text for li in page.all("#warnings li")] == \
+            ["One <b>thing</b> is off. one-thing", "Another is, too."]
+        assert len(page.all("#extremes tbody tr")) == len(extremes)
+        # A click on when it was shows the body there.
+        row = page.all("#extremes tbody tr")[0]
+        assert row.text.startswith("corner.ux [m]"), row.text
+        button = row.find_elements(By.CSS_SELECTOR, "button")[1]
+        assert button.text == f"{peak['t']:.6g}"
+        button.click()
+        at = page.js("return corot.body.t[corot.body.frame]")
+        assert abs(at - peak["t"]) <= 0.0101, at
+        check_looks(page)
+        measure(page, path)
+
+
 def check_looks(page):
     for width, dark in (390, False), (390, True), (1200, True), (1200, False):
         page.open(width, dark)
@@ -222,10 +370,13 @@ def check_run(run):
     with Page(path) as page:
         assert page.browser.title == "A bar <that> bends & swings"
         assert page.js("return performance.getEntriesByType('resource').length") == 0
+        check_opening(page, run)
         check_ticks(page)
         check_charts(page, run)
         check_pointer(page, run)
         check_body(page, run)
+        page.open(1200, False)
+        check_marks(page, ["base: x, y, z held", "traction on top: (200, 50, 0) Pa"])
         check_looks(page)
         measure(page, path)
     with Page(path, flags=["--disable-3d-apis"]) as page:  # painted without WebGL
@@ -234,6 +385,7 @@ def check_run(run):
         assert 0.02 < covered < 0.8, covered
         page.js("corot.body.show(0)")
         assert page.js(PIXELS)[1] != picture
+        assert page.js(PIXELS, ".overlay")[0] > 0.001  # marks need no WebGL either
 
 
 def check_study(folder):
@@ -264,4 +416,8 @@ if __name__ == "__main__":
             measure(measured, sys.argv[2])
     else:
         check_run(sys.argv[1])
+        check_moving("moving")
+        check_static("still")
+        check_small("one", "bare", "gone")
+        check_long("long")
         check_study(sys.argv[2])

@@ -31,6 +31,9 @@ expect 1 $limit -o all --set integrator.step=0.01 --set integrator.max_steps=2 -
 out "not even 0.1 is stable"
 
 expect 2 find-limit model.yaml --from 1 --to 2; err "--key is missing"
+long=$(printf '%079d' 0) # the longest key, and one that is longer
+expect 3 find-limit model.yaml --key "$long" --from 1 --to 2; err "$long"
+expect 2 find-limit model.yaml --key "0$long" --from 1 --to 2; err "expected a key such as"
 expect 2 find-limit model.yaml --key time.end --from 2 --to 1; err "expected 0 < from < to"
 expect 2 find-limit model.yaml --key time.end --from x; err "x: expected a number"
 expect 2 find-limit model.yaml --key time.end --from 1 --to 2 --energy 1; err "above 1"

@@ -31,7 +31,7 @@ json() { python3 -c "import json, sys; d = json.load(open('stdout')); assert $1,
 
 cat >model.yaml <<'YAML'
 title: a block under a shear load
-mesh: {box: {size: [0.1, 0.1, 0.2], cells: [1, 1, 2]}}
+mesh: {box: {size: [0.1, 0.1, 0.2], cells: [1, 1, 2], split: kuhn}}
 groups:
   base: {plane: {axis: z, at: 0.0}}
 material: {lambda: 1.0e5, mu: 1.0e4, density: 1000.0, damping: {lambda: 10.0, mu: 1.0}}

@@ -7,11 +7,18 @@ out "nodes     117"; out "[-1, -0.9] x [0, 0.1] x [0.1, 0.7]"; out "zmax: 9 node
 expect 0 mesh info box.msh --json
 json 'd["tets"] == 288 and len(d["groups"]) == 6 and abs(d["volume"] - 0.006) < 1e-12'
 
+for split in symmetric:192 alternating:48 kuhn:48; do
+  expect 0 mesh box --size 1,1,1 --cells 1,1,8 --split "${split%:*}" -o split.msh
+  err " ${split#*:} tets"
+done
+rm split.msh
 expect 2 mesh box --size 1,1 --cells 1,1,1 -o x.msh; err "--size 1,1: expected X,Y,Z"
 expect 2 mesh box --size 1,1,1 --cells 1,1,0 -o x.msh; err "--cells 1,1,0"
 expect 2 mesh box --size 1,1,1 --cells 1,1,1.5 -o x.msh; err "--cells"
 expect 2 mesh box --size 1,1,-1 --cells 1,1,1 -o x.msh; no_out
 expect 2 mesh box --size 1,1,1 -o x.msh; err "--cells is missing"
+expect 2 mesh box --size 1,1,1 --cells 1,1,1 --split even -o x.msh
+err "--split even: expected symmetric, alternating or kuhn"
 expect 2 mesh box --size 1,1,1 --cells 1,1,1; err "-o FILE is missing"
 expect 2 mesh box --size 1,1,1 --cells 1,1,1 -o x.msh y; err "unexpected: y"
 expect 5 mesh box --size 1,1,1 --cells 1,1,1 -o none/x.msh; err "none/x.msh"

@@ -12,7 +12,7 @@ expect 0 report run; out run/report.html; no_err
 expect 0 report run -o other.html; out other.html
 cmp -s run/report.html other.html || complain "two reports of one run differ"
 python3 - <<'PY' || complain "the page"
-import html.parser, re
+import html.parser, json, re
 class Page(html.parser.HTMLParser):
     found = []
     def handle_starttag(self, tag, attributes):
@@ -26,7 +26,30 @@ for tag, attributes in page.found:  # nothing is fetched
 assert not set(re.findall(r"https?://[^\s'\"<]*", text)) - {"http://www.w3.org/2000/svg"}
 assert [a["id"] for t, a in page.found if t == "section"] == \
     ["summary", "body", "probes", "steps", "energy", "scenario"]
+warnings = json.load(open("run/result.json"))["warnings"]
+assert ("No warnings." in text) == (not warnings)
 PY
+
+# What the run warns of stands on its page; where there is nothing, the page says so.
+cp -r run quiet
+python3 - <<'PY' || complain "the warnings"
+import html, json
+page = html.unescape(open("run/report.html", encoding="utf-8").read())
+result = json.load(open("run/result.json"))
+assert result["warnings"] and all(w["text"] in page for w in result["warnings"]), result["warnings"]
+result["warnings"] = []
+json.dump(result, open("quiet/result.json", "w"))
+PY
+expect 0 report quiet
+grep -q 'No warnings\.' quiet/report.html || complain "that there are no warnings"
+grep -q '"text":"traction on zmax: (200, 0, 0) Pa"' run/report.html || complain "the load"
+grep -q '"text":"base: x, y, z held"' run/report.html || complain "the support"
+
+expect 0 run model.yaml -o stiff --set material.lambda=1e7
+said=$(sed -n 's/.*\(nu = 0\.499[0-9]*\): .*/\1/p' stderr | head -n 1)
+[ -n "$said" ] || complain "no warning of locking"
+expect 0 report stiff
+grep -q "<li>.*$said" stiff/report.html || complain "a warning of the run is not on its page"
 
 expect 0 run model.yaml -o bare --quiet --set output.fields=none
 expect 0 report bare
@@ -34,6 +57,9 @@ grep -q 'id="body"' bare/report.html && complain "a body without fields"
 expect 0 static model.yaml -o still --quiet
 expect 0 report still
 grep -q 'Equilibrium of' still/report.html || complain "statics are not called so"
+sections=$(grep -o '<section id="[a-z]*"' still/report.html | cut -d'"' -f2 | tr '\n' ' ')
+[ "$sections" = 'summary body probes reactions steps energy scenario ' ] || complain "still: $sections"
+grep -q 'id="balance"\|t \[s\]\|off balance' still/report.html && complain "an equilibrium has no clock and no error in energy"
 expect 4 run model.yaml -o gone --quiet --set 'integrator={method: newmark, step: 0.004, newton: {iterations: 1}}'
 expect 0 report gone
 grep -q 'class="outcome bad"' gone/report.html || complain "a failure is not called so"

@@ -6,6 +6,17 @@ expect 0 run model.yaml; no_out
 expect 0 run model.yaml -o a/b --quiet; no_out; no_err
 [ -s a/b/energy.csv ] || complain "no a/b/energy.csv"
 
+# The groups that supports and loads name, where there are fields to draw them on.
+python3 - <<'PY' || complain "a/b/groups.json"
+import json
+groups = json.load(open("a/b/groups.json"))
+assert sorted(groups) == ["base", "zmax"], sorted(groups)
+assert groups["base"]["nodes"] == [0, 1, 2, 3] and groups["zmax"]["nodes"] == [8, 9, 10, 11]
+assert len(groups["zmax"]["faces"]) == 2 and set(sum(groups["zmax"]["faces"], [])) == {8, 9, 10, 11}
+PY
+expect 0 run model.yaml --output a/b --quiet --set time.end=0.02 --set output.fields=none
+[ ! -e a/b/groups.json ] || complain "groups of an earlier run"
+
 expect 0 run model.yaml --output a/b --json --set time.end=0.02
 json 'd is not None'
 

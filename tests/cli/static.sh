@@ -21,6 +21,21 @@ json 'd["probes"]["corner"]["v"] == [0, 0, 0] and d["probes"]["corner"]["u"][0] 
 expect 0 static model.yaml -o b --quiet --json --set statics.frames=held --set linear_solver=klu
 json 'd["statistics"]["nframes"] > 5 and d["statics"]["linear_solver"].startswith("klu")'
 
+# Supports hold what is put on, weight and traction on held nodes included: 2 kg, 200 Pa on 0.01 and
+# 0.02 m^2; to the tolerance of the residual, 1e-10 of some 10 N on each of the nodes.
+expect 0 static model.yaml -o f --quiet --json \
+  --set 'loads=[{gravity: [0, 0, -10]}, {group: zmax, traction: [200, 0, 0]}, {group: xmin, traction: [0, 200, 0]}]'
+json 'all(abs(f - g) < 1e-7 for f, g in zip(d["statics"]["reactions"]["base"], [-2, -4, 20]))'
+head -n 1 f/reactions.csv | grep -qx 't,base.fx,base.fy,base.fz' || complain "header of reactions.csv"
+[ "$(wc -l <f/reactions.csv)" = "$(wc -l <f/probes.csv)" ] || complain "rows of reactions.csv"
+expect 0 run model.yaml -o f --quiet
+[ ! -e f/reactions.csv ] || complain "reactions of an earlier equilibrium"
+# A support that an amplitude has turned and brought back a half: the body goes with it, unstrained.
+expect 0 static model.yaml -o m --quiet --json --set loads=[] --set 'boundary.0={group: base,
+  move: {rotate: {axis: [0, 0, 1], angle: 2}, amplitude: [[0, 0], [0.02, 1], [0.05, 0.5]]}}'
+json 'abs(d["probes"]["corner"]["u"][0] - (0.1 * (0.5403023058681398 - 0.8414709848078965) - 0.1)) < 1e-12'
+json 'd["energy"]["elastic"] < 1e-20'
+
 # What is refused.
 expect 3 static model.yaml -o c --set boundary=[]; no_out
 err "model.yaml: statics: the body can move along x, y and z and turn about x, y and z freely"

@@ -5,6 +5,7 @@
 #define ALLOC_H
 
 #include <corot/base.h>
+#include <stddef.h>
 
 /* Starts counting anew, and makes the k-th allocation from now on fail; 0: none. */
 void alloc_fail_at(long k);
@@ -14,6 +15,9 @@ long alloc_count(void);
 
 /* Blocks allocated since then and not freed. */
 long alloc_live(void);
+
+/* Bytes in these blocks, as they were asked for. */
+size_t alloc_live_bytes(void);
 
 /* Makes whatever is to be tested, destroys it if that succeeded, returns the status of making. */
 typedef corot_status (*alloc_case)(void *context);

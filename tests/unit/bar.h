@@ -10,7 +10,8 @@
 typedef struct bar_def {
   const char *strain;
   int cells[3];
-  double damping;     /* times the paper's */
+  double damping; /* times the paper's */
+  corot_viscosity viscosity;
   double traction[3]; /* [Pa] */
   double ramp;        /* [s] */
   double Q[9];        /* rotates all of it */
@@ -19,6 +20,7 @@ typedef struct bar_def {
 static const bar_def example2 = {.strain = "polar",
                                  .cells = {1, 1, 6},
                                  .damping = 1,
+                                 .viscosity = COROT_VISCOSITY_AUTO,
                                  .traction = {200, 0, 0},
                                  .ramp = 10,
                                  .Q = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
@@ -51,7 +53,7 @@ static inline bar bar_create(const bar_def *def) {
   corot_load load = {COROT_TRACTION, "zmax", {0}, {def->ramp > 0 ? 2 : 0, time, value}};
   apply(def->Q, def->traction, load.value);
   corot_model_def model = corot_model_defaults();
-  model.mesh = mesh, model.strain = def->strain;
+  model.mesh = mesh, model.strain = def->strain, model.viscosity = def->viscosity;
   model.nmaterial = 1, model.material = &material;
   model.nfix = 1, model.fix = &base;
   model.nload = 1, model.load = &load;

@@ -45,6 +45,7 @@ static inline corot_model_def definition(const choice *c, corot_coupling couplin
   hierarchy->conservative = c->conservative;
   hierarchy->coupling = coupling;
   def.strain = c->fine, def.hierarchy = hierarchy;
+  def.viscosity = COROT_COROTATED; /* of the plain models that hierarchies are held against, too */
   def.nmaterial = 1, def.material = material;
   def.nfix = held, def.fix = &fix;
   return def;

@@ -8,7 +8,7 @@
 
 #include "app/scenario.h"
 
-#define MESH "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}}\n"
+#define MESH "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2], split: kuhn}}\n"
 #define MATERIAL "material: {lambda: 1.0e5, mu: 1.0e4, density: 1000}\n"
 #define TIME "time: {end: 2}\n"
 #define MINIMAL MESH MATERIAL TIME /* 3 lines */

@@ -8,11 +8,11 @@
 
 /* A free cube of two cells, of rest length sqrt(2) x ... : nothing holds it, so that any field is a
    state of it. */
-#define FREE_CUBE                                      \
-  "mesh: {box: {size: [1, 1, 1], cells: [1, 1, 2]}}\n" \
-  "material: {lambda: 300, mu: 100, density: 2}\n"     \
-  "loads: [{gravity: [0, 0, -10]}]\n"                  \
-  "time: {end: 1, output: 0.5}\n"                      \
+#define FREE_CUBE                                                   \
+  "mesh: {box: {size: [1, 1, 1], cells: [1, 1, 2], split: kuhn}}\n" \
+  "material: {lambda: 300, mu: 100, density: 2}\n"                  \
+  "loads: [{gravity: [0, 0, -10]}]\n"                               \
+  "time: {end: 1, output: 0.5}\n"                                   \
   "probes: {corner: {point: [1, 1, 1]}}\n"
 
 /* The study of a file with these lines beside its heads, in DIR/study.yaml over DIR/model.yaml. */

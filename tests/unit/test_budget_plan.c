@@ -95,6 +95,29 @@ static void settings_make_scenarios(void **state) {
   }
 }
 
+/* What replaces warp's frames, or a hierarchy, brings another viscous law by default. The part is
+   to be of the frames or the hierarchy alone. */
+static void the_viscous_law_is_no_part(void **state) {
+  (void)state;
+  static const char *const texts[] = {
+      MINIMAL "strain: warp\n",
+      "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 1}\n" MATERIAL TIME
+      "hierarchy: {}\n",
+  };
+  for (int k = 0; k < 2; k++) {
+    budget_plan plan = plan_of(texts[k]);
+    bool found = false;
+    for (int i = 0; i < plan.npart; i++) {
+      const budget_part *part = &plan.part[i];
+      if (part->kind != BUDGET_FRAME_RULE && part->kind != BUDGET_HIERARCHY) continue;
+      found = true;
+      assert_int_equal(part->nset, 2);
+      assert_string_equal(part->set[1], "viscosity=corotated");
+    }
+    assert_true(found);
+  }
+}
+
 static void no_error_of_time_is_three_digits_less(void **state) {
   (void)state;
   static const struct {
@@ -113,12 +136,87 @@ static void no_error_of_time_is_three_digits_less(void **state) {
   }
 }
 
+static void assert_part_accepted(const char *text, budget_part *part) {
+  char *list[BUDGET_SETTINGS];
+  scenario *s = NULL;
+  for (int k = 0; k < part->nset; k++) list[k] = part->set[k];
+  assert_ok(scenario_read_text("test.yaml", text, strlen(text), part->nset, list, &s));
+  scenario_destroy(s);
+}
+
+/* Of an equilibrium there is no part of time, and none of frames that grow old. */
+static void equilibria_have_no_time(void **state) {
+  (void)state;
+  static const struct {
+    const char *text, *names;
+  } cases[] = {
+      {MINIMAL "strain: green\n", "algebraic solver, load steps, space"},
+      {MINIMAL "strain: warp\nframes: {policy: hold, interval: 0.1}\n",
+       "algebraic solver, load steps, frame rule, strain measure, space"},
+      {MINIMAL "strain: hybrid\nviscosity: objective\nstatics: {min_step: 0.5, max_step: 0.5}\n",
+       "algebraic solver, load steps, strain measure, space"},
+  };
+  for (int i = 0; i < 3; i++) {
+    scenario *s = accept(cases[i].text);
+    budget_plan plan;
+    char found[256] = "";
+    budget_plan_make_static(s, &plan);
+    for (int k = 0; k < plan.npart; k++) {
+      if (k) strcat(found, ", ");
+      strcat(found, budget_names[plan.part[k].kind]);
+      assert_part_accepted(cases[i].text, &plan.part[k]);
+    }
+    assert_string_equal(found, cases[i].names);
+    assert_int_equal(plan.check.nset, 0);
+    assert_part_accepted(cases[i].text, &plan.algebra_check);
+    assert_true(plan.algebra_check.nset > 0);
+    scenario_destroy(s);
+  }
+}
+
+/* Each try is a hundred times finer, as far as double precision goes. */
+static void references_are_tightened_to_an_end(void **state) {
+  (void)state;
+  static const struct {
+    const char *text;
+    double rtol[3];
+  } cases[] = {
+      {MINIMAL "integrator: {method: newmark, step: 0.1}\n", {1e-8, 1e-10, 1e-11}},
+      {MINIMAL "integrator: {rtol: 1e-8}\n", {1e-11, 0, 0}},
+  };
+  for (int i = 0; i < 2; i++) {
+    scenario *s = accept(cases[i].text);
+    for (int k = 0; k < 3; k++) {
+      budget_part reference, check;
+      assert_close(budget_plan_tighten(s, k + 1, &reference, &check), cases[i].rtol[k], 1e-12, 0);
+      if (!(cases[i].rtol[k] > 0)) continue;
+      assert_string_not_equal(reference.set[0], check.set[0]);
+      assert_part_accepted(cases[i].text, &reference);
+      assert_part_accepted(cases[i].text, &check);
+    }
+    scenario_destroy(s);
+  }
+}
+
+/* What takes hours is not done unasked. */
+static void dear_levels_are_left_out(void **state) {
+  (void)state;
+  assert_true(budget_plan_affords(true, 1e6, 1e5) && budget_plan_affords(false, 2e7, 1e5));
+  assert_false(budget_plan_affords(true, 1e7, 1e5) || budget_plan_affords(false, 1e8, 1e5));
+  assert_false(budget_plan_affords(true, 1e6, 1e6) || budget_plan_affords(false, 1e6, 1e6));
+  assert_false(budget_plan_affords(false, NAN, 1e5) || budget_plan_affords(false, 1e6, NAN));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(parts_are_the_approximations_made),
       cmocka_unit_test(frames_as_old_as_steps_come_before_time),
       cmocka_unit_test(settings_make_scenarios),
+      cmocka_unit_test(the_viscous_law_is_no_part),
       cmocka_unit_test(no_error_of_time_is_three_digits_less),
+      cmocka_unit_test(equilibria_have_no_time),
+      cmocka_unit_test(references_are_tightened_to_an_end),
+      cmocka_unit_test(dear_levels_are_left_out),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,6 +57,11 @@ static void each_field_is_checked(void **state) {
   corot_integrator_def def = corot_integrator_defaults();
   def.min_step = 0.1, def.max_step = 0.01;
   expect_refusal(&b, def, "min_step = 0.1 exceeds max_step = 0.01");
+  for (int k = 1; k < 20; k++) { /* equal ones are a constant step */
+    def.min_step = def.max_step = def.first_step = 0.001 * k;
+    corot_integrator *integrator = start(&b, &def);
+    corot_integrator_destroy(integrator);
+  }
   bar_destroy(&b);
 }
 

@@ -116,6 +116,44 @@ static void pressure_all_around_balances(void **state) {
   assert_below(norm_max(3, moment), 1e-9);
 }
 
+/* All loads there are, held components included: their sum is the whole body's, and on free
+   components they are what the residual has. */
+static void loads_are_known_on_supports_too(void **state) {
+  (void)state;
+  static const double time[] = {0, 2}, value[] = {0, 3};
+  const corot_load load[] = {
+      {COROT_GRAVITY, NULL, {1, -2, -9.81}, {0}},
+      {COROT_TRACTION, "xmin", {5, 6, 7}, {2, time, value}},
+      {COROT_FORCE, "zmin", {3, -2, 7}, {0}},
+      {COROT_PRESSURE, "zmin", {11}, {0}},
+  };
+  /* volume 1 m^3; at t = 1 s; the sides' areas are 1 m^2 and 0.5 m^2 */
+  const double sum[4][3] = {{soft.density, -2 * soft.density, -9.81 * soft.density},
+                            {7.5, 9, 10.5},
+                            {3, -2, 7},
+                            {0, 0, 5.5}};
+  corot_fix fix[] = {{"zmin", {true, true, true}}, {"xmin", {true, false, false}}};
+  for (int k = 0; k < 4; k++) {
+    corot_model_def def = plain();
+    def.nload = 1, def.load = &load[k], def.nfix = 2, def.fix = fix;
+    body b = make_body(block(), def);
+    double *u = calloc(2 * b.n, sizeof *u), *r = u + b.n;
+    double(*rest)[3] = calloc(2 * b.mesh->nnode, sizeof *rest), (*f)[3] = rest + b.mesh->nnode;
+    assert_ok(corot_residual(b.model, b.state, 1, u, u, r));
+    assert_ok(corot_load_force(b.model, 1, 0.5, (const double(*)[3])rest, f));
+    for (int c = 0; c < 3; c++) {
+      double total = 0, size = fabs(sum[k][0]) + fabs(sum[k][1]) + fabs(sum[k][2]);
+      for (int n = 0; n < b.mesh->nnode; n++) {
+        int i = corot_model_dof(b.model)[n][c];
+        total += f[n][c];
+        if (i >= 0) assert_close(f[n][c], 0.5 * r[i], 1e-14, 0);
+      }
+      assert_close(total, 0.5 * sum[k][c], 0, 1e-13 * size);
+    }
+    free(u), free(rest), drop_body(&b);
+  }
+}
+
 static void damping_by_mass_slows_each_node(void **state) {
   (void)state;
   corot_material m = {.lambda = 1e5, .mu = 1e4, .density = 1000, .damping_mass = 4};
@@ -258,6 +296,7 @@ int main(void) {
       cmocka_unit_test(a_force_is_spread_over_its_nodes),
       cmocka_unit_test(pressure_follows_the_surface),
       cmocka_unit_test(pressure_all_around_balances),
+      cmocka_unit_test(loads_are_known_on_supports_too),
       cmocka_unit_test(damping_by_mass_slows_each_node),
       cmocka_unit_test(refuses_a_motion_without_sense),
       cmocka_unit_test(supports_move_on_their_paths),

@@ -13,7 +13,7 @@ static const double two_x[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {
 static const int two_tet[2][4] = {{0, 1, 2, 3}, {1, 2, 3, 4}};
 
 static corot_mesh *make_box(int nx, int ny, int nz) {
-  const corot_box box = {{1, 2, 3}, {nx, ny, nz}, {-1, 0, 5}};
+  const corot_box box = {{1, 2, 3}, {nx, ny, nz}, {-1, 0, 5}, COROT_BOX_KUHN};
   corot_mesh *mesh = NULL;
   assert_ok(corot_mesh_box(&box, &mesh));
   return mesh;
@@ -165,7 +165,7 @@ static void box_sides_are_groups(void **state) {
 
 static void bad_boxes_are_refused(void **state) {
   (void)state;
-  const corot_box good = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+  const corot_box good = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, COROT_BOX_KUHN};
   corot_box b;
   corot_mesh *m;
   b = good, b.size[1] = 0;
@@ -312,7 +312,7 @@ static void assert_same_mesh(const corot_mesh *a, const corot_mesh *b) {
 static void writing_and_reading_give_the_same_mesh(void **state) {
   (void)state;
   char *dir = temporary_folder();
-  const corot_box box = {{0.1, 1 / 3.0, 1e-7}, {2, 2, 2}, {-1e-3, 1e-17, 3e-9}};
+  const corot_box box = {{0.1, 1 / 3.0, 1e-7}, {2, 2, 2}, {-1e-3, 1e-17, 3e-9}, COROT_BOX_KUHN};
   const double min[3] = {-1e-3, 0, 3e-9}, max[3] = {0.099, 1, 5.3e-8};
   corot_mesh *a, *b;
   assert_ok(corot_mesh_box(&box, &a));
@@ -375,7 +375,7 @@ static corot_status try_create(void *context) {
 }
 
 static corot_status try_box(void *context) {
-  const corot_box box = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+  const corot_box box = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, COROT_BOX_KUHN};
   (void)context;
   corot_mesh *m = NULL;
   corot_status status = corot_mesh_box(&box, &m);
@@ -384,7 +384,7 @@ static corot_status try_box(void *context) {
 }
 
 static corot_status try_group(void *context) {
-  const corot_box box = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+  const corot_box box = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, COROT_BOX_KUHN};
   (void)context;
   corot_mesh *m = NULL;
   COROT_TRY(corot_mesh_box(&box, &m));
@@ -396,7 +396,7 @@ static corot_status try_group(void *context) {
 }
 
 static corot_status try_write(void *dir) {
-  const corot_box box = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+  const corot_box box = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, COROT_BOX_KUHN};
   corot_mesh *m = NULL;
   COROT_TRY(corot_mesh_box(&box, &m));
   corot_status status = corot_mesh_write(m, in(dir, "box.msh"));

@@ -126,7 +126,7 @@ static void every_tet_has_one_material(void **state) {
 static void refuses_a_load_without_sense(void **state) {
   (void)state;
   corot_mesh *mesh = bar();
-  double time[] = {0, 1, 1}, value[] = {0, 1, 2};
+  double time[] = {0, 1, 0.5}, value[] = {0, 1, 2};
   corot_load load = {COROT_TRACTION, "zmax", {1, 0, 0}, {0, NULL, NULL}};
   corot_model_def def = plain(mesh);
   def.nload = 1, def.load = &load;
@@ -364,6 +364,31 @@ static void an_inverted_tet_is_named(void **state) {
   free(u), drop_body(&b);
 }
 
+/* The first one, whichever it is, in forces and in fields; and in fields the others still count. */
+static void the_first_inverted_tet_is_named(void **state) {
+  (void)state;
+  const double x[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                          {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
+  const int tet[2][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+  for (int k = 0; k < 3; k++) { /* the first, the second, both */
+    corot_mesh *mesh;
+    assert_ok(corot_mesh_create(8, x, 2, tet, &mesh));
+    body b = make_body(mesh, plain(mesh));
+    double u[24] = {0}, v[24] = {0}, r[24], det[2] = {0};
+    for (int e = 0; e < 2; e++)
+      if (k == 2 || k == e) u[corot_model_dof(b.model)[4 * e + 3][2]] = -3;
+    char words[64];
+    snprintf(words, sizeof words, "tet %d is inverted", k == 1);
+    assert_fails(corot_residual(b.model, b.state, 0, u, v, r), COROT_RETRY, words);
+    assert_int_equal(corot_state_inverted(b.state), k == 1);
+    corot_element_fields fields = {.det = det};
+    assert_fails(corot_elements(b.model, b.state, 0, u, &fields), COROT_RETRY, words);
+    assert_int_equal(corot_state_inverted(b.state), k == 1);
+    for (int e = 0; e < 2; e++) assert_close(det[e], k == 2 || k == e ? -2 : 1, 1e-14, 0);
+    drop_body(&b);
+  }
+}
+
 /* It is the caller's mistake, not a step too long: in r where it plays a part, in ydot always. */
 static void what_is_not_a_number_is_named(void **state) {
   (void)state;
@@ -478,6 +503,7 @@ int main(void) {
       cmocka_unit_test(kinks_are_the_points_of_all_amplitudes),
       cmocka_unit_test(each_tet_has_its_own_stiffness),
       cmocka_unit_test(an_inverted_tet_is_named),
+      cmocka_unit_test(the_first_inverted_tet_is_named),
       cmocka_unit_test(what_is_not_a_number_is_named),
       cmocka_unit_test(scales_of_the_model),
       cmocka_unit_test(memory_is_bounded),

@@ -1,6 +1,7 @@
 /* Supports that move: their paths in time, and the work they do on a body. */
 #include <corot/integrate.h>
 
+#include "core/amplitude.h"
 #include "solid.h"
 
 static corot_mesh *bar_mesh(void) {
@@ -75,6 +76,111 @@ static void motions_of_a_group_follow_one_another(void **state) {
   assert_int_equal(corot_model_kinks(b.model, -2, 5, 8, kink), 7);
   for (int k = 0; k < 7; k++) assert_true(kink[k] == expected[k]);
   free(x), free(zero), drop_body(&b), drop_body(&once);
+}
+
+static const double pulse_time[] = {-0.5, 0.25, 1}, pulse_value[] = {0.1, 0.9, -0.4};
+
+/* By each kind of amplitude, and two that add up, one to a shift at constant rate. */
+static void amplitudes_move_supports(void **state) {
+  (void)state;
+  corot_amplitude by[] = {{3, pulse_time, pulse_value},
+                          {3, pulse_time, pulse_value, COROT_CURVE_SMOOTH},
+                          {.curve = COROT_CURVE_SINE, .frequency = 0.7, .phase = 1, .offset = 2},
+                          {0}};
+  for (int k = 0; k < 4; k++) {
+    corot_motion m[] = {{.kind = COROT_MOVE, .group = "zmax", .direction = {1, -2, 0.5}},
+                        {.kind = COROT_TURN, .group = "zmin", .axis = {1, 2, 3}, .angle = 0.8},
+                        {.kind = COROT_MOVE, .group = "zmax", .direction = {0, 0, -1}},
+                        shift};
+    m[0].amplitude = m[1].amplitude = by[k], m[2].amplitude = by[2];
+    m[3].from = 0.3;
+    for (int c = 0; c < 3; c++) m[1].center[c] = turn.center[c];
+    body b = moved_body(bar_mesh(), "polar", 4, m);
+    int nnode = b.mesh->nnode, top = corot_mesh_find_group(b.mesh, "zmax")->node[0];
+    double h = 1e-5, *zero = calloc(b.n, sizeof *zero);
+    double(*x)[3] = calloc(3 * nnode, sizeof *x), (*y)[3] = x + nnode, (*v)[3] = y + nnode;
+    amplitude a, sine;
+    assert_ok(corot_amplitude_create(&by[k], "", &a));
+    assert_ok(corot_amplitude_create(&by[2], "", &sine));
+    for (double t = -0.93; t < 2; t += 0.1) { /* no kink is nearer than h */
+      corot_nodal(b.model, t - h, zero, zero, x, NULL);
+      corot_nodal(b.model, t + h, zero, zero, y, NULL);
+      corot_nodal(b.model, t, zero, zero, NULL, v);
+      for (int n = 0; n < nnode;
+           n++) /* as in the test before; third derivatives of 2 (2 pi 0.7)^3 */
+        for (int c = 0; c < 3; c++)
+          assert_close((y[n][c] - x[n][c]) / (2 * h), v[n][c], 0, 100 * h * h + 1e-15 / h);
+      corot_nodal(b.model, t, zero, zero, x, NULL);
+      double shifted = fmin(fmax(t - 0.3, 0), 0.5);
+      for (int c = 0; c < 3; c++)
+        assert_close(x[top][c],
+                     corot_amplitude_at(&a, NAN, t) * m[0].direction[c] +
+                         corot_amplitude_at(&sine, NAN, t) * m[2].direction[c] +
+                         shifted * shift.velocity[c],
+                     1e-14, 1e-15);
+      double Q[9], arm[3], turned[3];
+      int base = corot_mesh_find_group(b.mesh, "zmin")->node[0];
+      rotation(turn.axis, 0.8 * corot_amplitude_at(&a, NAN, t), Q);
+      for (int c = 0; c < 3; c++) arm[c] = b.mesh->x[base][c] - turn.center[c];
+      apply(Q, arm, turned);
+      for (int c = 0; c < 3; c++) assert_close(x[base][c], turned[c] - arm[c], 0, 1e-15);
+    }
+    assert_int_equal(corot_model_kinks(b.model, -9, 9, 0, NULL), k == 0 ? 5 : 2);
+    corot_amplitude_clear(&a), corot_amplitude_clear(&sine);
+    free(x), free(zero), drop_body(&b);
+  }
+}
+
+/* The velocity of a piecewise linear path jumps at its points: the state says which is meant. */
+static void a_path_of_pieces_has_two_velocities_at_a_kink(void **state) {
+  (void)state;
+  corot_motion m = {.kind = COROT_MOVE,
+                    .group = "zmin",
+                    .direction = {0.001, 0, 0},
+                    .amplitude = {2, (const double[]){0, 1}, (const double[]){0, 1}}};
+  body b = moved_body(bar_mesh(), "polar", 1, &m);
+  double *zero = calloc(2 * b.n, sizeof *zero), *r = zero + b.n;
+  const struct {
+    double phase, t;
+    bool moving;
+  } side[] = {{NAN, 0, true}, {-1, 0, false}, {0, 0, true}, {0, 1, true}, {1, 1, false}};
+  for (int k = 0; k < 5; k++) {
+    corot_energies e;
+    corot_state_enter(b.state, side[k].phase);
+    assert_ok(corot_energy(b.model, b.state, side[k].t, zero, zero, &e));
+    assert_true((e.power_dissipated > 0) == side[k].moving);
+  }
+  assert_ok(corot_residual(b.model, b.state, 1, zero, zero, r));
+  free(zero), drop_body(&b);
+}
+
+static void an_amplitude_that_cannot_move_is_refused(void **state) {
+  (void)state;
+  const double time[] = {0, 1, 1}, value[] = {0, 1, 2};
+  corot_motion m[2] = {{.kind = COROT_MOVE, .group = "zmin", .direction = {1, 0, 0}}, {0}};
+  corot_mesh *mesh = bar_mesh();
+  corot_model_def def = corot_model_defaults();
+  corot_model *model = NULL;
+  def.mesh = mesh, def.nmaterial = 1, def.material = &soft, def.motion = m, def.nmotion = 1;
+  m[0].amplitude = (corot_amplitude){3, time, value};
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
+               "motion 0: its amplitude jumps at t = 1, and group 'zmin' cannot be in two places");
+  m[0].amplitude = (corot_amplitude){.curve = COROT_CURVE_SINE};
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
+               "motion 0: the amplitude's frequency");
+  m[0].amplitude = (corot_amplitude){2, time, value}, m[0].direction[1] = NAN;
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "motion 0: a number is not finite");
+  m[0].direction[1] = 0, m[1] = m[0], m[1].kind = COROT_TURN, def.nmotion = 2;
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "motion 1: the axis has no direc");
+  m[1].axis[0] = 1, m[1].angle = INFINITY;
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "motion 1: a number is not finite");
+  m[1].angle = 1;
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
+               "motion 1: node 0 of group 'zmin' is already held in x");
+  def.nmotion = 1, def.mass = COROT_MASS_CONSISTENT;
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "moving support");
+  assert_null(model);
+  corot_mesh_destroy(mesh);
 }
 
 /* At a kink the velocity has two values. Only the viscous force feels it, of a body at rest. */
@@ -235,6 +341,9 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(velocity_is_the_derivative_of_the_path),
       cmocka_unit_test(motions_of_a_group_follow_one_another),
+      cmocka_unit_test(amplitudes_move_supports),
+      cmocka_unit_test(a_path_of_pieces_has_two_velocities_at_a_kink),
+      cmocka_unit_test(an_amplitude_that_cannot_move_is_refused),
       cmocka_unit_test(the_state_knows_which_side_of_a_kink_is_meant),
       cmocka_unit_test(what_is_held_twice_is_refused),
       cmocka_unit_test(a_turned_boundary_makes_stress_in_cauchy_only),

@@ -17,7 +17,7 @@ static corot_mesh *make_tet(const double x[4][3], const int node[4]) {
 }
 
 static corot_mesh *make_box(int nx, int ny, int nz) {
-  const corot_box box = {{1, 2, 3}, {nx, ny, nz}, {-1, 0, 5}};
+  const corot_box box = {{1, 2, 3}, {nx, ny, nz}, {-1, 0, 5}, COROT_BOX_KUHN};
   corot_mesh *m = NULL;
   assert_ok(corot_mesh_box(&box, &m));
   return m;
@@ -275,8 +275,8 @@ static void levels_may_be_made_one_by_one(void **state) {
 static void boxes_become_boxes(void **state) {
   (void)state;
   for (int d = 0; d < 2; d++) {
-    const corot_box cube = {{1, 1, 1}, {1, 2, 1}, {0, 0, 0}},
-                    fine_cube = {{1, 1, 1}, {4, 8, 4}, {0, 0, 0}};
+    const corot_box cube = {{1, 1, 1}, {1, 2, 1}, {0, 0, 0}, COROT_BOX_KUHN},
+                    fine_cube = {{1, 1, 1}, {4, 8, 4}, {0, 0, 0}, COROT_BOX_KUHN};
     corot_mesh *m, *same;
     assert_ok(corot_mesh_box(&cube, &m));
     assert_ok(corot_mesh_box(&fine_cube, &same));
@@ -322,7 +322,7 @@ static void refusals(void **state) {
 static corot_status try_refine(void *with_history) {
   corot_mesh *m = NULL, *fine = NULL;
   corot_refinement *r = NULL;
-  const corot_box box = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+  const corot_box box = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, COROT_BOX_KUHN};
   COROT_TRY(corot_mesh_box(&box, &m));
   corot_status status =
       corot_mesh_refine(m, 2, COROT_DIAGONAL_CONSISTENT, &fine, with_history ? &r : NULL);

@@ -6,7 +6,7 @@
 
 /* From (-1, 0, 5) to (0, 2, 8). */
 static corot_mesh *make_box(int nx, int ny, int nz) {
-  const corot_box box = {{1, 2, 3}, {nx, ny, nz}, {-1, 0, 5}};
+  const corot_box box = {{1, 2, 3}, {nx, ny, nz}, {-1, 0, 5}, COROT_BOX_KUHN};
   corot_mesh *m = NULL;
   assert_ok(corot_mesh_box(&box, &m));
   return m;

@@ -7,6 +7,7 @@
 #include <report/precision.h>
 #include <report/report.h>
 #include <report/surface.h>
+#include <report/thin.h>
 #include <stdio.h>
 #include <sys/stat.h>
 
@@ -86,7 +87,7 @@ static void data_are_encoded_for_scripts(void **state) {
 static void a_surface_is_what_one_tet_has(void **state) {
   (void)state;
   corot_mesh *mesh;
-  assert_ok(corot_mesh_box(&(corot_box){{1, 2, 3}, {2, 2, 2}, {5, 5, 5}}, &mesh));
+  assert_ok(corot_mesh_box(&(corot_box){{1, 2, 3}, {2, 2, 2}, {5, 5, 5}, COROT_BOX_KUHN}, &mesh));
   surface s;
   assert_ok(surface_create(mesh->nnode, mesh->ntet, (const int(*)[4])mesh->tet, &s));
   assert_int_equal(s.ntri, 6 * 4 * 2);
@@ -114,7 +115,7 @@ static void a_surface_is_what_one_tet_has(void **state) {
 static void write_fields(const char *dir) {
   corot_mesh *mesh;
   vtu *w;
-  assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {1, 1, 1}, {0}}, &mesh));
+  assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {1, 1, 1}, {0}, COROT_BOX_KUHN}, &mesh));
   int material[6] = {0};
   assert_ok(vtu_create(dir, mesh, material, &w));
   vtu_fields v = vtu_arrays(w);
@@ -318,6 +319,287 @@ static void a_report_needs_a_run_or_a_study(void **state) {
   remove_folder(dir);
 }
 
+/* --- Long curves --- */
+
+/* A long curve keeps its ends and its extremes wherever they are, the same in a part where points
+   are dense (all but a hundredth of them in the first hundredth of x), and no more than is said. */
+static void long_curves_are_thinned(void **state) {
+  (void)state;
+  enum { N = 100000 };
+  double *x = malloc(N * sizeof *x), *y = malloc(N * sizeof *y);
+  int *keep = malloc(THIN_MOST * sizeof *keep);
+  for (int i = 0; i < N; i++) {
+    x[i] = i < N - N / 100 ? 0.01 * i / N : 0.01 + 0.99 * (i - N + N / 100) / (N / 100.0);
+    y[i] = i % 7;
+  }
+  y[12345] = 100, y[77777] = -100, y[N - 55] = 99, y[500] = NAN;
+  int n = thin(N, x, y, keep);
+  assert_true(n <= THIN_MOST && n > THIN_BINS);
+  assert_int_equal(keep[0], 0);
+  assert_int_equal(keep[n - 1], N - 1);
+  int found = 0, sparse = 0;
+  for (int k = 0; k < n; k++) {
+    assert_true(k == 0 || keep[k] > keep[k - 1]);
+    found += keep[k] == 12345 || keep[k] == 77777 || keep[k] == N - 55;
+    sparse += keep[k] >= N - N / 100;
+  }
+  assert_int_equal(found, 3);
+  assert_int_equal(sparse, N / 100); /* two to a piece, so that all are there */
+
+  assert_int_equal(thin(THIN_MOST, x, y, keep), THIN_MOST); /* short: all of it */
+  for (int i = 0; i < N; i++) x[i] = 1, y[i] = NAN;         /* and nothing to go by */
+  n = thin(N, x, y, keep);
+  assert_true(n <= THIN_MOST && keep[n - 1] == N - 1);
+  free(x), free(y), free(keep);
+}
+
+/* --- What a page says --- */
+
+static char *page_of(const char *dir) {
+  assert_ok(report_write(dir, in(dir, "report.html")));
+  return slurp(in(dir, "report.html"), NULL);
+}
+
+static void assert_says(const char *page, const char *text) {
+  if (!strstr(page, text)) fail_msg("the page lacks: %s", text);
+}
+
+static void assert_silent(const char *page, const char *text) {
+  if (strstr(page, text)) fail_msg("the page has: %s", text);
+}
+
+static void warnings_are_shown(void **state) {
+  (void)state;
+  static const struct {
+    const char *result, *says;
+  } is[] = {
+      {"{\"warnings\": []}", "<p class=\"note\" id=\"warnings\">No warnings.</p>"},
+      {"{\"warnings\": [\"a <b> & c\"]}", "<h3>1 warning</h3>\n<ul>\n<li>a &lt;b&gt; &amp; c</li>"},
+      {"{\"warnings\": [{\"code\": \"<k>\", \"text\": \"t<\"}, {\"text\": \"u\"}, 3]}",
+       "<h3>3 warnings</h3>\n<ul>\n<li>t&lt; <span class=\"code\">&lt;k&gt;</span></li>\n"
+       "<li>u</li>\n<li></li>\n</ul>"},
+  };
+  char *dir = temporary_folder();
+  for (size_t i = 0; i < sizeof is / sizeof *is; i++) {
+    put_file(in(dir, "result.json"), is[i].result);
+    char *page = page_of(dir);
+    assert_says(page, is[i].says);
+    assert_true(strstr(page, "id=\"warnings\"") <
+                strstr(page, "class=\"lead\"")); /* near the top */
+    free(page);
+  }
+  put_file(in(dir, "result.json"), "{}");
+  char *page = page_of(dir);
+  assert_silent(page, "arnings"); /* of a folder that has no list */
+  free(page);
+  remove_folder(dir);
+}
+
+static void extremes_are_shown(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  put_file(in(dir, "result.json"),
+           "{\"extremes\": {\"<a>.ux\": {\"min\": {\"value\": -0.125, \"t\": 0.5}, \"max\": "
+           "{\"value\": null, \"t\": null}}, \"kinetic\": {\"max\": {\"value\": 2e6, \"t\": 1}},"
+           " \"odd\": 3}}");
+  char *page = page_of(dir);
+  assert_says(page,
+              "&lt;a&gt;.ux [m]</th><td class=\"number\">-0.125</td>"
+              "<td class=\"number\"><button type=\"button\" class=\"moment\" "
+              "data-moment=\"0.5\">0.5</button></td><td class=\"number\"></td>"
+              "<td class=\"number\"></td></tr>");
+  assert_says(page,
+              "kinetic [J]</th><td class=\"number\"></td><td class=\"number\"></td>"
+              "<td class=\"number\">2e+06</td>");
+  free(page);
+  put_file(in(dir, "result.json"), "{\"extremes\": {}}");
+  page = page_of(dir);
+  assert_silent(page, "id=\"extremes\"");
+  free(page);
+  remove_folder(dir);
+}
+
+/* Where history.csv has a column it is drawn, not the coarser table; and a long one leaves the page
+   small: 10 curves of at most 4000 points of 16 bytes, which base64 makes 4/3 of, are 0.9 MB. */
+static void history_is_drawn_and_thinned(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  put_file(in(dir, "result.json"), "{}");
+  put_file(in(dir, "probes.csv"), "t,a.ux,a.uy,a.uz\n0,1,1,1\n1,1,1,1\n");
+  put_file(in(dir, "energy.csv"),
+           "t,kinetic,elastic,dissipated,external_work,balance,frame_energy\n"
+           "0,1,1,1,1,1,1\n1,1,1,1,1,1,1\n");
+  char *coarse = page_of(dir);
+  FILE *f = fopen(in(dir, "history.csv"), "w");
+  assert_non_null(f);
+  fputs("t,a.ux,a.uy,a.uz,kinetic,elastic,dissipated,external_work,balance,frame_energy\n", f);
+  for (int i = 0; i <= 60000; i++)
+    fprintf(f, "%.17g,%d,%d,1,%d,2,3,4,5,6\n", i / 60000.0, i % 11, i % 13, i % 17);
+  fclose(f);
+  char *fine = page_of(dir);
+  assert_true(strlen(fine) > strlen(coarse) + 100000);
+  assert_true(strlen(fine) < strlen(coarse) + 1000000);
+  free(coarse), free(fine);
+
+  put_file(in(dir, "history.csv"), "t,other\n0,1\n"); /* without the columns */
+  char *page = page_of(dir);
+  assert_says(page, "Displacement of a");
+  assert_says(page, "id=\"balance\"");
+  free(page);
+  remove_folder(dir);
+}
+
+/* What is done to the box of write_fields, whose nodes are all on its surface. */
+static void put_conditions(const char *dir, const char *more) {
+  char text[2048];
+  put_file(in(dir, "groups.json"),
+           "{\"base\": {\"nodes\": [0, 1, 2, 3, 99, -1, \"x\"], \"faces\": [[0, 3, 1], [0, 2, 3]]},"
+           " \"top\": {\"nodes\": [4, 5, 6, 7], \"faces\": [[4, 5, 7], [4, 7, 6]]}}");
+  snprintf(text, sizeof text,
+           "{\"t_end\": 2.0, %s \"scenario\": {\"boundary\": ["
+           "{\"group\": \"base\", \"fix\": [\"x\", \"z\"]},"
+           "{\"group\": \"top\", \"rotate\": {\"axis\": [0, 0, 1], \"rate\": 0.5}},"
+           "{\"group\": \"<x-g>\", \"move\": {}}, 7],"
+           "\"loads\": [{\"group\": \"top\", \"traction\": [1, 2, 3],"
+           " \"amplitude\": [[0.25, 1], [0.5, 3], [0.5, 4]]},"
+           "{\"gravity\": [0, 0, -9.81], \"amplitude\": {\"sine\": {}}},"
+           "{\"group\": \"base\", \"force\": [0, 1, 0]}, {\"group\": \"base\", \"pressure\": 5}]}}",
+           more);
+  put_file(in(dir, "result.json"), text);
+}
+
+/* The frames are at 0, 0.5 and 1 s. */
+static void supports_and_loads_are_drawn(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  write_fields(dir);
+  put_conditions(dir, "");
+  char *page = page_of(dir);
+  assert_says(page,
+              "{\"text\":\"base: x, z held\",\"moving\":false,\"held\":[1,0,1],"
+              "\"nodes\":[0,1,2,3]}");
+  assert_says(page,
+              "{\"text\":\"top: turned about (0, 0, 1) at 0.5 rad/s\",\"moving\":true,"
+              "\"held\":[1,1,1],\"nodes\":[4,5,6,7]}");
+  assert_says(page,
+              "{\"text\":\"\\u003cx-g\\u003e: moved\",\"moving\":true,\"held\":[1,1,1],"
+              "\"nodes\":[]}");
+  assert_says(page,
+              "{\"text\":\"traction on top: (1, 2, 3) Pa\",\"whole\":false,\"vector\":[1,2,3],"
+              "\"at\":[4,5,7,4,7,6],\"factor\":[1,4,4]}");
+  assert_says(page,
+              "\"whole\":true,\"vector\":[0,0,-9.8100000000000005],\"at\":[],\"factor\":null}");
+  assert_says(page, "\"vector\":[0,1,0],\"at\":[0,0,0,1,1,1,2,2,2,3,3,3],\"factor\":[1,1,1]}");
+  assert_says(page, "pressure on base: 5 Pa\",\"whole\":false,\"vector\":\"in\"");
+  free(page);
+
+  put_conditions(dir, "\"statics\": {},"); /* the loads of the end, times the load factor */
+  page = page_of(dir);
+  assert_says(page, "\"clock\":\"load factor\"");
+  assert_says(page, "\"at\":[4,5,7,4,7,6],\"factor\":[0,1,2]}");
+  free(page);
+
+  unlink(in(dir, "groups.json")); /* as in folders of earlier versions */
+  page = page_of(dir);
+  assert_silent(page, "\"supports\"");
+  free(page);
+  remove_folder(dir);
+}
+
+/* A group of thousands of nodes has a few marks. */
+static void large_groups_have_few_marks(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  corot_mesh *mesh;
+  vtu *w;
+  assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {20, 20, 20}, {0}}, &mesh));
+  int *material = calloc((size_t)mesh->ntet, sizeof *material);
+  assert_ok(vtu_create(dir, mesh, material, &w));
+  assert_ok(vtu_write(w, 0));
+  assert_ok(vtu_finish(w));
+  vtu_destroy(w);
+  put_conditions(dir, "");
+  FILE *f = fopen(in(dir, "groups.json"), "w");
+  assert_non_null(f);
+  fputs("{\"base\": {\"nodes\": [0", f);
+  for (int i = 1; i < mesh->nnode; i++) fprintf(f, ", %d", i);
+  fputs("], \"faces\": []}}", f);
+  fclose(f);
+  char *page = page_of(dir), *nodes = strstr(page, "\"nodes\":[");
+  assert_non_null(nodes);
+  int n = 1;
+  for (const char *s = nodes; *s && *s != ']'; s++) n += *s == ',';
+  assert_in_range(n, 200, 600); /* the cubes at the surface of ten by ten by ten, 488 */
+  free(page), free(material);
+  corot_mesh_destroy(mesh);
+  remove_folder(dir);
+}
+
+static void make_static(const char *dir) {
+  write_fields(dir);
+  put_conditions(dir,
+                 "\"title\": \"s\", \"status\": \"failed\", \"reason\": \"why\","
+                 " \"t_reached\": 1.0, \"energy\": {\"t\": 1, \"kinetic\": 0, \"elastic\": 2,"
+                 " \"dissipated\": 0, \"external_work\": 2, \"balance\": 1e-3},"
+                 " \"statistics\": {\"nstep\": 1},"
+                 " \"extremes\": {\"a.ux\": {\"min\": {\"value\": 3, \"t\": 1}},"
+                 " \"kinetic\": {\"max\": {\"value\": 0, \"t\": 0}}},"
+                 " \"statics\": {\"tolerance\": 1e-10, \"reactions\": {\"base\": [-3, 1e-20, 0]},"
+                 " \"steps\": [{\"factor\": 0.25, \"force\": 4, \"residual\": [1, 1e-5, 0]},"
+                 " {\"factor\": 0.5, \"force\": 4, \"residual\": [1, 1e-12]}, 3]},");
+  put_file(in(dir, "probes.csv"), "t,a.ux,a.uy,a.uz\n0,0,0,0\n0.5,1,0,3\n1,2,0,4\n");
+  put_file(in(dir, "reactions.csv"), "t,base.fx,base.fy,base.fz\n0,0,0,0\n0.5,-1,0,0\n1,-3,0,0\n");
+  put_file(in(dir, "energy.csv"),
+           "t,kinetic,elastic,dissipated,external_work,balance,frame_energy\n"
+           "0,0,0,0,0,0,0\n0.5,0,1,0,1,1e-3,0\n1,0,2,0,2,1e-3,0\n");
+  put_file(in(dir, "steps.csv"),
+           "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy,reason\n"
+           "0.5,0.5,0,0.1,2,,,,,\n1,0.5,0,0.2,1,,,,,\n");
+}
+
+static void an_equilibrium_has_a_page_of_its_own(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  make_static(dir);
+  char *page = page_of(dir);
+  assert_says(page, "<p class=\"kind\">corot static</p>");
+  assert_says(page, "failed</b> at load factor 0.5: why");
+  assert_says(page, "in 1 load step and");
+  assert_says(page, "-3, 0, 0 N");
+  assert_says(page, "data-moment=\"0.5\">0.5</button>");
+  assert_says(page, "id=\"curve-0\"");
+  assert_says(page, "id=\"reaction-0\"");
+  assert_says(page, "id=\"residuals\"");
+  assert_says(page,
+              "\"note\":[\"load factor 0.25, iteration 0\",\"load factor 0.25, iteration 1\","
+              "\"load factor 0.25, iteration 2\",\"\",\"load factor 0.5, iteration 0\",");
+  static const char *const no[] = {"off balance", "id=\"balance\"", "id=\"error-estimate\"",
+                                   "\"t [s]\"",   "kinetic",        "dissipated"};
+  for (size_t i = 0; i < sizeof no / sizeof *no; i++) {
+    char *scenario = strstr(page, "id=\"scenario\"");
+    char *at = strstr(page, no[i]);
+    assert_true(!at || at > scenario);
+  }
+  free(page);
+  assert_above((double)assert_survives_failed_allocations(write_report, dir), 20);
+
+  /* Whatever one byte of its files is, there is a report or a message. */
+  static const char *const name[] = {"groups.json", "result.json", "reactions.csv"};
+  srand(11);
+  for (int trial = 0; trial < 150; trial++) {
+    size_t size;
+    char *good = slurp(in(dir, name[trial % 3]), &size), *bad = malloc(size);
+    memcpy(bad, good, size);
+    bad[(size_t)rand() % size] = (char)rand();
+    put_bytes(in(dir, name[trial % 3]), bad, size);
+    corot_status status = report_write(dir, in(dir, "report.html"));
+    assert_true(status == COROT_OK || status == COROT_EFORMAT || status == COROT_EIO);
+    put_bytes(in(dir, name[trial % 3]), good, size);
+    free(good), free(bad);
+  }
+  remove_folder(dir);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(tables_are_read_back),
@@ -329,6 +611,13 @@ int main(void) {
       cmocka_unit_test(damaged_runs_do_no_harm),
       cmocka_unit_test(failed_allocations_are_survived),
       cmocka_unit_test(a_report_needs_a_run_or_a_study),
+      cmocka_unit_test(long_curves_are_thinned),
+      cmocka_unit_test(warnings_are_shown),
+      cmocka_unit_test(extremes_are_shown),
+      cmocka_unit_test(history_is_drawn_and_thinned),
+      cmocka_unit_test(supports_and_loads_are_drawn),
+      cmocka_unit_test(large_groups_have_few_marks),
+      cmocka_unit_test(an_equilibrium_has_a_page_of_its_own),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,7 +36,7 @@ static void defaults(void **state) {
 
   assert_string_equal(s->title, "");
   assert_string_equal(s->strain, "polar");
-  assert_int_equal(s->viscosity, COROT_COROTATED);
+  assert_int_equal(s->viscosity, COROT_VISCOSITY_AUTO);
   assert_int_equal(s->dilatation, COROT_DILATATION_LOCAL);
   assert_close(s->dilatation_local, corot_model_defaults().dilatation_local, 0, 0);
   assert_string_equal(s->frame_policy, "exact");
@@ -459,11 +459,11 @@ static void resolved_values(void **state) {
   assert_string_equal(
       text,
       "{\"title\":\"\",\"mesh\":{\"box\":{\"size\":[1.0,1.0,2.0],\"cells\":[1,1,2],\"origin\":[0.0,"
-      "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0,\"diagonal\":\"consistent\"},\"groups\":{},"
+      "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0,\"diagonal\":\"shortest\"},\"groups\":{},"
       "\"material\":{\"lambda\":100000.0,"
       "\"mu\":10000.0,\"density\":1000.0,\"damping\":{\"lambda\":0.0,\"mu\":0.0,\"mass\":0.0}},"
       "\"mass\":\"lumped\",\"strain\":\"polar\",\"dilatation\":{\"name\":\"local\",\"local\":1.0},"
-      "\"viscosity\":\"corotated\",\"frames\":{\"policy\":"
+      "\"viscosity\":\"auto\",\"frames\":{\"policy\":"
       "\"exact\","
       "\"history\":\"auto\"},\"boundary\":[],"
       "\"loads\":[],\"time\":{\"end\":2.0,\"output\":0.02},\"integrator\":{\"method\":\"cvode\","
@@ -479,7 +479,7 @@ static void resolved_values(void **state) {
       "\"start\":\"rest\",\"statics\":{\"frames\":\"exact\",\"tolerance\":1e-10,"
       "\"max_iterations\":20,\"first_step\":1.0,\"min_step\":0.0001,\"max_step\":1.0},"
       "\"probes\":{},\"output\":{\"fields\":"
-      "\"vtu\",\"every\":1,\"states\":\"none\"}}");
+      "\"vtu\",\"every\":1,\"history\":true,\"states\":\"none\"}}");
   free(text);
   json_decref(r);
 }
@@ -537,6 +537,84 @@ static void builds(void **state) {
   assert_string_equal(corot_model_strain(model), "green");
   corot_model_destroy(model);
   corot_mesh_destroy(mesh);
+}
+
+/* The default law is that of the measure in the end, whatever a file said before it was overridden;
+   under a hierarchy it is the corotated one. */
+static void the_viscous_law_follows_the_measure(void **state) {
+  (void)state;
+  static const struct {
+    const char *set[2];
+    corot_viscosity law;
+  } table[] = {
+      {{"strain=polar", "mesh.refine=1"}, COROT_OBJECTIVE},
+      {{"strain=hybrid", "mesh.refine=0"}, COROT_OBJECTIVE},
+      {{"strain=green", "mesh.refine=0"}, COROT_COROTATED},
+      {{"strain=warp", "mesh.refine=0"}, COROT_COROTATED},
+      {{"strain=polar", "viscosity=corotated"}, COROT_COROTATED},
+      {{"mesh.refine=1", "hierarchy={coarse_strain: green}"}, COROT_COROTATED},
+      {{"mesh.refine=0", "hierarchy={coarse_strain: polar}"}, COROT_COROTATED},
+  };
+  const char *text = MINIMAL "strain: polar\n";
+  for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+    scenario *s = NULL;
+    corot_mesh *mesh = NULL;
+    corot_model *model = NULL;
+    corot_refinement *refinement = NULL;
+    assert_ok(scenario_read_text("a.yaml", text, strlen(text), 2, (char *const *)table[k].set, &s));
+    assert_ok(scenario_build(s, &mesh, &refinement, &model));
+    assert_int_equal(corot_model_viscosity(model), table[k].law);
+    corot_model_destroy(model), corot_refinement_destroy(refinement), corot_mesh_destroy(mesh);
+    scenario_destroy(s);
+  }
+}
+
+/* Bounds may be met. */
+static void steps_at_their_bounds(void **state) {
+  (void)state;
+  static const char *const texts[] = {
+      MINIMAL "integrator: {min_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "integrator: {first_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "integrator: {min_step: 0.5, first_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "statics: {min_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "statics: {first_step: 0.5, max_step: 0.5}\n",
+      MINIMAL "statics: {first_step: 1, max_step: 1, min_step: 1}\n",
+      MINIMAL "groups: {a: {box: {min: [0, 0, 1], max: [1, 0, 1]}}}\n",
+      MINIMAL "integrator: {method: hht, step: 0.1, spectral_radius: 0.5}\n",
+      MINIMAL "integrator: {method: hht, step: 0.1, spectral_radius: 1}\n",
+      MINIMAL "integrator: {method: arkode, order: 5}\n",
+      MINIMAL "integrator: {method: erk, order: 8}\n",
+      MINIMAL "integrator: {method: cvode, max_order: 5}\n",
+      MESH MATERIAL "time: {end: 2, output: 2}\n",
+      "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 1}\n" MATERIAL TIME
+      "hierarchy: {frame_level: 1}\n",
+  };
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+    print_message("%s", texts[k]);
+    scenario_destroy(accept(texts[k]));
+  }
+}
+
+/* Two cells across are six tets each by every split; one is cut in halves by the default. */
+static void boxes_are_split_as_named(void **state) {
+  (void)state;
+  static const struct {
+    const char *split;
+    int ntet;
+  } table[] = {{"", 6 * 2 * 2 * 8},
+               {", split: symmetric", 6 * 2 * 2 * 8},
+               {", split: alternating", 6 * 2 * 7},
+               {", split: kuhn", 6 * 2 * 7}};
+  for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+    char text[512];
+    corot_mesh *mesh = NULL;
+    corot_model *model = NULL;
+    snprintf(text, sizeof text,
+             "mesh: {box: {size: [1, 1, 4], cells: [1, 2, 7]%s}}\n" MATERIAL TIME, table[k].split);
+    build(text, &mesh, &model);
+    assert_int_equal(mesh->ntet, table[k].ntet);
+    corot_model_destroy(model), corot_mesh_destroy(mesh);
+  }
 }
 
 static void builds_motions_and_loads(void **state) {
@@ -694,7 +772,7 @@ static void schema_as_text(void **state) {
   assert_int_equal(schema_print(&scenario_schema, "", file), scenario_schema.nkey);
   assert_int_equal(schema_print(&scenario_schema, "material.damping", file), 4);
   assert_int_equal(schema_print(&scenario_schema, "loads.gravity", file), 1);
-  assert_int_equal(schema_print(&scenario_schema, "loads[]", file), 6);
+  assert_int_equal(schema_print(&scenario_schema, "loads[]", file), 15);
   assert_int_equal(schema_print(&scenario_schema, "mat", file), 0);
   fclose(file);
   json_t *text = schema_json();
@@ -738,6 +816,9 @@ int main(void) {
       cmocka_unit_test(resolved_values),
       cmocka_unit_test(numbers_as_text),
       cmocka_unit_test(builds),
+      cmocka_unit_test(the_viscous_law_follows_the_measure),
+      cmocka_unit_test(steps_at_their_bounds),
+      cmocka_unit_test(boxes_are_split_as_named),
       cmocka_unit_test(builds_motions_and_loads),
       cmocka_unit_test(builds_averages_of_the_dilatation),
       cmocka_unit_test(build_refusals),

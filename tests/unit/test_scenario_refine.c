@@ -7,7 +7,7 @@
 
 /* MINIMAL refined so many times, with nothing else said of the mesh. */
 #define REFINED(times) \
-  "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: " times "}\n" MATERIAL TIME
+  "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2], split: kuhn}, refine: " times "}\n" MATERIAL TIME
 
 static void build(const char *text, corot_mesh **mesh, corot_model **model) {
   scenario *s = accept(text);
@@ -61,8 +61,8 @@ static void refine_0_changes_nothing(void **state) {
 static void refusals_of_a_build(void **state) {
   (void)state;
   static const refusal r[] = {
-      {REFINED("9"), "1:58: mesh.refine: refining 12 tets 9 times makes 1.61e+09, "},
-      {REFINED("2147483647"), "1:58: mesh.refine: refining 12 tets 2147483647 times makes inf, "},
+      {REFINED("9"), "1:71: mesh.refine: refining 12 tets 9 times makes 1.61e+09, "},
+      {REFINED("2147483647"), "1:71: mesh.refine: refining 12 tets 2147483647 times makes inf, "},
       {REFINED("1") "groups: {a: {nodes: [12]}}",
        "4:10: groups.a: group 'a': node 12 does not exist, the last is 11"},
       {REFINED("1") "groups: {a: {plane: {axis: z, at: 0.25}}}",

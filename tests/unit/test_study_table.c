@@ -194,6 +194,30 @@ static void drift_of_the_books(void **state) {
   remove_folder(dir);
 }
 
+/* A mass of 2 thrown at 3 along z, under a gravity that falls from -10 to 0 at 0.4 s, and swings
+   along x: a momentum of 6 - 20 t up to the fall, and (1 - cos 2 pi t) / pi along x. */
+static void drift_under_loads_that_jump_and_swing(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  char *set = (char[]){
+      "loads=[{gravity: [0, 0, -10], amplitude: [[0.4, 1], [0.4, 0]]}, "
+      "{gravity: [1, 0, 0], amplitude: {sine: {frequency: 1}}}]"};
+  solid b = {0};
+  drift d;
+  assert_ok(scenario_read_text("cube.yaml", FREE_CUBE, strlen(FREE_CUBE), 1, &set, &b.s));
+  assert_ok(yardstick_create(b.s, &b.y));
+  put_file(in(dir, "energy.csv"),
+           "t,kinetic,elastic,dissipated,external_work,balance,frame_energy,px,py,pz,lx,ly,lz\n"
+           "0,0,0,0,0,0,0,0,0,6,0,0,0\n"
+           "0.25,0,0,0,0,0,0,0.318309886183791,0,1,0,0,0\n"
+           "0.5,0,0,0,0,0,0,0.636619772367581,0,-2,0,0,0\n"
+           "1,0,0,0,0,0,0,0,0,-2,0,0,0\n");
+  assert_ok(drift_measure(b.y, b.s, dir, &d));
+  assert_below(d.momentum, 1e-10);
+  solid_free(&b);
+  remove_folder(dir);
+}
+
 /* --- Fits --- */
 
 static void power_laws(void **state) {
@@ -480,6 +504,7 @@ int main(void) {
       cmocka_unit_test(energy_of_homogeneous_strains),
       cmocka_unit_test(against_a_finer_mesh),
       cmocka_unit_test(drift_of_the_books),
+      cmocka_unit_test(drift_under_loads_that_jump_and_swing),
       cmocka_unit_test(power_laws),
       cmocka_unit_test(errors_fits_and_rankings),
       cmocka_unit_test(a_wrong_reference_is_caught),

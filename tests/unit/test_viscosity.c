@@ -145,10 +145,56 @@ static void the_matrix_is_symmetric_and_semi_definite(void **state) {
     }
 }
 
+/* By default the law is the objective one where the measure has the frame for it. */
+static void the_default_law_is_by_the_frame(void **state) {
+  (void)state;
+  for (int m = 0; m < NMEASURE; m++) {
+    bool polar = m == 2 || m == 3;
+    body b = free_box(measures[m], corot_model_defaults().viscosity);
+    assert_int_equal(corot_model_viscosity(b.model), polar ? COROT_OBJECTIVE : COROT_COROTATED);
+    drop_body(&b);
+    b = free_box(measures[m], COROT_COROTATED);
+    assert_int_equal(corot_model_viscosity(b.model), COROT_COROTATED);
+    drop_body(&b);
+  }
+  corot_mesh *mesh = crooked_box(1, 1, 2);
+  corot_model_def def = corot_model_defaults();
+  corot_model *model = NULL;
+  def.mesh = mesh, def.nmaterial = 1, def.material = &soft, def.viscosity = (corot_viscosity)3;
+  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "there is no viscous law 3");
+  corot_mesh_destroy(mesh);
+}
+
+/* A model says that K and D depend on the frames alone: then, and only then, held frames give the
+   same ones wherever the body is. */
+static void matrices_by_frames(void **state) {
+  (void)state;
+  for (int m = 0; m < NMEASURE; m++)
+    for (corot_viscosity law = COROT_COROTATED; law <= COROT_OBJECTIVE; law++) {
+      if (law == COROT_OBJECTIVE && m != 2 && m != 3) continue; /* polar and hybrid only */
+      body b = free_box(measures[m], law);
+      int nblock = corot_model_nblock(b.model);
+      double(*K)[9] = calloc(4 * nblock, sizeof *K), (*D)[9] = K + nblock, (*there)[9] = D + nblock;
+      double *u = calloc(2 * b.n, sizeof *u), *zero = u + b.n;
+      uint64_t seed = 5;
+      corot_state_use(b.state, COROT_FRAMES_HELD);
+      assert_ok(corot_jacobian(b.model, b.state, 0, u, zero, COROT_TANGENT_HELD, K, D));
+      for (int i = 0; i < b.n; i++) u[i] = 0.05 * noise(&seed);
+      assert_ok(
+          corot_jacobian(b.model, b.state, 0, u, zero, COROT_TANGENT_HELD, there, there + nblock));
+      bool same = memcmp(K, there, 2 * nblock * sizeof *K) == 0;
+      assert_int_equal(corot_model_matrices_by_frames(b.model), same);
+      assert_int_equal(same, m <= 2 && law == COROT_COROTATED);
+      free(u), free(K), drop_body(&b);
+    }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_corotated_law_feels_a_spin),
       cmocka_unit_test(the_objective_law_is_that_of_the_stretch),
+      cmocka_unit_test(the_default_law_is_by_the_frame),
+      cmocka_unit_test(matrices_by_frames),
       cmocka_unit_test(the_matrix_is_symmetric_and_semi_definite),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,7 +9,7 @@
 
 static const char bar[] =
     "title: a bar\n"
-    "mesh: {box: {size: [0.1, 0.1, 0.4], cells: [1, 1, 4]}}\n"
+    "mesh: {box: {size: [0.1, 0.1, 0.4], cells: [1, 1, 4], split: kuhn}}\n"
     "groups:\n"
     "  base: {plane: {axis: z, at: 0.0}}\n"
     "  top: {plane: {axis: z, at: 0.4}}\n"
@@ -47,11 +47,12 @@ static inline void restore(FILE *stream, int before) {
   close(before);
 }
 
-/* Runs the bar with overrides, ending with NULL, into DIR/out. */
-static inline answer run_with(const char *dir, run_options options, const char *const *set) {
+/* Runs a scenario with overrides, ending with NULL, into DIR/out. */
+static inline answer run_text(const char *dir, const char *text, run_options options,
+                              const char *const *set) {
   int n = 0;
   while (set && set[n]) n++;
-  put_file(in(dir, "bar.yaml"), bar);
+  put_file(in(dir, "bar.yaml"), text);
   scenario *s = NULL;
   assert_ok(scenario_read(in(dir, "bar.yaml"), n, (char *const *)set, &s));
   if (!options.dir) options.dir = in(dir, "out");
@@ -63,6 +64,11 @@ static inline answer run_with(const char *dir, run_options options, const char *
   a.err = slurp(in(dir, "stderr"), NULL);
   scenario_destroy(s);
   return a;
+}
+
+/* The same of the bar. */
+static inline answer run_with(const char *dir, run_options options, const char *const *set) {
+  return run_text(dir, bar, options, set);
 }
 
 #define SET(...) ((const char *const[]){__VA_ARGS__, NULL})

@@ -1,0 +1,103 @@
+. "$(dirname "$0")/budget_lib.sh"
+
+# A slender bar of 36 tets, far too stiff: 0.069 m where 18432 tets say 0.319, and the next difference
+# is larger than the first. Nobody can extrapolate that, and the budget does not.
+cat >bar.yaml <<'YAML'
+title: a slender bar under a shear load
+mesh: {box: {size: [0.1, 0.1, 0.6], cells: [1, 1, 6], split: kuhn}, diagonal: consistent}
+groups:
+  base: {plane: {axis: z, at: 0.0}}
+material: {lambda: 1.0e5, mu: 1.0e4, density: 1000.0, damping: {lambda: 10.0, mu: 1.0}}
+boundary:
+  - {group: base, fix: [x, y, z]}
+loads:
+  - {group: zmax, traction: [200.0, 0.0, 0.0]}
+time: {end: 0.5, output: 0.05}
+probes:
+  corner: {point: [0.1, 0.1, 0.6]}
+YAML
+expect 0 budget bar.yaml --static -o bar --quiet --set strain=green; no_err
+out "not asymptotic: at least"; out "is not smaller than the first"
+out "The largest part is that of space, at least"
+grep -q "^space  *>" stdout || complain "a bound that is not shown as one"
+sound bar
+claim bar "part('space')['bound'] == 'at least' and part('space')['levels'] == 3" \
+  "part('space')['order'] < 0.5 and d['total_bound'] == 'at least'" \
+  "0.15 < part('space')['probes']['corner']['low'] < 0.25" "d['static'] and d['check'] is None" \
+  "[p['part'] for p in d['parts']] == ['algebraic solver', 'load steps', 'space']"
+grep -q "≥ " bar/report.html || complain "a page that shows no bound"
+expect 0 budget bar.yaml --static --quiet --set strain=green --skip space
+[ -s out/bar-static-budget/budget.json ] || complain "another default folder of statics"
+
+# A block that is pulled converges. By `corot static pull.yaml --set mesh.refine=R` its corner moves
+# by (-0.870428, -0.870428, 14.192801) mm at R = 3 and (-0.918530, -0.918530, 14.229343) at R = 4; their
+# differences are 2.9 and 3.0 times smaller than those before, which leaves about half of the last:
+# it tends to (-0.943, -0.943, 14.247). R = 1 says (-0.411513, -0.411513, 13.782444): 0.885 mm off.
+# The bare difference to R = 2 is 0.543 mm.
+cat >pull.yaml <<'YAML'
+title: a block that is pulled
+mesh: {box: {size: [0.1, 0.1, 0.2], cells: [1, 1, 2], split: kuhn}, refine: 1, diagonal: consistent}
+groups:
+  base: {plane: {axis: z, at: 0.0}}
+material: {lambda: 1.0e4, mu: 1.0e4, density: 1000.0}
+strain: green
+boundary:
+  - {group: base, fix: [x, y, z]}
+loads:
+  - {group: zmax, traction: [0.0, 0.0, 2000.0]}
+time: {end: 1.0}
+probes:
+  corner: {point: [0.1, 0.1, 0.2]}
+YAML
+expect 0 budget pull.yaml --static -o pull --quiet
+out "three levels, observed order 1."
+sound pull
+claim pull "part('space')['bound'] == 'about' and 1 < part('space')['order'] < 2" \
+  "part('space')['probes']['corner']['low'] < 0.885e-3 < part('space')['probes']['corner']['high']" \
+  "abs(part('space')['probes']['corner']['max'] / 0.885e-3 - 1) < 0.2" \
+  "abs(part('space')['probes']['corner']['difference'] / 0.543e-3 - 1) < 0.01" \
+  "part('space')['difference'] < part('space')['low'] and d['total_bound'] == 'about'"
+# two levels are a lower bound, and say what is missing
+expect 0 budget pull.yaml --static -o pull --quiet --levels 2
+out "two levels show no order; the third was left out (--levels 2 was asked for)"
+sound pull
+claim pull "part('space')['bound'] == 'at least' and part('space')['order'] is None" \
+  "part('space')['error'] == part('space')['difference']"
+expect 2 budget pull.yaml --levels 4; err "--levels 4: expected 2 or 3"
+expect 2 budget pull.yaml --levels 1; err "--levels 1: expected 2 or 3"
+
+# Two parts that work against one another are seen to: the tets are too stiff, polar too soft.
+expect 0 budget pull.yaml --static -o cancel --quiet --set strain=polar --levels 2
+sound cancel
+claim cancel "part('strain measure')['probes']['corner']['signed'][2] < 0 < part('space')['probes']['corner']['signed'][2]"
+out "corner.uz at the end changes by -"; out "by strain measure, +"
+# and on the page: bars of the total's length and sign, numbers with theirs
+python3 - <<'PY' || complain "the page's bars and signs"
+import json, re
+d = json.load(open('cancel/budget.json'))
+page = open('cancel/report.html').read()
+bars = [(float(w), int(s)) for w, s in re.findall(r'width:([0-9.]+)%"[^>]*></div>([+-][0-9]+) %', page)]
+shares = [p['share'] for p in d['parts']] + [1]
+assert len(bars) == len(shares), bars
+wide = max(shares + [1]) - min(shares + [0])
+for (width, percent), share in zip(bars, shares):
+    assert abs(width - 100 * abs(share) / wide) < 0.06 and abs(percent - 100 * share) < 0.51, (bars, shares)
+for p in d['parts']:
+    for x in p['probes']['corner']['signed']:
+        assert '%+.3e' % x in page, x
+PY
+
+# A part that is larger than the total, and one that works against it: the bars share one zero.
+mkdir -p bars
+cat >bars/budget.json <<'JSON'
+{"title": "T", "total": 0.5, "complete": true, "parts": [
+ {"part": "strain measure", "error": 0.7, "share": 1.5, "bound": "about"},
+ {"part": "space", "error": 0.3, "share": -0.5, "bound": "at least"},
+ {"part": "frame age", "error": 1e-9, "high": 2e-8, "share": 0, "bound": "at most"}]}
+JSON
+expect 0 report bars
+for text in 'margin-left:25.0%;width:75.0%"></div>+150 %' 'margin-left:0.0%;width:25.0%" class="against"></div>-50 %' \
+  'margin-left:25.0%;width:50.0%"></div>+100 %' '≥ 3.00e-01' '≤ 2.00e-08'; do
+  grep -qF -e "$text" bars/report.html || complain "the page lacks $text"
+done
+exit $failed

@@ -1,0 +1,57 @@
+/* Three levels of a quantity: the order, and where it is not believed. */
+#define TEST_NAME "test_observed_order"
+#include "check.h"
+#include "study/convergence.h"
+
+/* Errors e, e 2^-p, e 4^-p of three levels: what remains at the third is found exactly. */
+static void a_power_is_found(void **state) {
+  (void)state;
+  static const double orders[] = {0.51, 1, 1.5, 2, 2.49};
+  for (int i = 0; i < 5; i++) {
+    double p = orders[i], e = 0.3, d1 = e * (1 - exp2(-p)), d2 = d1 * exp2(-p);
+    convergence c = convergence_observe(d1, d2, 1, 0);
+    assert_true(c.asymptotic && !c.why);
+    assert_close(c.order, p, 1e-12, 0);
+    assert_close(d1 + d2 + d2 * c.remainder, e, 1e-12, 0);
+    assert_close(d2 * c.remainder, e * exp2(-2 * p), 1e-12, 0);
+  }
+}
+
+static void doubts_are_told(void **state) {
+  (void)state;
+  static const struct {
+    double d1, d2, cosine, known;
+    const char *why;
+  } cases[] = {
+      {1, 0.99, 1, 0, "hardly smaller"}, {1, 1, 1, 0, "not smaller"},
+      {1, 2, 1, 0, "not smaller"},       {1, 0.1, 1, 0, "faster"},
+      {1, 0.5, -0.1, 0, "alternate"},    {1, 0.5, 1, 0.051, "ten times"},
+      {0, 0, 1, 1e-14, "ten times"},     {NAN, 0.5, 1, 0, "not known"},
+      {1, INFINITY, 1, 0, "not known"},
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    convergence c = convergence_observe(cases[i].d1, cases[i].d2, cases[i].cosine, cases[i].known);
+    assert_false(c.asymptotic);
+    assert_close(c.remainder, 0, 0, 0);
+    assert_non_null(strstr(c.why, cases[i].why));
+  }
+}
+
+/* The bounds themselves are believed or not, to the last bit that matters. */
+static void the_limits_are_where_they_are_said(void **state) {
+  (void)state;
+  assert_true(convergence_observe(1, exp2(-CONVERGENCE_LOWEST) * (1 - 1e-12), 1, 0).asymptotic);
+  assert_false(convergence_observe(1, exp2(-CONVERGENCE_LOWEST) * (1 + 1e-12), 1, 0).asymptotic);
+  assert_true(convergence_observe(1, exp2(-CONVERGENCE_HIGHEST) * (1 + 1e-12), 1, 0).asymptotic);
+  assert_false(convergence_observe(1, exp2(-CONVERGENCE_HIGHEST) * (1 - 1e-12), 1, 0).asymptotic);
+  assert_true(convergence_observe(1, 0.5, 0, 0.05).asymptotic);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_power_is_found),
+      cmocka_unit_test(doubts_are_told),
+      cmocka_unit_test(the_limits_are_where_they_are_said),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

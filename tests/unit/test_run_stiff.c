@@ -1,0 +1,120 @@
+/* Whole runs of a steel bar, whose periods are 1e-4 s and whose steps are seconds: the rows between
+   the steps are as right as the steps. */
+#include "whole_run.h"
+
+/* The bar made steel and slender, and its load 1 MPa. */
+#define STEEL                                                                              \
+  "mesh={box: {size: [0.02, 0.02, 0.2], cells: [1, 1, 8], split: kuhn}}",                  \
+      "groups={base: {plane: {axis: z, at: 0.0}}, top: {plane: {axis: z, at: 0.2}}}",      \
+      "material={E: 2.1e11, nu: 0.3, density: 7850, damping: {lambda: 2.0e6, mu: 2.0e6}}", \
+      "probes={corner: {point: [0, 0, 0.2]}}", "time={end: 10, output: 0.5}"
+#define LOAD(history) "loads=[{group: top, traction: [1.0e6, 0, 0], amplitude: " history "}]"
+
+static const char *const methods[] = {"cvode", "ida", "arkode"};
+enum { NMETHOD = 3, MOST_ROWS = 202 };
+static const double bent = 7.45131e-5; /* [m] where the tip of that mesh is in equilibrium */
+
+static double worst_after(const char *dir, double t, double expected) {
+  double time[MOST_ROWS], u[MOST_ROWS], worst = 0;
+  int nrow = column(dir, "probes.csv", 0, MOST_ROWS, time);
+  column(dir, "probes.csv", 1, MOST_ROWS, u);
+  for (int i = 0; i < nrow; i++)
+    if (time[i] >= t) worst = fmax(worst, fabs(u[i] - expected));
+  return worst;
+}
+
+/* The work and what became of it, by the largest work. */
+static double worst_balance(const char *dir) {
+  double balance[MOST_ROWS], work[MOST_ROWS], worst = 0, most = 0;
+  int nrow = column(dir, "energy.csv", 5, MOST_ROWS, balance);
+  column(dir, "energy.csv", 4, MOST_ROWS, work);
+  for (int i = 0; i < nrow; i++) {
+    worst = fmax(worst, fabs(balance[i]));
+    most = fmax(most, fabs(work[i]));
+  }
+  return worst / most;
+}
+
+/* 2.3e-5 is what damping leaves of the ramp at its end. */
+static void every_row_after_a_ramp_is_the_equilibrium(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  for (int k = 0; k < NMETHOD; k++)
+    for (int digits = 3; digits <= 8; digits++) {
+      char method[64];
+      snprintf(method, sizeof method, "integrator={method: %s, rtol: 1.0e-%d}", methods[k], digits);
+      run_ok(dir, SET(STEEL, LOAD("[[0, 0], [1, 1]]"), "output={fields: none}", method));
+      double off = worst_after(dir, 1, bent) / bent, rtol = pow(10, -digits);
+      if (!(off < fmax(rtol, 3e-5))) fail_msg("%s: off by %.2g", method, off);
+      double balance = worst_balance(dir);
+      if (k == 2 && !(balance < 1e-3)) fail_msg("%s: the ledger is off by %.2g", method, balance);
+    }
+  remove_folder(dir);
+}
+
+static void at_rest_every_row_is_the_start(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  for (int k = 0; k < NMETHOD; k++)
+    for (int digits = 3; digits <= 8; digits++) {
+      char method[64];
+      snprintf(method, sizeof method, "integrator={method: %s, rtol: 1.0e-%d}", methods[k], digits);
+      run_ok(dir, SET(STEEL, "loads=[{group: top, traction: [1.0e6, 0, 0]}]", "start=equilibrium",
+                      "output={fields: none}", method));
+      double off = worst_after(dir, 0, bent) / bent;
+      if (!(off < 1e-5)) fail_msg("%s: off by %.2g", method, off);
+    }
+  remove_folder(dir);
+}
+
+/* Ten tolerances from where it would be if it were rigid; the absolute tolerance is a tenth of the
+   relative one here. */
+static void a_turning_support_inverts_nothing(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  for (int k = 0; k < NMETHOD; k++)
+    for (int digits = 2; digits <= 5; digits++) {
+      char method[64];
+      snprintf(method, sizeof method, "integrator={method: %s, rtol: 1.0e-%d}", methods[k], digits);
+      run_ok(dir, SET(STEEL, "loads=[]", "time={end: 10, output: 0.05}", "output={fields: none}",
+                      "boundary=[{group: base, rotate: {axis: [0, 1, 0], center: [0, 0, 0], "
+                      "rate: 0.5, from: 0.5, to: 5}}]",
+                      method));
+      csv probes = read_csv(in(dir, "out/probes.csv"));
+      double worst = 0;
+      for (int i = 0; i < probes.nrow; i++) {
+        const double *row = probes.x[i];
+        double angle = 0.5 * fmin(fmax(row[0] - 0.5, 0), 4.5);
+        worst = fmax(worst, hypot(row[1] - 0.2 * sin(angle), row[3] - 0.2 * (cos(angle) - 1)));
+      }
+      if (!(worst < 10 * 0.2 * 1.1 * pow(10, -digits)))
+        fail_msg("%s: off by %.2g m", method, worst);
+      free_csv(probes);
+    }
+  remove_folder(dir);
+}
+
+/* Let go within 1e-12 s after a minute and more: nothing is left a second later. */
+static void a_jump_after_a_long_hold_is_felt(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  for (int k = 0; k < NMETHOD; k++)
+    for (int digits = 3; digits <= 6; digits++) {
+      char method[64];
+      snprintf(method, sizeof method, "integrator={method: %s, rtol: 1.0e-%d}", methods[k], digits);
+      run_ok(dir, SET(STEEL, LOAD("[[0, 0], [1, 1], [100, 1], [100.000000000001, 0]]"),
+                      "time={end: 110, output: 1}", "output={fields: none}", method));
+      assert_below(worst_after(dir, 101, 0), pow(10, -digits) * bent);
+    }
+  remove_folder(dir);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_row_after_a_ramp_is_the_equilibrium),
+      cmocka_unit_test(at_rest_every_row_is_the_start),
+      cmocka_unit_test(a_turning_support_inverts_nothing),
+      cmocka_unit_test(a_jump_after_a_long_hold_is_felt),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
