@@ -110,7 +110,7 @@ char *json_text_dump_plain(const json_t *value, size_t flags) {
   bool before = json_text_starved();
   char *text = value ? json_dumps(value, flags | JSON_ENCODE_ANY) : NULL;
   bool now = json_text_starved();
-  starved = before;
+  starved = before || now;
   if (text && !now) return text;
   free(text);
   return NULL;

@@ -179,9 +179,8 @@ corot_status states_read(const char *dir, trajectory *out) {
   if (!path) return COROT_ENOMEM;
   trajectory s = {0};
   int fd = open(path, O_RDONLY | O_CLOEXEC);
-  corot_status missing = errno == ENOENT ? COROT_EFORMAT : COROT_EIO;
   corot_status status = fd < 0
-                            ? corot_fail(missing, "%s: cannot open it: %s", path, strerror(errno))
+                            ? corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno))
                             : read_all(fd, path, &s);
   if (fd >= 0) close(fd);
   free(path);

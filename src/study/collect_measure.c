@@ -1,4 +1,5 @@
 /* Trajectories from the folders of runs, and the model they belong to. */
+#include <app/cli.h>
 #include <app/hash.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
@@ -67,9 +68,10 @@ static corot_status hold_yardstick(measuring *g, const json_t *result) {
 }
 
 static corot_status read_states(const char *dir, const study_run *run, trajectory *out) {
-  char *path = store_path(dir, run, "");
-  if (!path) return COROT_ENOMEM;
-  corot_status status = states_read(path, out);
+  char *path = store_path(dir, run, ""), *file = store_path(dir, run, "states.bin");
+  corot_status status = path && file ? states_read(path, out) : COROT_ENOMEM;
+  if (status == COROT_EIO) status = read_failure(status, file);
+  free(file);
   free(path);
   return status;
 }

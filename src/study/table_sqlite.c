@@ -10,7 +10,8 @@
 
 #include "flat.h"
 
-static corot_status complain(sqlite3 *db, const char *path) {
+static corot_status complain(sqlite3 *db, int code, const char *path) {
+  if (!db || code == SQLITE_NOMEM) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
   return corot_fail(COROT_EIO, "%s: %s", path, sqlite3_errmsg(db));
 }
 
@@ -72,15 +73,18 @@ static int fill(sqlite3 *db, const flat *f, const json_t *cells, const char *cre
 
 /* An index can be made again at any time: it need not survive a failure of power. */
 static corot_status write_database(const flat *f, const json_t *cells, const char *path) {
+  static const char quick[] = "pragma synchronous = off; pragma journal_mode = off";
   char *create = NULL, *insert = NULL;
   sqlite3 *db = NULL;
   corot_status status = make_statements(f, &create, &insert);
-  if (status == COROT_OK &&
-      (sqlite3_open(path, &db) != SQLITE_OK ||
-       sqlite3_exec(db, "pragma synchronous = off; pragma journal_mode = off", NULL, NULL, NULL) ||
-       fill(db, f, cells, create, insert) != SQLITE_OK))
-    status = complain(db, path);
-  sqlite3_close(db);
+  if (status == COROT_OK) {
+    int code = sqlite3_open(path, &db);
+    if (code == SQLITE_OK) code = sqlite3_exec(db, quick, NULL, NULL, NULL);
+    if (code == SQLITE_OK) code = fill(db, f, cells, create, insert);
+    if (code != SQLITE_OK) status = complain(db, code, path);
+  }
+  if (sqlite3_close(db) != SQLITE_OK && status == COROT_OK)
+    status = corot_fail(COROT_EIO, "%s: cannot be closed", path);
   free(create);
   free(insert);
   return status;
