@@ -29,6 +29,8 @@ bool json_text_starved(void) {
   return answer;
 }
 
+void json_text_starve(void) { starved = true; }
+
 corot_status json_text_parse(const char *path, const char *text, size_t size, json_t **out) {
   json_error_t error;
   bool before = json_text_starved();

@@ -35,6 +35,9 @@ char *json_text_dump(const json_t *value, size_t flags);
    say so. Those who write what was built ask before they call it whole. */
 bool json_text_starved(void);
 
+/* Has json_text_starved() say so: for writers of parts that have no status of their own. */
+void json_text_starve(void);
+
 /* Reads a value; `path` is for the message. COROT_EFORMAT, or COROT_ENOMEM, which jansson itself
    reports as one or another error of the text. The caller's to json_decref. */
 corot_status json_text_parse(const char *path, const char *text, size_t size, json_t **out);

@@ -2,6 +2,7 @@
 #include <app/folder.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
+#include <app/text_stream.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,9 +50,9 @@ corot_status table_write_csv(const json_t *table, const char *dir) {
   COROT_TRY(flat_make(table, &f));
   char *text = NULL, *path = folder_path(dir, "table.csv");
   size_t size = 0;
-  FILE *out = path ? open_memstream(&text, &size) : NULL;
+  FILE *out = path ? text_open(&text, &size) : NULL;
   bool written = out && write_table(table, &f, out) == COROT_OK;
-  corot_status status = out && fclose(out) == 0 && written
+  corot_status status = out && text_close(out) == 0 && written
                             ? file_replace_durably(path, text, size)
                             : corot_fail(COROT_ENOMEM, "%s/table.csv: out of memory", dir);
   free(text);

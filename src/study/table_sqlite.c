@@ -1,6 +1,7 @@
 #include <app/escape.h>
 #include <app/folder.h>
 #include <app/json_text.h>
+#include <app/text_stream.h>
 #include <errno.h>
 #include <sqlite3.h>
 #include <stdio.h>
@@ -18,7 +19,7 @@ static corot_status complain(sqlite3 *db, int code, const char *path) {
 /* The statements that make the table and fill a row of it; the caller's to free. */
 static corot_status make_statements(const flat *f, char **create, char **insert) {
   size_t size;
-  FILE *out = open_memstream(create, &size);
+  FILE *out = text_open(create, &size);
   if (!out) return corot_fail(COROT_ENOMEM, "out of memory");
   fputs("create table runs (", out);
   for (int k = 0; k < f->n; k++) {
@@ -26,14 +27,14 @@ static corot_status make_statements(const flat *f, char **create, char **insert)
     escape_sql_name(f->column[k].name, out);
   }
   fputs(")", out);
-  if (fclose(out) != 0) return corot_fail(COROT_ENOMEM, "out of memory");
+  if (text_close(out) != 0) return corot_fail(COROT_ENOMEM, "out of memory");
 
-  out = open_memstream(insert, &size);
+  out = text_open(insert, &size);
   if (!out) return corot_fail(COROT_ENOMEM, "out of memory");
   fputs("insert into runs values (", out);
   for (int k = 0; k < f->n; k++) fputs(k > 0 ? ", ?" : "?", out);
   fputs(")", out);
-  return fclose(out) == 0 ? COROT_OK : corot_fail(COROT_ENOMEM, "out of memory");
+  return text_close(out) == 0 ? COROT_OK : corot_fail(COROT_ENOMEM, "out of memory");
 }
 
 static int bind_value(sqlite3_stmt *row, int at, const json_t *value) {
