@@ -248,7 +248,8 @@ void run_summary_scenario(const run_folder *run, FILE *out) {
   char *text = NULL;
   size_t size = 0;
   FILE *memory = text_open(&text, &size);
-  bool whole = memory && json_text_write(lookup(r, "scenario"), memory) == COROT_OK;
+  const json_t *said = lookup(r, "scenario");
+  bool whole = memory && (!said || json_text_write(said, memory) == COROT_OK);
   whole &= text_close(memory) == 0;
   if (!whole) {
     json_text_starve();
