@@ -11,9 +11,10 @@
 
 #include "flat.h"
 
-static corot_status complain(sqlite3 *db, int code, const char *path) {
-  if (!db || code == SQLITE_NOMEM) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
-  return corot_fail(COROT_EIO, "%s: %s", path, sqlite3_errmsg(db));
+/* `code` may be of our own making, which SQLite's message does not know. */
+static corot_status complain(int code, const char *path) {
+  corot_status status = code == SQLITE_NOMEM ? COROT_ENOMEM : COROT_EIO;
+  return corot_fail(status, "%s: %s", path, sqlite3_errstr(code));
 }
 
 /* The statements that make the table and fill a row of it; the caller's to free. */
@@ -74,15 +75,15 @@ static int fill(sqlite3 *db, const flat *f, const json_t *cells, const char *cre
 
 /* An index can be made again at any time: it need not survive a failure of power. */
 static corot_status write_database(const flat *f, const json_t *cells, const char *path) {
-  static const char quick[] = "pragma synchronous = off; pragma journal_mode = off";
+  static const char unsafe[] = "pragma synchronous = off; pragma journal_mode = off";
   char *create = NULL, *insert = NULL;
   sqlite3 *db = NULL;
   corot_status status = make_statements(f, &create, &insert);
   if (status == COROT_OK) {
     int code = sqlite3_open(path, &db);
-    if (code == SQLITE_OK) code = sqlite3_exec(db, quick, NULL, NULL, NULL);
+    if (code == SQLITE_OK) code = sqlite3_exec(db, unsafe, NULL, NULL, NULL);
     if (code == SQLITE_OK) code = fill(db, f, cells, create, insert);
-    if (code != SQLITE_OK) status = complain(db, code, path);
+    if (code != SQLITE_OK) status = complain(code, path);
   }
   if (sqlite3_close(db) != SQLITE_OK && status == COROT_OK)
     status = corot_fail(COROT_EIO, "%s: cannot be closed", path);
