@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "say.h"
 #include "suggest.h"
@@ -66,6 +67,13 @@ int failure(corot_status status) {
     default:
       return EXIT_INTEGRATOR;
   }
+}
+
+corot_status read_failure(corot_status status, const char *path) {
+  if (status != COROT_EIO) return status;
+  struct stat info;
+  bool readable = stat(path, &info) == 0 && !S_ISDIR(info.st_mode);
+  return readable ? COROT_EIO : COROT_EFORMAT;
 }
 
 bool parse_three(const char *text, double number[3]) {

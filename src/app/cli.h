@@ -45,6 +45,10 @@ int option_error(const char *program, int answer, char **argv, const struct opti
 /* corot_error() on stderr, and the exit code that belongs to the status. */
 int failure(corot_status status);
 
+/* What reading a scenario, a study or a mesh comes to: a file that is not there, or is a folder, is a
+   bad one (COROT_EFORMAT); one that the system would not read stays COROT_EIO. */
+corot_status read_failure(corot_status status, const char *path);
+
 /* Three numbers separated by commas. */
 bool parse_three(const char *text, double number[3]);
 

@@ -55,7 +55,7 @@ static int check(const char *path, int noverride, char **override, report kind) 
   scenario *s = NULL;
   facts f = {0};
   corot_status status = scenario_read(path, noverride, override, &s);
-  if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
+  status = read_failure(status, path);
   if (status == COROT_OK) status = facts_find(s, &f);
   int code = status == COROT_OK ? print_report(s, &f, kind) : failure(status);
   facts_free(&f);

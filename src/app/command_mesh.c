@@ -226,7 +226,7 @@ int command_mesh_info(int argc, char **argv) {
   const char *path = argv[optind];
   corot_mesh *mesh = NULL;
   corot_status status = corot_mesh_read(path, &mesh);
-  if (status != COROT_OK) return failure(status == COROT_EIO ? COROT_EFORMAT : status);
+  if (status != COROT_OK) return failure(read_failure(status, path));
   mesh_facts f = {0};
   int code = EXIT_OK;
   if ((status = find_mesh_facts(mesh, &f)) != COROT_OK)

@@ -71,7 +71,7 @@ static void report(const char *file, const corot_mesh *mesh) {
 static int refine(const arguments *a) {
   corot_mesh *mesh = NULL;
   corot_status status = corot_mesh_read(a->from, &mesh);
-  if (status != COROT_OK) return failure(status == COROT_EIO ? COROT_EFORMAT : status);
+  if (status != COROT_OK) return failure(read_failure(status, a->from));
   report(a->from, mesh);
   status = refine_mesh(a->nlevel, a->diagonal, &mesh, NULL);
   if (status == COROT_EINVAL) corot_fail(status, "%s: %s", a->from, corot_error());

@@ -19,5 +19,5 @@ static const char help[] =
     "example: corot run bar.yaml -o out/fine --set integrator.rtol=1e-6 --set time.end=10\n";
 
 int command_run(int argc, char **argv) {
-  return command_scenario("corot run", help, run_scenario, argc, argv);
+  return command_scenario("corot run", "", help, run_scenario, argc, argv);
 }

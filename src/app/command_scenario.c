@@ -14,13 +14,13 @@ static const struct option options[] = {
     {"help", no_argument, NULL, 'h'},         {0},
 };
 
-static int read_and_go(scenario_action *go, const char *path, int noverride, char **override,
-                       run_options *o) {
+static int read_and_go(scenario_action *go, const char *path, const char *suffix, int noverride,
+                       char **override, run_options *o) {
   scenario *s = NULL;
   corot_status status = scenario_read(path, noverride, override, &s);
-  if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
+  status = read_failure(status, path);
   if (status != COROT_OK) return failure(status);
-  char *folder = o->dir ? NULL : folder_default(path, "");
+  char *folder = o->dir ? NULL : folder_default(path, suffix);
   if (folder) o->dir = folder;
   int code = EXIT_SYSTEM;
   if (o->dir) {
@@ -34,8 +34,8 @@ static int read_and_go(scenario_action *go, const char *path, int noverride, cha
   return code;
 }
 
-int command_scenario(const char *program, const char *help, scenario_action *go, int argc,
-                     char **argv) {
+int command_scenario(const char *program, const char *suffix, const char *help, scenario_action *go,
+                     int argc, char **argv) {
   run_options o = {.progress = true};
   char **override = calloc((size_t)argc, sizeof *override);
   if (!override) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
@@ -58,7 +58,7 @@ int command_scenario(const char *program, const char *help, scenario_action *go,
   if (code < 0 && argc - optind != 1)
     code = usage_error(program, "expected one scenario, found %d", argc - optind);
   if (code < 0 && o.dir && !*o.dir) code = usage_error(program, "--output: the name is empty");
-  if (code < 0) code = read_and_go(go, argv[optind], noverride, override, &o);
+  if (code < 0) code = read_and_go(go, argv[optind], suffix, noverride, override, &o);
   free(override);
   return code;
 }

@@ -7,8 +7,10 @@
 /* Writes a folder and returns an exit code; run_scenario is one. */
 typedef int scenario_action(const scenario *s, const run_options *options);
 
-/* "PROGRAM MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--quiet] [--json]". */
-int command_scenario(const char *program, const char *help, scenario_action *go, int argc,
-                     char **argv);
+/* Without -o, the folder is out/MODELSUFFIX.
+
+   "PROGRAM MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--quiet] [--json]". */
+int command_scenario(const char *program, const char *suffix, const char *help,
+                     scenario_action *go, int argc, char **argv);
 
 #endif

@@ -15,7 +15,7 @@ static const char help[] =
     "largest force on a node. Exit code 4: there is no equilibrium within reach, or it becomes\n"
     "unstable (the body buckles) at the load factor that is named.\n"
     "\n"
-    "  -o, --output DIR     the folder, made if need be; default: out/MODEL in this folder\n"
+    "  -o, --output DIR     the folder, made if need be; default: out/MODEL-static here\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           result.json on stdout as well\n"
@@ -23,5 +23,5 @@ static const char help[] =
     "example: corot static bar.yaml -o out/hanging --set statics.max_step=0.1\n";
 
 int command_static(int argc, char **argv) {
-  return command_scenario("corot static", help, static_scenario, argc, argv);
+  return command_scenario("corot static", "-static", help, static_scenario, argc, argv);
 }

@@ -63,6 +63,8 @@ static corot_status syntax_error(reader *r) {
 static corot_status copy_token(reader *r, struct fy_token *token, const char **text) {
   size_t length = 0;
   const char *s = token ? fy_token_get_text(token, &length) : "";
+  /* without memory libfyaml takes a text for an empty one */
+  if (token && length == 0 && fy_token_get_text_length(token) != 0) return no_memory();
   /* it can only be written between double quotes, and libfyaml's mark is behind the first */
   if (s && memchr(s, '\0', length))
     return config_fail_at(r->source, r->at > 0 ? r->at - 1 : 0,

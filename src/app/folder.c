@@ -104,8 +104,24 @@ corot_status folder_clean(const char *dir) {
   return status;
 }
 
+static corot_status refuse(const char *path) {
+  return corot_fail(COROT_EIO, "%s: is not a regular file, and stays as it is", path);
+}
+
+/* How a file of ours is opened for writing: never through a link, nor where something other than a
+   regular file stands. What is written to a device of characters or to a pipe replaces nothing. */
+static corot_status find_flags(const char *path, int *flags) {
+  struct stat info;
+  *flags = O_WRONLY | O_CLOEXEC;
+  if (stat(path, &info) == 0 && (S_ISCHR(info.st_mode) || S_ISFIFO(info.st_mode))) return COROT_OK;
+  *flags |= O_CREAT | O_NOFOLLOW;
+  return lstat(path, &info) != 0 || S_ISREG(info.st_mode) ? COROT_OK : refuse(path);
+}
+
 corot_status file_create(const char *path, int *fd) {
-  int made = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  int flags;
+  COROT_TRY(find_flags(path, &flags));
+  int made = open(path, flags | (flags & O_CREAT ? O_TRUNC : 0), 0666);
   if (made < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
   *fd = made;
   return COROT_OK;
@@ -134,25 +150,51 @@ static corot_status synchronise(int fd, const char *path) {
   return corot_fail(COROT_EIO, "%s: cannot write to the disk: %s", path, strerror(errno));
 }
 
+/* A file that a killed process left is taken away first: it may be somebody's other name of a file
+   that is not to be written to. */
+static corot_status create_temporary(const char *path, int *fd) {
+  struct stat info;
+  if (lstat(path, &info) == 0 && S_ISFIFO(info.st_mode)) return refuse(path); /* or wait for ever */
+  int flags;
+  COROT_TRY(find_flags(path, &flags));
+  if (flags & O_CREAT) {
+    unlink(path);
+    flags |= O_EXCL;
+  }
+  int made = open(path, flags, 0666);
+  if (made < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+  *fd = made;
+  return COROT_OK;
+}
+
 static corot_status write_whole(const char *path, const void *data, size_t size, bool durable) {
   int fd = -1;
-  COROT_TRY(file_create(path, &fd));
+  COROT_TRY(create_temporary(path, &fd));
   corot_status status = file_write(fd, path, data, size);
   if (status == COROT_OK && durable) status = synchronise(fd, path);
   corot_status closed = file_close(fd, path);
-  return status != COROT_OK ? status : closed;
+  if (status == COROT_OK) status = closed;
+  if (status != COROT_OK) unlink(path);
+  return status;
 }
 
 static corot_status put_in_place(const char *temporary, const char *path) {
-  if (rename(temporary, path) == 0) return COROT_OK;
-  return corot_fail(COROT_EIO, "%s: cannot rename %s to it: %s", path, temporary, strerror(errno));
+  struct stat info;
+  corot_status status = COROT_OK;
+  if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode))
+    status = refuse(path);
+  else if (lstat(temporary, &info) != 0 || !S_ISREG(info.st_mode))
+    status = refuse(temporary);
+  else if (rename(temporary, path) != 0)
+    status =
+        corot_fail(COROT_EIO, "%s: cannot rename %s to it: %s", path, temporary, strerror(errno));
+  if (status != COROT_OK) unlink(temporary);
+  return status;
 }
 
 corot_status file_replace(const char *path, const char *temporary, const void *data, size_t size) {
-  corot_status status = write_whole(temporary, data, size, false);
-  if (status == COROT_OK) status = put_in_place(temporary, path);
-  if (status != COROT_OK) unlink(temporary);
-  return status;
+  COROT_TRY(write_whole(temporary, data, size, false));
+  return put_in_place(temporary, path);
 }
 
 /* The rename itself is durable once the folder is. */
@@ -176,11 +218,8 @@ corot_status file_replace_durably(const char *path, const void *data, size_t siz
 
   corot_status status = write_whole(temporary, data, size, true);
   if (status == COROT_OK) status = put_in_place(temporary, path);
-  if (status != COROT_OK) {
-    unlink(temporary);
-  } else if ((status = synchronise_folder_of(path)) != COROT_OK) {
+  if (status == COROT_OK && (status = synchronise_folder_of(path)) != COROT_OK)
     unlink(path); /* what is said to have failed must not be found */
-  }
   free(temporary);
   return status;
 }

@@ -20,7 +20,10 @@ char *folder_path(const char *dir, const char *name);
    to free, NULL as above. */
 char *folder_default(const char *path, const char *suffix);
 
-/* Opens `path` for writing from its beginning, made or emptied first. Stores a descriptor. */
+/* Opens `path` for writing from its beginning, made or emptied first. Stores a descriptor.
+
+   This and the following never write through a link to a file, and never replace what is not a
+   regular file (a folder, a device, a link): COROT_EIO, and it stays as it is. */
 corot_status file_create(const char *path, int *fd);
 
 /* Writes all of it, however often the system has to be asked. `path` is for the message. */

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "json_text.h"
+
 static void add_integers(SHA2_CTX *sum, const int *data, size_t n) {
   SHA256Update(sum, (const uint8_t *)data, n * sizeof *data);
 }
@@ -33,7 +35,7 @@ void hash_bytes(const char *data, size_t size, char digest[HASH_SIZE]) {
 void hash_text(const char *text, char digest[HASH_SIZE]) { hash_bytes(text, strlen(text), digest); }
 
 corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out) {
-  char *text = json_dumps(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+  char *text = json_text_dump_plain(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   if (!text) return corot_fail(COROT_ENOMEM, "the hash of the scenario: out of memory");
   hashes h;
   hash_text(text, h.scenario);

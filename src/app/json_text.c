@@ -29,6 +29,8 @@ bool json_text_starved(void) {
   return answer;
 }
 
+void json_text_starve(void) { starved = true; }
+
 corot_status json_text_parse(const char *path, const char *text, size_t size, json_t **out) {
   json_error_t error;
   bool before = json_text_starved();
@@ -106,8 +108,18 @@ static char *escape_controls(char *text) {
   return escaped;
 }
 
+char *json_text_dump_plain(const json_t *value, size_t flags) {
+  bool before = json_text_starved();
+  char *text = value ? json_dumps(value, flags | JSON_ENCODE_ANY) : NULL;
+  bool now = json_text_starved();
+  starved = before || now;
+  if (text && !now) return text;
+  free(text);
+  return NULL;
+}
+
 char *json_text_dump(const json_t *value, size_t flags) {
-  char *text = json_dumps(value, flags | JSON_ENCODE_ANY);
+  char *text = json_text_dump_plain(value, flags);
   return text ? escape_controls(text) : NULL;
 }
 

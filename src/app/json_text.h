@@ -23,13 +23,20 @@ json_t *json_text_push(json_t *list, json_t *value);
 /* A string; bytes that are not UTF-8, as file names may have, become '?'. */
 json_t *json_text_string(const char *s);
 
-/* As json_dumps of any value; the control characters that YAML does not allow as they are, are
+/* As json_dumps of any value, but NULL for want of memory, where jansson may leave something out
+   and say nothing. The caller's to free. */
+char *json_text_dump_plain(const json_t *value, size_t flags);
+
+/* The same; the control characters that YAML does not allow as they are, are
    escaped. The caller's to free; NULL: no memory. */
 char *json_text_dump(const json_t *value, size_t flags);
 
 /* Whether jansson has been refused memory on this thread since the last call: it does not always
    say so. Those who write what was built ask before they call it whole. */
 bool json_text_starved(void);
+
+/* Has json_text_starved() say so: for writers of parts that have no status of their own. */
+void json_text_starve(void);
 
 /* Reads a value; `path` is for the message. COROT_EFORMAT, or COROT_ENOMEM, which jansson itself
    reports as one or another error of the text. The caller's to json_decref. */

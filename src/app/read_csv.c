@@ -1,5 +1,6 @@
 #include "read_csv.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -110,11 +111,14 @@ corot_status csv_read(const char *dir, const char *name, csv *table) {
 corot_status csv_read_if_there(const char *dir, const char *name, csv *table) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
-  bool there = access(path, F_OK) == 0;
+  bool there = access(path, F_OK) == 0, absent = !there && (errno == ENOENT || errno == ENOTDIR);
+  corot_status status = COROT_OK;
+  if (!there && !absent)
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   free(path);
   if (there) return csv_read(dir, name, table);
-  *table = (csv){0};
-  return COROT_OK;
+  if (absent) *table = (csv){0};
+  return status;
 }
 
 int csv_find(const csv *t, const char *name) {

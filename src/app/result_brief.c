@@ -15,8 +15,8 @@ static corot_status make_text(const scenario *s, const brief_result *what, json_
   result = json_text_with(result, "failure", run_failure_json(what->failure));
   result = json_text_with(result, "t_end", json_text_real(s->t_end));
   result = json_text_with(result, "title", json_text_string(s->title));
-  result = json_text_with(
-      result, "warnings", what->warnings ? warnings_json(what->warnings) : json_array());
+  result = json_text_with(result, "warnings",
+                          what->warnings ? warnings_json(what->warnings) : json_array());
   result = json_text_with(result, "strain", json_string(s->strain));
   result = json_text_with(result, "versions", result_versions());
   result = json_text_with(result, "scenario", json_incref(s->resolved));

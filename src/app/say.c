@@ -5,6 +5,7 @@
 
 #include "escape.h"
 #include "no_memory.h"
+#include "text_stream.h"
 
 void say_to(FILE *out, const char *format, va_list arguments) {
   char text[2048], *whole = NULL;
@@ -37,10 +38,10 @@ void say_error(void) { say("%s\n", corot_error()); }
 corot_status show_all(corot_status (*write)(const void *what, FILE *out), const void *what) {
   char *text = NULL;
   size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
+  FILE *out = text_open(&text, &size);
   if (!out) return no_memory();
   corot_status status = write(what, out);
-  if (fclose(out) != 0 && status == COROT_OK) status = no_memory();
+  if (text_close(out) != 0 && status == COROT_OK) status = no_memory();
   if (status == COROT_OK) escape_terminal(text, stdout);
   free(text);
   return status;

@@ -10,6 +10,7 @@
 #include "folder.h"
 #include "no_memory.h"
 #include "number_text.h"
+#include "text_stream.h"
 
 enum {
   CELL = NUMBER_TEXT, /* with its comma */
@@ -99,7 +100,7 @@ static corot_status make_header(int n, const char *const *name, const char *cons
   size_t size = 0, longest = 0;
   for (int i = 0; i < n; i++) longest = strlen(name[i]) > longest ? strlen(name[i]) : longest;
   title = malloc(longest + CELL);
-  FILE *out = title ? open_memstream(header, &size) : NULL;
+  FILE *out = title ? text_open(header, &size) : NULL;
   if (out) fputc('t', out);
   for (int i = 0; out && i < n; i++)
     for (int c = 0; c < 3; c++) {
@@ -109,7 +110,7 @@ static corot_status make_header(int n, const char *const *name, const char *cons
     }
   if (out && *after) fprintf(out, ",%s", after);
   free(title);
-  if (out && fclose(out) == 0) return COROT_OK;
+  if (out && text_close(out) == 0) return COROT_OK;
   free(*header);
   *header = NULL;
   return no_memory();

@@ -44,7 +44,7 @@ corot_status groups_write(const char *dir, const json_t *resolved, const corot_m
   json_t *groups = add_groups(json_object(), json_object_get(resolved, "boundary"), mesh);
   groups = add_groups(groups, json_object_get(resolved, "loads"), mesh);
   char *path = folder_path(dir, "groups.json");
-  char *text = groups ? json_dumps(groups, JSON_COMPACT) : NULL;
+  char *text = groups ? json_text_dump_plain(groups, JSON_COMPACT) : NULL;
   corot_status status = text && path
                             ? file_replace_durably(path, text, strlen(text))
                             : corot_fail(COROT_ENOMEM, "%s/groups.json: out of memory", dir);

@@ -10,6 +10,7 @@
 #include "lookup.h"
 #include "markup.h"
 #include "page.h"
+#include "text_stream.h"
 
 /* "finished", or what ended it. */
 static void write_outcome(const run_folder *run, FILE *out) {
@@ -246,10 +247,15 @@ void run_summary_scenario(const run_folder *run, FILE *out) {
   const json_t *r = run->result;
   char *text = NULL;
   size_t size = 0;
-  FILE *memory = open_memstream(&text, &size);
-  if (!memory) return;
-  json_text_write(lookup(r, "scenario"), memory);
-  fclose(memory);
+  FILE *memory = text_open(&text, &size);
+  const json_t *said = lookup(r, "scenario");
+  bool whole = memory && (!said || json_text_write(said, memory) == COROT_OK);
+  whole &= text_close(memory) == 0;
+  if (!whole) {
+    json_text_starve();
+    free(text);
+    return;
+  }
   page_section("scenario", "Scenario", out);
   fputs("<details><summary>all keys, defaults included</summary><pre>", out);
   markup_text(out, text);

@@ -4,16 +4,17 @@
 
 #include "folder.h"
 #include "json_text.h"
+#include "text_stream.h"
 
 corot_status save_text(const char *path, save_writer *write, const void *what) {
   char *text = NULL;
   size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
+  FILE *out = text_open(&text, &size);
   if (!out) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
   json_text_starved(); /* from here on */
   corot_status status = write(what, out);
-  int failed = ferror(out) || json_text_starved();
-  failed |= fclose(out);
+  int failed = json_text_starved();
+  failed |= text_close(out);
   if (status == COROT_OK && failed) status = corot_fail(COROT_ENOMEM, "%s: out of memory", path);
   if (status == COROT_OK) status = file_replace_durably(path, text, size);
   free(text);

@@ -176,10 +176,17 @@ void corot_driver_on_error(SUN_ERROR_HANDLER_ARGUMENTS) {
 }
 
 /* Where SUNDIALS gives no reason, it did not get its memory. */
+/* What a failure of SUNDIALS comes to. Its packages have different numbers for want of memory, and
+   the same words. */
+static corot_status meaning(const driver *d) {
+  if (d->fatal) return d->fatal;
+  return strstr(d->message, "memory request failed") ? COROT_ENOMEM : COROT_EINTEGRATE;
+}
+
 corot_status corot_driver_refuse(const driver *d, const char *what) {
   if (d->fatal) return corot_driver_give_up(d, what);
-  return corot_fail(d->message[0] ? COROT_EINTEGRATE : COROT_ENOMEM, "%s: %s: %s",
-                    d->self->ops->name, what, d->message[0] ? d->message : "out of memory");
+  return corot_fail(d->message[0] ? meaning(d) : COROT_ENOMEM, "%s: %s: %s", d->self->ops->name,
+                    what, d->message[0] ? d->message : "out of memory");
 }
 
 /* Whether a trial of the last few steps met a state that cannot be evaluated. */
@@ -192,9 +199,8 @@ corot_status corot_driver_give_up(const driver *d, const char *why) {
   char limit[48] = "";
   if (d->self->def.min_step > 0)
     snprintf(limit, sizeof limit, "; min_step = %g s", d->self->def.min_step);
-  return corot_fail(d->fatal ? d->fatal : COROT_EINTEGRATE,
-                    "%s: cannot get past t = %.9g: %s%s%s%s%s", d->self->ops->name, d->self->t,
-                    refused ? d->refusal : "", refused ? " (" : "",
+  return corot_fail(meaning(d), "%s: cannot get past t = %.9g: %s%s%s%s%s", d->self->ops->name,
+                    d->self->t, refused ? d->refusal : "", refused ? " (" : "",
                     *why ? why : "the error test failed too often, or the step became too short",
                     limit, refused ? ")" : "");
 }

@@ -63,9 +63,13 @@ static corot_status create(corot_integrator *self, const double *u, const double
   c->memory = CVodeCreate(CV_BDF, d->ctx);
   if (!c->memory) return corot_fail(COROT_ENOMEM, "no memory for cvode");
   if (SUN_CATCH_ERRORS(CVodeSetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error,
-                       d->message) ||
-      CVodeInit(c->memory, corot_driver_rhs, self->t, d->y) || configure(c))
+                       d->message))
     return corot_driver_refuse(d, "set-up");
+  if (CVodeInit(c->memory, corot_driver_rhs, self->t, d->y)) {
+    c->memory = NULL; /* lost: without memory CVodeInit frees what CVodeFree would free again */
+    return corot_driver_refuse(d, "set-up");
+  }
+  if (configure(c)) return corot_driver_refuse(d, "set-up");
   return COROT_OK;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include <app/suggest.h>
+#include <app/text_stream.h>
 
 #include "study.h"
 
@@ -157,7 +158,7 @@ static corot_status describe(config *tree, const setting *place, FILE *out) {
 static corot_status name_series(study *s, cell *c) {
   char *buffer = NULL;
   size_t size = 0;
-  FILE *out = open_memstream(&buffer, &size);
+  FILE *out = text_open(&buffer, &size);
   if (!out) return no_memory();
   corot_status status = COROT_OK;
   const char *separator = "";
@@ -167,7 +168,7 @@ static corot_status name_series(study *s, cell *c) {
     status = describe(s->tree, &c->place[i], out);
     separator = ", ";
   }
-  bool written = fclose(out) == 0;
+  bool written = text_close(out) == 0;
   if (written && status == COROT_OK) c->series = size ? config_copy(s->tree, buffer, size) : "all";
   free(buffer);
   if (status != COROT_OK) return status;

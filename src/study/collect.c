@@ -25,9 +25,10 @@ static corot_status copy_text(const char *text, char **out) {
   return COROT_OK;
 }
 
-/* What cannot be measured is noted; only want of memory ends the collecting. */
+/* What cannot be measured is noted; what the system refuses (memory, reading) ends the collecting:
+   the next time it may be there. */
 static corot_status note(corot_status status, char **out) {
-  if (status == COROT_ENOMEM) return status;
+  if (status == COROT_ENOMEM || status == COROT_EIO) return status;
   return status == COROT_OK ? COROT_OK : copy_text(corot_error(), out);
 }
 

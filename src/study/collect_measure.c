@@ -1,4 +1,5 @@
 /* Trajectories from the folders of runs, and the model they belong to. */
+#include <app/cli.h>
 #include <app/hash.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
@@ -16,7 +17,7 @@ static char *yardstick_key(const json_t *result) {
     json_object_del(solid, solution[i]);
   const json_t *hash = json_object_get(json_object_get(result, "hashes"), "mesh");
   json_t *both = json_pack("{s:o, s:O}", "solid", solid, "mesh", hash);
-  char *text = json_dumps(both, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+  char *text = json_text_dump_plain(both, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   json_decref(both);
   return text;
 }
@@ -67,9 +68,10 @@ static corot_status hold_yardstick(measuring *g, const json_t *result) {
 }
 
 static corot_status read_states(const char *dir, const study_run *run, trajectory *out) {
-  char *path = store_path(dir, run, "");
-  if (!path) return COROT_ENOMEM;
-  corot_status status = states_read(path, out);
+  char *path = store_path(dir, run, ""), *file = store_path(dir, run, "states.bin");
+  corot_status status = path && file ? states_read(path, out) : COROT_ENOMEM;
+  if (status == COROT_EIO) status = read_failure(status, file);
+  free(file);
   free(path);
   return status;
 }

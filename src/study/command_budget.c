@@ -3,6 +3,7 @@
 
 #include <app/cli.h>
 #include <app/json_text.h>
+#include <app/say.h>
 
 #include "budget.h"
 #include "command_study.h"
@@ -92,6 +93,11 @@ static int take(void *context, int option, const char *value) {
   return usage_error("corot budget", "--skip %s: expected a part, such as space", value);
 }
 
+static corot_status write_budget(const void *budget, FILE *out) {
+  budget_print(budget, out);
+  return COROT_OK;
+}
+
 static int make_budget(void *context, const scenario *s, const variants_arguments *a) {
   const arguments *own_arguments = context;
   json_t *budget = NULL;
@@ -104,7 +110,7 @@ static int make_budget(void *context, const scenario *s, const variants_argument
   if (a->json)
     status = json_text_show(budget);
   else
-    budget_print(budget, stdout);
+    status = show_all(write_budget, budget);
   json_decref(budget);
   if (status == COROT_OK) status = study_page(a->options.dir, a->options.quiet);
   return status == COROT_OK ? code : failure(status);

@@ -69,7 +69,7 @@ static int export_study(const char *path, const char *dir, export_format *write)
   study *s = NULL;
   manifest *m = NULL;
   corot_status status = study_read(path, &s);
-  if (status == COROT_EIO) status = COROT_EFORMAT; /* no study is a bad study */
+  status = read_failure(status, path);
   if (status == COROT_OK) status = plan_study(s, &m);
   char *folder = status == COROT_OK && !dir ? folder_path("out", s->name) : NULL;
   if (status == COROT_OK && !dir && !folder) status = COROT_ENOMEM;

@@ -190,7 +190,7 @@ static int run_study(const char *path, arguments *a) {
   study *s = NULL;
   manifest *m = NULL;
   corot_status status = study_read(path, &s);
-  if (status == COROT_EIO) status = COROT_EFORMAT; /* no study is a bad study */
+  status = read_failure(status, path);
   if (status == COROT_OK) status = plan_study(s, &m);
   char *folder = status == COROT_OK && !a->o.dir ? folder_path("out", s->name) : NULL;
   if (folder) a->o.dir = folder;

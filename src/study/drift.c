@@ -120,7 +120,8 @@ static corot_status read_table(yardstick *y, FILE *file, const char *path, books
   char line[1024];
   double row[NCOLUMN];
   if (!fgets(line, sizeof line, file) || strncmp(line, header, sizeof header - 1) != 0)
-    return corot_fail(COROT_EFORMAT, "%s: not a table of energies", path);
+    return ferror(file) ? corot_fail(COROT_EIO, "%s: cannot read it", path)
+                        : corot_fail(COROT_EFORMAT, "%s: not a table of energies", path);
   for (int number = 2; fgets(line, sizeof line, file); number++) {
     if (!read_row(line, row)) return corot_fail(COROT_EFORMAT, "%s:%d: not a row", path, number);
     COROT_TRY(enter_row(y, row, b));
@@ -133,9 +134,9 @@ corot_status drift_measure(yardstick *y, const scenario *s, const char *dir, dri
   if (!path) return COROT_ENOMEM;
   books b = {.by_impulse = has_known_impulse(y->model, s)};
   FILE *file = fopen(path, "re");
-  corot_status status =
-      file ? read_table(y, file, path, &b)
-           : corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+  corot_status status = file ? read_table(y, file, path, &b)
+                             : corot_fail(errno == ENOENT ? COROT_EFORMAT : COROT_EIO,
+                                          "%s: cannot open it: %s", path, strerror(errno));
   if (file) fclose(file);
   free(path);
   COROT_TRY(status);

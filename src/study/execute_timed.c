@@ -31,7 +31,13 @@ static corot_status repeat_once(execution *e, int i, timings *t) {
   COROT_TRY(execution_start(e, i, "timed", "output={fields: none, states: none}"));
   COROT_TRY(pool_wait(&same, &ended));
   if (ended == 0) COROT_TRY(read_times(e, e->task[i].run, &cpu, &wall, &found));
-  return found ? timings_add(e->o->dir, e->task[i].run, t, cpu, wall) : COROT_OK;
+  if (found) return timings_add(e->o->dir, e->task[i].run, t, cpu, wall);
+  if (store_is_timeout(ended) || pool_signal()) return COROT_OK;
+  return corot_fail(
+      COROT_EIO,
+      "%s/runs/%s/timed: the repetition for the clock has failed (%d), though the run "
+      "was well; the same command tries it again",
+      e->o->dir, e->task[i].run->id, ended);
 }
 
 /* Every run once, then every run again: what slows the machine for a while is spread over all. */

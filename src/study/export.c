@@ -2,6 +2,7 @@
 
 #include <app/escape.h>
 #include <app/no_memory.h>
+#include <app/text_stream.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,10 +70,10 @@ static corot_status write_dictionary(const manifest *m, FILE *out) {
   for (int i = 0; i < m->nrun; i++) {
     char *text = NULL;
     size_t size = 0;
-    FILE *sets = open_memstream(&text, &size);
+    FILE *sets = text_open(&text, &size);
     if (!sets) return no_memory();
     write_sets(&m->run[i], sets);
-    if (fclose(sets) != 0) {
+    if (text_close(sets) != 0) {
       free(text);
       return no_memory();
     }

@@ -2,6 +2,7 @@
 
 #include <app/folder.h>
 #include <app/json_text.h>
+#include <app/text_stream.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,10 +35,10 @@ corot_status json_file_read(const char *path, json_t **out) {
 corot_status json_file_write(const char *dir, const char *name, const json_t *value) {
   char *path = folder_path(dir, name), *text = NULL;
   size_t size = 0;
-  FILE *out = path ? open_memstream(&text, &size) : NULL;
+  FILE *out = path ? text_open(&text, &size) : NULL;
   corot_status status = COROT_OK;
   bool written = out && json_text_write(value, out) == COROT_OK && !json_text_starved();
-  if (!out || fclose(out) != 0 || !written)
+  if (text_close(out) != 0 || !written)
     status = corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
   if (status == COROT_OK) status = file_replace_durably(path, text, size);
   free(text);

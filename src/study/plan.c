@@ -35,7 +35,7 @@ static corot_status make_setting(config *tree, const char *key, const char *text
 static corot_status mesh_digest(planner *p, const scenario *s, char digest[HASH_SIZE]) {
   json_t *said = json_pack("{s:O, s:O}", "mesh", json_object_get(s->resolved, "mesh"), "groups",
                            json_object_get(s->resolved, "groups"));
-  char *text = json_dumps(said, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+  char *text = json_text_dump_plain(said, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   json_decref(said);
   if (!text) return no_memory();
   const char *known = json_string_value(json_object_get(p->mesh_at, text));
@@ -196,7 +196,7 @@ static corot_status find_reference(planner *p, const cell *c, json_int_t *index)
   int nset;
   COROT_TRY(refer(p, c, p->study->reference_method[0], &nset, &set));
   json_t *list = assignments(p->study->tree, nset, set);
-  char *text = json_dumps(list, JSON_COMPACT);
+  char *text = json_text_dump_plain(list, JSON_COMPACT);
   json_decref(list);
   if (!text) return no_memory();
   const json_t *known = json_object_get(p->reference_at, text);
@@ -287,7 +287,7 @@ static corot_status identify(const study *s, char digest[HASH_SIZE]) {
   COROT_TRY(config_read(s->base, &base));
   json_t *both = json_pack("{s:s, s:o}", "study", s->title, "base", study_value_json(base->root));
   config_destroy(base);
-  char *text = json_dumps(both, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+  char *text = json_text_dump_plain(both, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   json_decref(both);
   if (!text) return no_memory();
   hash_text(text, digest);

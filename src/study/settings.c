@@ -1,6 +1,7 @@
 /* Keys of a scenario and values for them, as a study file writes them. */
 #include <app/json_text.h>
 #include <app/no_memory.h>
+#include <app/text_stream.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,10 +45,10 @@ static corot_status write_value(const config_node *value, FILE *out) {
 corot_status study_value_text(config *tree, const config_node *value, const char **text) {
   char *buffer = NULL;
   size_t size = 0;
-  FILE *out = open_memstream(&buffer, &size);
+  FILE *out = text_open(&buffer, &size);
   if (!out) return no_memory();
   bool written = write_value(value, out) == COROT_OK;
-  written &= fclose(out) == 0;
+  written &= text_close(out) == 0;
   *text = written ? config_copy(tree, buffer, size) : NULL;
   free(buffer);
   return *text ? COROT_OK : no_memory();

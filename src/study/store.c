@@ -30,7 +30,11 @@ static corot_status read_own(const char *dir, const study_run *run, const char *
   char *path = store_path(dir, run, name);
   if (!path) return COROT_ENOMEM;
   json_t *json = NULL;
-  corot_status status = access(path, F_OK) == 0 ? json_file_read(path, &json) : COROT_OK;
+  corot_status status = COROT_OK;
+  if (access(path, F_OK) == 0)
+    status = json_file_read(path, &json);
+  else if (errno != ENOENT && errno != ENOTDIR)
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   free(path);
   if (status == COROT_ENOMEM || status == COROT_EIO) return status;
   const json_t *hash = json_object_get(json, "hash");

@@ -1,5 +1,6 @@
 #include "study.h"
 
+#include <app/cli.h>
 #include <app/no_memory.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,8 @@ static const char *name_of(config *tree, const char *path) {
 static corot_status check_base(const study *s) {
   config *base = NULL;
   corot_status status = config_read(s->base, &base);
-  if (status == COROT_EIO) return config_fail(s->base_node, "%s", corot_error());
+  if (read_failure(status, s->base) == COROT_EFORMAT && status == COROT_EIO)
+    return config_fail(s->base_node, "%s", corot_error());
   COROT_TRY(status);
   bool is_study = false;
   for (const config_node *c = base->root->child; c; c = c->next)

@@ -1,6 +1,8 @@
 #include <app/escape.h>
 #include <app/folder.h>
+#include <app/json_text.h>
 #include <app/no_memory.h>
+#include <app/text_stream.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +20,7 @@ static corot_status write_value(const json_t *value, FILE *out) {
   } else if (json_is_boolean(value)) {
     fputs(json_is_true(value) ? "true" : "false", out);
   } else if (value && !json_is_null(value)) {
-    char *text = json_dumps(value, JSON_COMPACT);
+    char *text = json_text_dump_plain(value, JSON_COMPACT);
     if (!text) return no_memory();
     escape_csv(text, out);
     free(text);
@@ -48,9 +50,9 @@ corot_status table_write_csv(const json_t *table, const char *dir) {
   COROT_TRY(flat_make(table, &f));
   char *text = NULL, *path = folder_path(dir, "table.csv");
   size_t size = 0;
-  FILE *out = path ? open_memstream(&text, &size) : NULL;
+  FILE *out = path ? text_open(&text, &size) : NULL;
   bool written = out && write_table(table, &f, out) == COROT_OK;
-  corot_status status = out && fclose(out) == 0 && written
+  corot_status status = out && text_close(out) == 0 && written
                             ? file_replace_durably(path, text, size)
                             : corot_fail(COROT_ENOMEM, "%s/table.csv: out of memory", dir);
   free(text);

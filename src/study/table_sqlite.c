@@ -1,5 +1,7 @@
 #include <app/escape.h>
 #include <app/folder.h>
+#include <app/json_text.h>
+#include <app/text_stream.h>
 #include <errno.h>
 #include <sqlite3.h>
 #include <stdio.h>
@@ -9,14 +11,16 @@
 
 #include "flat.h"
 
-static corot_status complain(sqlite3 *db, const char *path) {
-  return corot_fail(COROT_EIO, "%s: %s", path, sqlite3_errmsg(db));
+/* `code` may be of our own making, which SQLite's message does not know. */
+static corot_status complain(int code, const char *path) {
+  corot_status status = code == SQLITE_NOMEM ? COROT_ENOMEM : COROT_EIO;
+  return corot_fail(status, "%s: %s", path, sqlite3_errstr(code));
 }
 
 /* The statements that make the table and fill a row of it; the caller's to free. */
 static corot_status make_statements(const flat *f, char **create, char **insert) {
   size_t size;
-  FILE *out = open_memstream(create, &size);
+  FILE *out = text_open(create, &size);
   if (!out) return corot_fail(COROT_ENOMEM, "out of memory");
   fputs("create table runs (", out);
   for (int k = 0; k < f->n; k++) {
@@ -24,14 +28,14 @@ static corot_status make_statements(const flat *f, char **create, char **insert)
     escape_sql_name(f->column[k].name, out);
   }
   fputs(")", out);
-  if (fclose(out) != 0) return corot_fail(COROT_ENOMEM, "out of memory");
+  if (text_close(out) != 0) return corot_fail(COROT_ENOMEM, "out of memory");
 
-  out = open_memstream(insert, &size);
+  out = text_open(insert, &size);
   if (!out) return corot_fail(COROT_ENOMEM, "out of memory");
   fputs("insert into runs values (", out);
   for (int k = 0; k < f->n; k++) fputs(k > 0 ? ", ?" : "?", out);
   fputs(")", out);
-  return fclose(out) == 0 ? COROT_OK : corot_fail(COROT_ENOMEM, "out of memory");
+  return text_close(out) == 0 ? COROT_OK : corot_fail(COROT_ENOMEM, "out of memory");
 }
 
 static int bind_value(sqlite3_stmt *row, int at, const json_t *value) {
@@ -41,7 +45,7 @@ static int bind_value(sqlite3_stmt *row, int at, const json_t *value) {
   if (json_is_string(value))
     return sqlite3_bind_text(row, at, json_string_value(value), -1, SQLITE_TRANSIENT);
   if (!value || json_is_null(value)) return sqlite3_bind_null(row, at);
-  char *text = json_dumps(value, JSON_COMPACT);
+  char *text = json_text_dump_plain(value, JSON_COMPACT);
   int code = text ? sqlite3_bind_text(row, at, text, -1, SQLITE_TRANSIENT) : SQLITE_NOMEM;
   free(text);
   return code;
@@ -71,15 +75,18 @@ static int fill(sqlite3 *db, const flat *f, const json_t *cells, const char *cre
 
 /* An index can be made again at any time: it need not survive a failure of power. */
 static corot_status write_database(const flat *f, const json_t *cells, const char *path) {
+  static const char unsafe[] = "pragma synchronous = off; pragma journal_mode = off";
   char *create = NULL, *insert = NULL;
   sqlite3 *db = NULL;
   corot_status status = make_statements(f, &create, &insert);
-  if (status == COROT_OK &&
-      (sqlite3_open(path, &db) != SQLITE_OK ||
-       sqlite3_exec(db, "pragma synchronous = off; pragma journal_mode = off", NULL, NULL, NULL) ||
-       fill(db, f, cells, create, insert) != SQLITE_OK))
-    status = complain(db, path);
-  sqlite3_close(db);
+  if (status == COROT_OK) {
+    int code = sqlite3_open(path, &db);
+    if (code == SQLITE_OK) code = sqlite3_exec(db, unsafe, NULL, NULL, NULL);
+    if (code == SQLITE_OK) code = fill(db, f, cells, create, insert);
+    if (code != SQLITE_OK) status = complain(code, path);
+  }
+  if (sqlite3_close(db) != SQLITE_OK && status == COROT_OK)
+    status = corot_fail(COROT_EIO, "%s: cannot be closed", path);
   free(create);
   free(insert);
   return status;

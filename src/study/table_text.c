@@ -1,6 +1,7 @@
 #include "table_text.h"
 
 #include <app/escape.h>
+#include <app/json_text.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -129,7 +130,7 @@ static void print_references(const json_t *list, FILE *out) {
   if (json_array_size(list) > 0) fputs("\nreferences\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *r = json_array_get(list, i);
-    char *settings = json_dumps(json_object_get(r, "settings"), JSON_REAL_PRECISION(6));
+    char *settings = json_text_dump_plain(json_object_get(r, "settings"), JSON_REAL_PRECISION(6));
     fprintf(out, "  %s, rtol %.2g: %s\n", settings ? settings : "-", number_at(r, "rtol"),
             text_at(r, "note"));
     free(settings);

@@ -55,7 +55,7 @@ static int take_option(const variants_command *c, int answer, char **argv,
 static int go(const variants_command *c, const char *path, variants_arguments *a) {
   scenario *s = NULL;
   corot_status status = scenario_read(path, a->nset, (char *const *)a->set, &s);
-  if (status == COROT_EIO) status = COROT_EFORMAT; /* no scenario is a bad scenario */
+  status = read_failure(status, path);
   if (status != COROT_OK) return failure(status);
   char *folder = a->options.dir ? NULL : folder_default(path, c->suffix);
   if (folder) a->options.dir = folder;

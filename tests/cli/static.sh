@@ -4,9 +4,9 @@ expect 0 static --help; out "usage: corot static MODEL.yaml"; no_err
 expect 2 static; err "expected one scenario, found 0"
 
 expect 0 static model.yaml; no_out; err "load factor 1: residual "; err "in 1 load step, "
-[ "$(wc -l <out/model/probes.csv)" = 3 ] || complain "rows of probes.csv"
-tail -n 1 out/model/probes.csv | grep -q '^0\.050*[0-9]*,0\.0' || complain "the last row is not the end"
-[ -s out/model/fields.pvd ] && [ -s out/model/energy.csv ] || complain "no output in out/model"
+[ "$(wc -l <out/model-static/probes.csv)" = 3 ] || complain "rows of probes.csv"
+tail -n 1 out/model-static/probes.csv | grep -q '^0\.050*[0-9]*,0\.0' || complain "the last row is not the end"
+[ -s out/model-static/fields.pvd ] && [ -s out/model-static/energy.csv ] || complain "no output in out/model-static"
 
 expect 0 static model.yaml -o a --quiet --json --set statics.max_step=0.25; no_err
 json 'd["status"] == "ok" and d["t_reached"] == 0.05 and d["integrator"] is None'

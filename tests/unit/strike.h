@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "check.h"
+#include "core/trial.h"
 #include "solve/linsol.h"
 #include "solve/pencil.h"
 
@@ -63,7 +64,11 @@ STRIKE(RESIDUAL, corot_residual,
        (const corot_model *m, corot_state *s, double t, const double *u, const double *v,
         double *r),
        (m, s, t, u, v, r))
-STRIKE(RATE, corot_rhs,
+STRIKE(RESIDUAL, corot_residual_trial,
+       (const corot_model *m, corot_state *s, double t, const double *u, const double *v,
+        double *r),
+       (m, s, t, u, v, r))
+STRIKE(RATE, corot_rhs_trial,
        (const corot_model *m, corot_state *s, double t, const double *y, double *ydot),
        (m, s, t, y, ydot))
 STRIKE(JACOBIAN, corot_jacobian,
