@@ -34,6 +34,7 @@ typedef struct run {
   double shown;  /* time of the last row of the tables [s]; -1: there is none */
   frame_totals frames;
   run_failure failure;
+  folder_lock lock;
   warnings warnings;
   observed seen;                                                   /* in the end */
   double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
@@ -314,6 +315,7 @@ static int conclude(run *r, corot_status status) {
 }
 
 static corot_status open_outputs(run *r) {
+  COROT_TRY(run_enter(r->scenario, r->options, &r->lock));
   COROT_TRY(outputs_open(r->scenario, r->model, r->options->dir, &r->outputs));
   return outputs_open_history(r->outputs, r->options->dir);
 }
@@ -328,12 +330,13 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
   if (status == COROT_OK) status = run_preparing(prepare(&r));
   if (status == COROT_OK) status = open_outputs(&r);
   if (status != COROT_OK) {
-    code = run_end_early(s, options, &r.warnings, status);
+    code = run_end_early(s, options, &r.lock, &r.warnings, status);
   } else {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
     code = conclude(&r, integrate(&r));
   }
   release(&r);
+  folder_leave(&r.lock);
   return code;
 }
 

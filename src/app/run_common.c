@@ -56,8 +56,16 @@ corot_status run_preparing(corot_status status) {
   return other ? status : COROT_EFORMAT;
 }
 
-int run_end_early(const scenario *s, const run_options *options, const warnings *warned,
-                  corot_status status) {
+corot_status run_enter(const scenario *s, const run_options *options, folder_lock *lock) {
+  COROT_TRY(folder_enter(options->dir, lock));
+  if (lock->taken && !options->quiet)
+    say("%s: %s was writing to %s and has left no result; its files are replaced\n", s->path,
+        lock->taken, options->dir);
+  return COROT_OK;
+}
+
+int run_end_early(const scenario *s, const run_options *options, folder_lock *lock,
+                  const warnings *warned, corot_status status) {
   char reason[1024];
   int code = run_exit_code(status);
   snprintf(reason, sizeof reason, "%s", corot_error());
@@ -74,7 +82,8 @@ int run_end_early(const scenario *s, const run_options *options, const warnings 
                        .exit_code = code,
                        .failure = run_failure_of(status, code),
                        .warnings = warned};
-  if (code != EXIT_SCENARIO) leave_brief(s, &what, options->dir); /* if it cannot, all is said */
+  if (code != EXIT_SCENARIO && (lock->path || run_enter(s, options, lock) == COROT_OK))
+    leave_brief(s, &what, options->dir); /* if it cannot, all is said */
   return code;
 }
 

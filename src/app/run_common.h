@@ -2,6 +2,7 @@
 #ifndef COROT_APP_RUN_COMMON_H
 #define COROT_APP_RUN_COMMON_H
 
+#include "folder_lock.h"
 #include "outputs.h"
 #include "result.h"
 #include "run.h"
@@ -20,10 +21,13 @@ corot_status run_begin(const scenario *s, const run_options *options);
    and that there is no equilibrium to start from. */
 corot_status run_preparing(corot_status status);
 
-/* The end of a run that failed before its first output: says why, and leaves a result.json unless
+/* Takes the folder for this run, and says so if a process that was killed has left it locked. */
+corot_status run_enter(const scenario *s, const run_options *options, folder_lock *lock);
+
+/* The end of a run that failed before its first output: says why, and leaves a result.json unless another process writes there or
    it is the scenario's fault; `warned` is what was warned of before. Returns the exit code. */
-int run_end_early(const scenario *s, const run_options *options, const warnings *warned,
-                  corot_status status);
+int run_end_early(const scenario *s, const run_options *options, folder_lock *lock,
+                  const warnings *warned, corot_status status);
 
 /* The words and the exit code of a run that heeds a request to stop. */
 int run_interrupted(size_t size, char *reason);

@@ -32,6 +32,7 @@ typedef struct equilibrium_run {
   json_t *steps;
   json_t *reactions_at_end;
   run_failure failure;
+  folder_lock lock;
   warnings warnings;
   observed seen;                                         /* in the end */
   double wall_at_start, cpu_at_start, setup_s, output_s; /* [s] */
@@ -75,6 +76,7 @@ static corot_status prepare(equilibrium_run *r) {
 
 static corot_status open_outputs(equilibrium_run *r) {
   const scenario *s = r->scenario;
+  COROT_TRY(run_enter(s, r->options, &r->lock));
   COROT_TRY(outputs_open(s, r->model, r->options->dir, &r->outputs));
   return reactions_create(r->options->dir, s, r->model, &r->reactions);
 }
@@ -266,8 +268,9 @@ static int search(const scenario *s, const run_options *options) {
   if (status == COROT_OK) status = run_preparing(prepare(&r));
   if (status == COROT_OK) status = open_outputs(&r);
   int code = status == COROT_OK ? conclude(&r, find_equilibrium(&r))
-                                : run_end_early(s, options, &r.warnings, status);
+                                : run_end_early(s, options, &r.lock, &r.warnings, status);
   release(&r);
+  folder_leave(&r.lock);
   return code;
 }
 
