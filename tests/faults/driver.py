@@ -80,6 +80,8 @@ KNOWN_CRASHES = [
      "libfyaml 0.7.12 uses an input it could not allocate (fy_parse_input_append)"),
     (r"libsundials\S* ARKodeButcherTable_Load",
      "SUNDIALS 6.4 fills a table it could not allocate (ARKodeButcherTable_LoadDIRK)"),
+    (r"libsundials\S* SUNLogger_Create",
+     "SUNDIALS 6.4 uses a logger it could not allocate (SUNLogger_Create)"),
     (r"libsundials\S* N_VClone",
      "SUNDIALS 6.4 uses the clone of a vector it could not allocate (N_VClone)"),
 ]
