@@ -1,9 +1,11 @@
 #include "hash.h"
 
+#include <errno.h>
 #include <sha2.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "json_text.h"
 
@@ -30,6 +32,22 @@ void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]) {
 
 void hash_bytes(const char *data, size_t size, char digest[HASH_SIZE]) {
   SHA256Data((const uint8_t *)data, size, digest);
+}
+
+corot_status hash_file(int fd, const char *path, long long *size, char digest[HASH_SIZE]) {
+  SHA2_CTX sum;
+  uint8_t buffer[16384];
+  ssize_t got;
+  *size = 0;
+  SHA256Init(&sum);
+  while ((got = pread(fd, buffer, sizeof buffer, *size)) != 0) {
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return corot_fail(COROT_EIO, "%s: cannot read: %s", path, strerror(errno));
+    SHA256Update(&sum, buffer, (size_t)got);
+    *size += got;
+  }
+  SHA256End(&sum, digest);
+  return COROT_OK;
 }
 
 void hash_text(const char *text, char digest[HASH_SIZE]) { hash_bytes(text, strlen(text), digest); }

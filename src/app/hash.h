@@ -20,6 +20,9 @@ void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]);
 corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out);
 
 void hash_bytes(const char *data, size_t size, char digest[HASH_SIZE]);
+/* Of an open file from its beginning; `path` is for the message. */
+corot_status hash_file(int fd, const char *path, long long *size, char digest[HASH_SIZE]);
+
 void hash_text(const char *text, char digest[HASH_SIZE]);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "cli.h"
 #include "folder.h"
+#include "folder_files.h"
 #include "result_brief.h"
 #include "say.h"
 #include "stop.h"
@@ -111,8 +112,12 @@ corot_status run_write_result(const scenario *s, const outputs *o, const run_sum
                               const run_options *options) {
   json_t *result = NULL;
   COROT_TRY(result_make(s, o, summary, &result));
+  json_t *files = NULL;
   char *text = NULL;
-  corot_status status = result_text(result, &text);
+  corot_status status = folder_files(options->dir, &files);
+  if (status == COROT_OK && json_object_set_new(result, "files", files))
+    status = corot_fail(COROT_ENOMEM, "result.json: out of memory");
+  if (status == COROT_OK) status = result_text(result, &text);
   json_decref(result);
   COROT_TRY(status);
   status = result_write(options->dir, text);

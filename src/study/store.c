@@ -2,6 +2,7 @@
 
 #include <app/cli.h>
 #include <app/folder.h>
+#include <app/folder_files.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
 #include <app/stop.h>
@@ -65,6 +66,23 @@ static corot_status keep_reason(const json_t *json, run_record *record) {
   return COROT_OK;
 }
 
+/* A result is worth as much as the files that it lists: where one is lost, the run is. */
+static corot_status look_at_files(const char *dir, const study_run *run, json_t *result,
+                                  run_record *record) {
+  char *path = store_path(dir, run, "");
+  if (!path) return COROT_ENOMEM;
+  corot_status status = folder_check(path, result);
+  free(path);
+  if (status == COROT_OK) {
+    record->state = RUN_DONE;
+    record->result = json_incref(result);
+  } else if (status == COROT_EIO) {
+    record->reason = strdup(corot_error());
+    status = record->reason ? COROT_OK : no_memory();
+  }
+  return status;
+}
+
 corot_status store_look(const char *dir, const study_run *run, run_record *record) {
   run_record r = {RUN_MISSING, NULL, NULL};
   json_t *result = NULL, *failure = NULL;
@@ -72,8 +90,7 @@ corot_status store_look(const char *dir, const study_run *run, run_record *recor
   const char *status = json_string_value(json_object_get(result, "status"));
   corot_status looked = COROT_OK;
   if (status && strcmp(status, "ok") == 0) {
-    r.state = RUN_DONE;
-    r.result = json_incref(result);
+    looked = look_at_files(dir, run, result, &r);
   } else if (is_lasting(result)) {
     looked = keep_reason(result, &r);
   } else {

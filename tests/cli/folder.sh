@@ -36,4 +36,31 @@ if [ -c /dev/full ]; then
   expect 5 run model.yaml -o /dev/full --quiet; err "/dev/full"
   [ -c /dev/full ] || complain "a device is gone"
 fi
+
+# result.json vouches for each file, and a study makes again what is lost or cut.
+rm -rf out
+expect 0 run model.yaml -o out --quiet --json
+python3 - <<'PY' || complain "result.json does not list the files as they are"
+import hashlib, json, os
+listed = json.load(open("out/result.json"))["files"]
+there = sorted(os.path.relpath(os.path.join(d, f), "out") for d, _, all in os.walk("out") for f in all)
+assert sorted([f["name"] for f in listed] + ["result.json"]) == there, (listed, there)
+for f in listed:
+    data = open(os.path.join("out", f["name"]), "rb").read()
+    assert len(data) == f["size"] and hashlib.sha256(data).hexdigest() == f["sha256"], f
+PY
+cat >study.yaml <<'YAML'
+study: which one
+base: model.yaml
+axes: [{key: strain, values: [polar, green]}]
+reference: none
+YAML
+expect 0 study study.yaml -o study
+set -- study/runs/*/
+cp "$1/probes.csv" whole.csv
+: >"$1/probes.csv"
+rm "$2/energy.csv"
+expect 0 study study.yaml -o study; err "2 of 2 runs done (2 now)"
+cmp -s whole.csv "$1/probes.csv" || complain "a file that was cut is not made again"
+expect 0 study study.yaml -o study; err "2 of 2 runs done (0 now)"
 exit $failed
