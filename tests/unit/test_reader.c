@@ -104,7 +104,7 @@ static void words_are_whole(void **state) {
 static void counts_that_fill_the_file(void **state) {
   (void)state;
   for (int n = 0; n < 5; n++) {
-    char text[16];
+    char text[24];
     snprintf(text, sizeof text, "%d 123456", n); /* seven bytes follow: three items of two */
     corot_reader r = over(text);
     int count = -1;
