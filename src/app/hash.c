@@ -53,7 +53,8 @@ corot_status hash_file(int fd, const char *path, long long *size, char digest[HA
 void hash_text(const char *text, char digest[HASH_SIZE]) { hash_bytes(text, strlen(text), digest); }
 
 corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out) {
-  char *text = json_text_dump_plain(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+  char *text =
+      json_text_dump_plain(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   if (!text) return corot_fail(COROT_ENOMEM, "the hash of the scenario: out of memory");
   hashes h;
   hash_text(text, h.scenario);
