@@ -1,6 +1,8 @@
 /* The linear solvers, each through the same tests. */
+#include <signal.h>
 #include <stdbool.h>
 #include <suitesparse/SuiteSparse_config.h>
+#include <time.h>
 
 #include "bar.h"
 #include "solve/linsol.h"
@@ -333,8 +335,8 @@ static bool built(const char *solver) {
   return answer;
 }
 
-/* Slender bodies have little fill and many iterations, compact ones the opposite. In statics cholmod
-   is taken even so where it is built, as it tells whether an equilibrium is stable. */
+/* Slender bodies have little fill and many iterations, compact ones the opposite. In statics
+   cholmod is taken even so where it is built, as it tells whether an equilibrium is stable. */
 static void auto_goes_by_shape_size_and_role(void **state) {
   (void)state;
   static const struct {
@@ -397,9 +399,11 @@ static void other_names_are_refused(void **state) {
        "no linear solver 'umfpack': auto, klu, cholmod or pcg"},
       {{NULL, "auto", "auto", "auto", 1, 0, NULL}, "no linear solver ''"},
       {{"klu", "colamd", "auto", "auto", 1, 0, NULL}, "no ordering 'colamd': auto, amd or metis"},
-      {{"klu", "auto", "ldl", "auto", 1, 0, NULL}, "no factor 'ldl': auto, simplicial or supernodal"},
+      {{"klu", "auto", "ldl", "auto", 1, 0, NULL},
+       "no factor 'ldl': auto, simplicial or supernodal"},
       {{"pcg", "auto", "auto", "ilu", 1, 0, NULL},
-       "no preconditioner 'ilu': auto, block-jacobi, incomplete-cholesky, hierarchical or multigrid"},
+       "no preconditioner 'ilu': auto, block-jacobi, incomplete-cholesky, hierarchical or "
+       "multigrid"},
       {{"pcg", "auto", "auto", "auto", 0, 0, NULL}, "tolerance = 0 is not positive"},
       {{"auto", "auto", "auto", "auto", NAN, 0, NULL}, "is not positive"},
   };
@@ -429,6 +433,45 @@ static void orderings_keep_the_unknowns_of_a_node_together(void **state) {
     free(seen);
     corot_linsol_plan_clear(&plan);
   }
+  corot_csc_destroy(csc);
+}
+
+static volatile sig_atomic_t terms;
+static void count_term(int number) { terms += number == SIGTERM; }
+
+/* A signal of the host's reaches the host at any moment of an order (some libraries of graphs take
+   SIGTERM for themselves), the order is that of a call in peace, and what the host had installed
+   stays as it was. */
+static void an_order_leaves_signals_to_the_host(void **state) {
+  (void)state;
+  struct sigaction mine = {.sa_handler = count_term, .sa_flags = SA_RESTART}, before, after;
+  struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGTERM};
+  timer_t timer;
+  corot_csc *csc = box_matrix(12, 12, 12);
+  corot_linear_def def = {"klu", "metis", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL};
+  linsol_plan peace, plan;
+  if (corot_linsol_choose(&def, csc, &peace) != COROT_OK) {
+    corot_csc_destroy(csc);
+    skip();
+  }
+  sigaction(SIGTERM, &mine, &before);
+  assert_int_equal(timer_create(CLOCK_MONOTONIC, &event, &timer), 0);
+  for (int us = 500, n = 1; us < 40000; us = us * 5 / 4, n++) {
+    struct itimerspec once = {.it_value = {.tv_nsec = us * 1000L}};
+    timer_settime(timer, 0, &once, NULL);
+    assert_ok(corot_linsol_choose(&def, csc, &plan));
+    for (int k = 0; k < 10000 && terms < n; k++)
+      nanosleep(&(struct timespec){.tv_nsec = 100000}, NULL);
+    assert_int_equal(terms, n);
+    assert_memory_equal(plan.order, peace.order, csc->n * sizeof *plan.order);
+    corot_linsol_plan_clear(&plan);
+    sigaction(SIGTERM, NULL, &after);
+    assert_true(after.sa_handler == count_term && after.sa_flags & SA_RESTART);
+    assert_false(after.sa_flags & SA_RESETHAND);
+  }
+  timer_delete(timer);
+  sigaction(SIGTERM, &before, NULL);
+  corot_linsol_plan_clear(&peace);
   corot_csc_destroy(csc);
 }
 
@@ -519,6 +562,7 @@ int main(void) {
       cmocka_unit_test(names_are_obeyed),
       cmocka_unit_test(other_names_are_refused),
       cmocka_unit_test(orderings_keep_the_unknowns_of_a_node_together),
+      cmocka_unit_test(an_order_leaves_signals_to_the_host),
       cmocka_unit_test(failed_allocations_are_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
