@@ -18,6 +18,24 @@ typedef enum corot_solution {
                             matrix of its own each step */
 } corot_solution;
 
+/* What a method of integration is like: which of the settings below are its own. */
+typedef struct corot_method_kind {
+  const char *name;
+  bool controls_error;      /* chooses its steps by rtol; else: of constant step */
+  bool multistep;           /* BDF of changing order, at most max_order */
+  bool stages;              /* Runge-Kutta: order, or table */
+  bool explicit_steps;      /* without linear systems */
+  int order_min, order_max; /* of what it can do */
+  double gamma_change_below; /* what gamma_change must be less than; 0: any will do */
+  double radius_min;        /* least spectral_radius it can do with */
+} corot_method_kind;
+
+/* The methods, i = 0, 1, ...; NULL beyond the last. */
+const corot_method_kind *corot_method_at(int i);
+
+/* The one of this name; NULL: there is none. */
+const corot_method_kind *corot_method_traits(const char *name);
+
 /* How to integrate. Zero means "choose" wherever the comment says so. Methods:
      cvode              BDF of order 1 to 5, steps and order chosen by error control
      ida                the same with fixed leading coefficient, on the residual M v' - r

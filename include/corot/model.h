@@ -231,6 +231,22 @@ typedef struct corot_model_def {
 /* Strain polar, viscosity AUTO, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
 corot_model_def corot_model_defaults(void);
 
+/* What a strain measure is like. */
+typedef struct corot_strain_kind {
+  const char *name;
+  bool frames;           /* its force turns with an element rotation: warp, polar, hybrid */
+  bool polar;            /* which is the polar rotation; the viscous law may be OBJECTIVE */
+  bool linear_in_frames; /* the force is linear in u while the frames are given: cauchy, warp, polar */
+  bool linear;           /* and there are none: cauchy, which no inverted tet stops */
+  bool exact;            /* Green's strain in every term: green (St. Venant-Kirchhoff) */
+} corot_strain_kind;
+
+/* The strain measures, i = 0, 1, ...; NULL beyond the last. */
+const corot_strain_kind *corot_strain_traits(int i);
+
+/* The one of this name; NULL: there is none. */
+const corot_strain_kind *corot_strain_find(const char *name);
+
 typedef struct corot_model corot_model;
 
 /* COROT_EINVAL names what does not fit: an unknown group or strain, a coefficient out of range,

@@ -186,7 +186,7 @@ static bool is_more_strained(const corot_deformation *a, const corot_deformation
 /* Keeps the worst of the deformations so far. */
 static void observe_deformation(const outputs *o, corot_state *state, double t, const double *u,
                                 observed *s) {
-  bool first = s->strained.det_tet < 0, turns = strcmp(o->scenario->strain, "cauchy") == 0;
+  bool first = s->strained.det_tet < 0, turns = corot_strain_find(o->scenario->strain)->linear;
   corot_deformation d;
   corot_deformation_measure(o->model, state, t, u, STRAIN_LIMIT, turns ? TURN_LIMIT : INFINITY, &d);
   if (first || is_more_strained(&d, &s->strained)) s->strained = d, s->t_strained = t;

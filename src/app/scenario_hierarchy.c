@@ -5,8 +5,9 @@
 static corot_status check_strain(scenario *s, config_node *node) {
   config_node *root = s->source->root;
   const config_node *strain = config_find(root, "strain");
-  bool warp = strcmp(s->strain, "warp") == 0;
-  if (!warp && strcmp(s->strain, "cauchy") != 0 && strcmp(s->strain, "polar") != 0)
+  const corot_strain_kind *kind = corot_strain_find(s->strain);
+  bool warp = kind->frames && !kind->polar;
+  if (!kind->linear_in_frames)
     return config_fail(strain,
                        "with a hierarchy it is that of the refined mesh: cauchy, polar or warp, "
                        "which are linear in a given frame");

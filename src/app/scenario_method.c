@@ -46,8 +46,7 @@ static corot_status read_viscosity(scenario *s) {
   s->viscosity = text_is(root, "viscosity", "auto")        ? COROT_VISCOSITY_AUTO
                  : text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE
                                                            : COROT_COROTATED;
-  bool polar = strcmp(s->strain, "polar") == 0 || strcmp(s->strain, "hybrid") == 0;
-  if (s->viscosity == COROT_OBJECTIVE && !polar)
+  if (s->viscosity == COROT_OBJECTIVE && !corot_strain_find(s->strain)->polar)
     return config_fail(config_find(root, "viscosity"),
                        "objective needs strain: polar or hybrid, not %s", s->strain);
   return COROT_OK;
@@ -60,8 +59,10 @@ static corot_status read_constant_step(config_node *node, corot_integrator_def *
   if (step && controlled)
     return config_fail_key(step, "%s chooses its own steps; see first_step, max_step", def->method);
   if (!step && !controlled) return config_fail(method, "%s needs integrator.step", def->method);
-  if (strcmp(def->method, "hht") == 0 && radius->number < 0.5)
-    return config_fail(radius, "must be 0.5 to 1 for hht, found %s", radius->text);
+  double least = corot_method_traits(def->method)->radius_min;
+  if (radius->number < least)
+    return config_fail(radius, "must be %g to 1 for %s, found %s", least, def->method,
+                       radius->text);
   if (step) def->step = step->number;
   bool linear = text_is(node, "solution", "linear");
   def->solution = linear ? COROT_SOLUTION_LINEAR : COROT_SOLUTION_NEWTON;
@@ -75,7 +76,8 @@ static corot_status read_constant_step(config_node *node, corot_integrator_def *
 static corot_status read_stages(config_node *node, corot_integrator_def *def) {
   const config_node *order = config_find(node, "order"), *table = config_find(node, "table");
   const config_node *max_order = config_find(node, "max_order");
-  bool stages = strcmp(def->method, "arkode") == 0 || strcmp(def->method, "erk") == 0;
+  const corot_method_kind *kind = corot_method_traits(def->method);
+  bool stages = kind->stages;
   def->order = (int)number_at(node, "order");
   def->table = table ? table->text : NULL;
   if (!text_is(node, "predictor", "auto")) def->predictor = (int)number_at(node, "predictor");
@@ -83,17 +85,18 @@ static corot_status read_stages(config_node *node, corot_integrator_def *def) {
   if (!stages && def->order > 0)
     return config_fail_key(order, "%s has none: see integrator.max_order", def->method);
   if (!stages && table) return config_fail_key(table, "%s has none", def->method);
-  if (strcmp(def->method, "arkode") != 0 && def->predictor >= 0)
+  if ((!stages || kind->explicit_steps) && def->predictor >= 0)
     return config_fail_key(predictor, "%s has none", def->method);
   if (stages && def->max_order > 0)
     return config_fail_key(max_order, "%s has one order: see integrator.order", def->method);
   if (stages && def->order > 0 && table)
     return config_fail_key(table, "has an order of its own: give order or table");
-  if (strcmp(def->method, "ida") == 0 && def->gamma_change >= 1)
-    return config_fail(config_find(node, "jacobian.gamma_change"), "must be < 1 for ida, found %g",
-                       def->gamma_change);
-  if (strcmp(def->method, "arkode") == 0 && def->order > 5)
-    return config_fail(order, "must be 2 to 5 for arkode, found %s", order->text);
+  if (kind->gamma_change_below > 0 && def->gamma_change >= kind->gamma_change_below)
+    return config_fail(config_find(node, "jacobian.gamma_change"), "must be < %g for %s, found %g",
+                       kind->gamma_change_below, def->method, def->gamma_change);
+  if (stages && def->order > kind->order_max)
+    return config_fail(order, "must be %d to %d for %s, found %s", kind->order_min, kind->order_max,
+                       def->method, order->text);
   return COROT_OK;
 }
 

@@ -69,8 +69,8 @@ static bool will_move(const scenario *s, bool is_free) {
 
 corot_status warnings_find_integrator(const scenario *s, const corot_model *model, warnings *w) {
   const corot_integrator_def *d = &s->integrator;
-  bool multistep = strcmp(d->method, "cvode") == 0 || strcmp(d->method, "ida") == 0;
-  if (!multistep || !(d->rtol > SMALL_TOLERANCE) || s->frames.frames != COROT_FRAMES_EXACT)
+  if (!corot_method_traits(d->method)->multistep || !(d->rtol > SMALL_TOLERANCE) ||
+      s->frames.frames != COROT_FRAMES_EXACT)
     return COROT_OK;
 
   bool is_free, undamped = is_undamped(s);

@@ -34,7 +34,7 @@ COROT_INLINE void store_lane(const corot_element_fields *f, int tet, int l, mat3
 static COROT_CLONES int elements_loop(const corot_model *m, const corot_state *s,
                                       const corot_element_fields *fields) {
   const strain_measure *measure = &strain_measures[m->strain];
-  bool linear = measure->frame == FRAME_IDENTITY && measure->shear == BY_FRAME;
+  bool linear = strain_is_linear(measure);
   int first = -1;
   for (int b = 0; b < m->tets.nblock; b++) {
     const tet_block *block = &m->tets.block[b];

@@ -108,7 +108,7 @@ COROT_INLINE mat3 deformation(const tet_block *block, const double (*u)[4]) {
    strain is linear in F, so there nothing can invert. */
 COROT_INLINE mat3 frame_in_use(const strain_measure *s, const corot_model *m,
                                const corot_state *state, int b, mat3 F, vi *inverted) {
-  if (s->frame == FRAME_IDENTITY && s->shear == BY_FRAME) return mat3_identity();
+  if (strain_is_linear(s)) return mat3_identity();
   const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
   vi bad;
   mat3 R;

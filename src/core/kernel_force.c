@@ -1,3 +1,5 @@
+#include <stdlib.h>
+
 #include "core/kernel.h"
 
 /* The viscous stress times a factor. */
@@ -32,18 +34,12 @@ COROT_CLONES int corot_kernel_force(const corot_model *m, corot_state *state, bo
                                     int chunk) {
   if (m->dilatation.npool)
     return force_loop(&strain_measures[m->strain], m, state, damped, true, chunk);
-  switch (m->strain) {
-    case CAUCHY:
-      return force_loop(&strain_measures[CAUCHY], m, state, damped, false, chunk);
-    case WARP:
-      return force_loop(&strain_measures[WARP], m, state, damped, false, chunk);
-    case POLAR:
-      return force_loop(&strain_measures[POLAR], m, state, damped, false, chunk);
-    case HYBRID:
-      return force_loop(&strain_measures[HYBRID], m, state, damped, false, chunk);
-    default:
-      return force_loop(&strain_measures[GREEN], m, state, damped, false, chunk);
-  }
+#define FORCE_OF(index, ...) \
+  case index:                \
+    return force_loop(&strain_measures[index], m, state, damped, false, chunk);
+  switch (m->strain) { STRAIN_MEASURES(FORCE_OF) }
+#undef FORCE_OF
+  abort(); /* no model has another */
 }
 
 COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, corot_state *state,
@@ -116,8 +112,7 @@ COROT_INLINE int internal_loop(const strain_measure *s, const corot_model *m, co
     vi inverted = {0};
     mat3 F = deformation(block, (const double(*)[4])state->u);
     mat3 R = frame_of(s->frame, F, &Q0, &inverted);
-    bool linear = s->frame == FRAME_IDENTITY && s->shear == BY_FRAME;
-    if (!linear && vi_any(inverted)) return first_inverted(m, b, inverted);
+    if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(m, b, inverted);
     vd lambda = -block->volume * (lambda_part * mat->lambda),
        mu = -block->volume * (mu_part * mat->mu);
     mat3 A = m->dilatation.npool ? stress_at_pressure(s, lambda * state->dilatation[b], mu, F, R)

@@ -42,7 +42,7 @@ COROT_INLINE coefficients coefficients_of(const corot_model *m, const tet_block 
 
 /* Cauchy strain is linear in F: there nothing can invert. */
 COROT_INLINE vi inverted_in(const corot_model *m, mat3 F) {
-  if (m->strain == CAUCHY) return (vi){0};
+  if (strain_is_linear(&strain_measures[m->strain])) return (vi){0};
   return ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
 }
 

@@ -1,4 +1,5 @@
 #include "core/levels.h"
+#include "core/names.h"
 
 #include <stdlib.h>
 
@@ -11,14 +12,36 @@ corot_hierarchy_def corot_hierarchy_defaults(void) {
   return (corot_hierarchy_def){.coarse_strain = "green", .conservative = true};
 }
 
+#define TRAITS(index, word, pressure_basis, shear_basis, frame_rule)                    \
+  [index] = {.name = word,                                                              \
+             .frames = frame_rule != FRAME_IDENTITY,                                    \
+             .polar = frame_rule == FRAME_POLAR,                                        \
+             .linear_in_frames = pressure_basis == BY_FRAME && shear_basis == BY_FRAME, \
+             .linear = pressure_basis == BY_FRAME && shear_basis == BY_FRAME &&         \
+                       frame_rule == FRAME_IDENTITY,                                    \
+             .exact = pressure_basis == BY_GRADIENT && shear_basis == BY_GRADIENT},
+static const corot_strain_kind strain_kinds[] = {STRAIN_MEASURES(TRAITS)};
+
+const corot_strain_kind *corot_strain_traits(int i) {
+  return i >= 0 && i < NSTRAIN ? &strain_kinds[i] : NULL;
+}
+
+const corot_strain_kind *corot_strain_find(const char *name) {
+  for (int k = 0; name && k < NSTRAIN; k++)
+    if (strcmp(name, strain_kinds[k].name) == 0) return &strain_kinds[k];
+  return NULL;
+}
+
+static const char *name_of(int i) { return i < NSTRAIN ? strain_kinds[i].name : NULL; }
+
 corot_status corot_model_find_strain(const char *name, int *strain) {
-  for (int k = 0; k < NSTRAIN; k++)
-    if (name && strcmp(name, strain_measures[k].name) == 0) {
-      *strain = k;
-      return COROT_OK;
-    }
-  return corot_fail(COROT_EINVAL, "no strain measure '%s': cauchy, warp, polar, hybrid or green",
-                    name ? name : "");
+  const corot_strain_kind *found = corot_strain_find(name);
+  char all[NAMES_SIZE];
+  if (!found)
+    return corot_fail(COROT_EINVAL, "no strain measure '%s': %s", name ? name : "",
+                      names_list(name_of, all));
+  *strain = (int)(found - strain_kinds);
+  return COROT_OK;
 }
 
 corot_status corot_model_find_group(const corot_mesh *mesh, const char *name, const char *user,
@@ -341,11 +364,9 @@ const char *corot_model_strain(const corot_model *m) {
 }
 
 bool corot_model_matrices_by_frames(const corot_model *m) {
-  const strain_measure *measure = &strain_measures[m->strain];
   bool parts_in_them = m->levels && m->levels->place;
   bool rates_in_them = m->objective && m->damped;
-  return measure->pressure == BY_FRAME && measure->shear == BY_FRAME && !parts_in_them &&
-         !rates_in_them;
+  return strain_kinds[m->strain].linear_in_frames && !parts_in_them && !rates_in_them;
 }
 
 corot_viscosity corot_model_viscosity(const corot_model *m) {

@@ -38,7 +38,8 @@ COROT_INLINE stress6 stress_of(const recovery *r, int b, int l, mat3 F) {
   static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
   const corot_model *m = r->model;
   const material *mat = &m->material[m->tets.block[b].material];
-  bool linear = m->strain == CAUCHY && !m->levels, deviator = m->dilatation.npool > 0;
+  bool linear = strain_is_linear(&strain_measures[m->strain]) && !m->levels,
+       deviator = m->dilatation.npool > 0;
   double e[6], trace = 0;
   for (int k = 0; k < 6; k++) {
     int i = ij[k][0], j = ij[k][1];

@@ -25,16 +25,28 @@ typedef struct strain_measure {
   frame_rule frame;
 } strain_measure;
 
-enum { CAUCHY, WARP, POLAR, HYBRID, GREEN, NSTRAIN };
+/* The measures, a row each: row(index, name, basis of pressure, of shear, frame). A row here is all
+   that a measure of this family takes: its kernels are compiled from the table. */
+/* clang-format off */
+#define STRAIN_MEASURES(row)                                           \
+  row(CAUCHY, "cauchy", BY_FRAME,    BY_FRAME,    FRAME_IDENTITY)      \
+  row(WARP,   "warp",   BY_FRAME,    BY_FRAME,    FRAME_WARP)          \
+  row(POLAR,  "polar",  BY_FRAME,    BY_FRAME,    FRAME_POLAR)         \
+  row(HYBRID, "hybrid", BY_GRADIENT, BY_FRAME,    FRAME_POLAR)         \
+  row(GREEN,  "green",  BY_GRADIENT, BY_GRADIENT, FRAME_IDENTITY)
+/* clang-format on */
 
-static const strain_measure strain_measures[NSTRAIN] = {
-    /* name     pressure     shear        frame */
-    {"cauchy", BY_FRAME, BY_FRAME, FRAME_IDENTITY},
-    {"warp", BY_FRAME, BY_FRAME, FRAME_WARP},
-    {"polar", BY_FRAME, BY_FRAME, FRAME_POLAR},
-    {"hybrid", BY_GRADIENT, BY_FRAME, FRAME_POLAR},
-    {"green", BY_GRADIENT, BY_GRADIENT, FRAME_IDENTITY},
-};
+#define STRAIN_INDEX(index, name, pressure, shear, frame) index,
+enum { STRAIN_MEASURES(STRAIN_INDEX) NSTRAIN };
+
+#define STRAIN_ROW(index, name, pressure, shear, frame) [index] = {name, pressure, shear, frame},
+static const strain_measure strain_measures[] = {STRAIN_MEASURES(STRAIN_ROW)};
+_Static_assert(sizeof strain_measures / sizeof *strain_measures == NSTRAIN, "a row a measure");
+
+/* Linear in F: there nothing can invert. */
+COROT_INLINE bool strain_is_linear(const strain_measure *s) {
+  return s->frame == FRAME_IDENTITY && s->pressure == BY_FRAME && s->shear == BY_FRAME;
+}
 
 COROT_INLINE mat3 basis_of(basis b, mat3 F, mat3 R) { return b == BY_FRAME ? R : F; }
 

@@ -1,5 +1,6 @@
 #include "body.h"
 
+#include <corot/model.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -212,7 +213,8 @@ static bool varies(const body *b, int k, bool has_frames) {
 }
 
 static corot_status write_data(const body *b, FILE *out) {
-  bool has_frames = strcmp(lookup_text(b->run->result, "strain"), "green") != 0;
+  const corot_strain_kind *strain = corot_strain_find(lookup_text(b->run->result, "strain"));
+  bool has_frames = !strain || !strain->exact;
   write_geometry(b, out);
   COROT_TRY(write_moments(b, out));
   COROT_TRY(conditions_write(b->run, b->f, &b->s, b->nshown, b->t, out));

@@ -151,7 +151,7 @@ corot_status corot_driver_open(driver *d, corot_integrator *self, const double *
     d->LS = make_solver(d);
   }
   if (!d->y || (self->pencil && !(d->A && d->LS)))
-    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name, 2 * n);
+    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->kind.name, 2 * n);
   corot_vector_quicken(d->y);
   memcpy(N_VGetArrayPointer(d->y), u, n * sizeof *u);
   memcpy(N_VGetArrayPointer(d->y) + n, v, n * sizeof *v);
@@ -185,8 +185,8 @@ static corot_status meaning(const driver *d) {
 
 corot_status corot_driver_refuse(const driver *d, const char *what) {
   if (d->fatal) return corot_driver_give_up(d, what);
-  return corot_fail(d->message[0] ? meaning(d) : COROT_ENOMEM, "%s: %s: %s", d->self->ops->name,
-                    what, d->message[0] ? d->message : "out of memory");
+  return corot_fail(d->message[0] ? meaning(d) : COROT_ENOMEM, "%s: %s: %s",
+                    d->self->ops->kind.name, what, d->message[0] ? d->message : "out of memory");
 }
 
 /* Whether a trial of the last few steps met a state that cannot be evaluated. */
@@ -199,7 +199,7 @@ corot_status corot_driver_give_up(const driver *d, const char *why) {
   char limit[48] = "";
   if (d->self->def.min_step > 0)
     snprintf(limit, sizeof limit, "; min_step = %g s", d->self->def.min_step);
-  return corot_fail(meaning(d), "%s: cannot get past t = %.9g: %s%s%s%s%s", d->self->ops->name,
+  return corot_fail(meaning(d), "%s: cannot get past t = %.9g: %s%s%s%s%s", d->self->ops->kind.name,
                     d->self->t, refused ? d->refusal : "", refused ? " (" : "",
                     *why ? why : "the error test failed too often, or the step became too short",
                     limit, refused ? ")" : "");

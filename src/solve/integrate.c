@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/names.h"
 #include "solve/clock.h"
 #include "solve/integrator.h"
 
@@ -21,24 +22,47 @@ corot_integrator_def corot_integrator_defaults(void) {
 static const integrator_ops *const controlled[] = {&corot_integrator_cvode, &corot_integrator_ida,
                                                    &corot_integrator_arkode, &corot_integrator_erk};
 
-bool corot_integrator_controls_error(const char *method) {
-  for (size_t k = 0; k < sizeof controlled / sizeof *controlled; k++)
-    if (strcmp(method, controlled[k]->name) == 0) return true;
-  return false;
+enum { NCONTROLLED = sizeof controlled / sizeof *controlled };
+
+/* NULL beyond the last. */
+static const integrator_ops *method_at(int i) {
+  if (i < 0) return NULL;
+  if (i < NCONTROLLED) return controlled[i];
+  for (const integrator_ops *o = corot_integrators_fixed; o->kind.name; o++)
+    if (i-- == NCONTROLLED) return o;
+  return NULL;
 }
 
+static const integrator_ops *method_of(const char *name) {
+  const integrator_ops *o = NULL;
+  for (int i = 0; name && (o = method_at(i)); i++)
+    if (strcmp(name, o->kind.name) == 0) break;
+  return o;
+}
+
+const corot_method_kind *corot_method_at(int i) {
+  const integrator_ops *o = method_at(i);
+  return o ? &o->kind : NULL;
+}
+
+const corot_method_kind *corot_method_traits(const char *name) {
+  const integrator_ops *o = method_of(name);
+  return o ? &o->kind : NULL;
+}
+
+bool corot_integrator_controls_error(const char *method) {
+  const corot_method_kind *kind = corot_method_traits(method);
+  return kind && kind->controls_error;
+}
+
+static const char *name_of(int i) { return method_at(i) ? method_at(i)->kind.name : NULL; }
+
 static corot_status find_method(const char *name, const integrator_ops **ops) {
-  for (size_t k = 0; k < sizeof controlled / sizeof *controlled; k++)
-    if (name && strcmp(name, controlled[k]->name) == 0) {
-      *ops = controlled[k];
-      return COROT_OK;
-    }
-  for (*ops = corot_integrators_fixed; (*ops)->name; ++*ops)
-    if (name && strcmp(name, (*ops)->name) == 0) return COROT_OK;
-  return corot_fail(COROT_EINVAL,
-                    "no integrator '%s': cvode, ida, arkode, erk, backward-euler, bdf2, bdf3, "
-                    "midpoint, newmark, hht or generalized-alpha",
-                    name ? name : "");
+  char all[NAMES_SIZE];
+  *ops = method_of(name);
+  if (*ops) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "no integrator '%s': %s", name ? name : "",
+                    names_list(name_of, all));
 }
 
 static corot_status check(const corot_integrator_def *d) {
@@ -145,12 +169,12 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
   choose(self);
 
   corot_status status = corot_mass_solver_create(model, &self->mass);
-  if (!status && !ops->explicit_steps) {
+  if (!status && !ops->kind.explicit_steps) {
     status = corot_pencil_create(model, state, &def->linear, &self->pencil);
     if (!status) corot_pencil_use(self->pencil, self->def.tangent);
   }
   if (!status) status = ops->create(self, u, v);
-  self->def.method = ops->name;
+  self->def.method = ops->kind.name;
   self->def.table = NULL;
   self->def.linear = corot_linear_defaults();
   if (status) {
@@ -198,8 +222,8 @@ corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_
     return COROT_OK;
   }
   if (self->def.max_steps > 0 && self->nst >= self->def.max_steps)
-    return corot_fail(COROT_EINTEGRATE, "%s: max_steps = %ld reached at t = %g", self->ops->name,
-                      self->def.max_steps, self->t);
+    return corot_fail(COROT_EINTEGRATE, "%s: max_steps = %ld reached at t = %g",
+                      self->ops->kind.name, self->def.max_steps, self->t);
   corot_step taken;
   double start = clock_wall();
   corot_status status = self->ops->step(self, t_stop, &taken);
@@ -219,9 +243,9 @@ static corot_status check_within(const corot_integrator *self, double t) {
   if (t >= self->before && t <= self->t) return COROT_OK;
   if (self->before == self->t)
     return corot_fail(COROT_EINVAL, "%s: t = %.17g is not where the integrator (re)started, %.17g",
-                      self->ops->name, t, self->t);
+                      self->ops->kind.name, t, self->t);
   return corot_fail(COROT_EINVAL, "%s: t = %.17g is not in the last step, %.17g to %.17g",
-                    self->ops->name, t, self->before, self->t);
+                    self->ops->kind.name, t, self->before, self->t);
 }
 
 corot_status corot_integrator_at(corot_integrator *self, double t, double *u, double *v) {
@@ -251,7 +275,7 @@ corot_status corot_integrator_changed(corot_integrator *self, corot_history hist
 }
 
 corot_status corot_integrator_kink(corot_integrator *self) {
-  if (!corot_integrator_controls_error(self->ops->name)) return COROT_OK;
+  if (!corot_integrator_controls_error(self->ops->kind.name)) return COROT_OK;
   return self->ops->changed(self, COROT_HISTORY_AUTO);
 }
 
@@ -285,7 +309,7 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
 corot_integrator_choice corot_integrator_chosen(const corot_integrator *self) {
   const corot_integrator_def *d = &self->def;
   return (corot_integrator_choice){
-      .method = self->ops->name,
+      .method = self->ops->kind.name,
       .linear_solver = self->pencil ? corot_pencil_solver(self->pencil) : "none",
       .table = self->table ? self->table : "",
       .atol_displacement = d->atol_displacement,

@@ -126,5 +126,14 @@ static corot_status create(corot_integrator *self, const double *u, const double
 }
 
 const integrator_ops corot_integrator_arkode = {
-    "arkode",    choose,        create,           corot_rk_close,      corot_rk_step,
-    corot_rk_at, corot_rk_work, corot_rk_changed, corot_rk_statistics, false};
+    .kind =
+        {.name = "arkode", .controls_error = true, .stages = true, .order_min = 2, .order_max = 5},
+    .choose = choose,
+    .create = create,
+    .destroy = corot_rk_close,
+    .step = corot_rk_step,
+    .at = corot_rk_at,
+    .work = corot_rk_work,
+    .changed = corot_rk_changed,
+    .statistics = corot_rk_statistics,
+};

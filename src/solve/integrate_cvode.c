@@ -62,8 +62,7 @@ static corot_status create(corot_integrator *self, const double *u, const double
   driver *d = &c->driver;
   c->memory = CVodeCreate(CV_BDF, d->ctx);
   if (!c->memory) return corot_fail(COROT_ENOMEM, "no memory for cvode");
-  if (SUN_CATCH_ERRORS(CVodeSetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error,
-                       d->message))
+  if (SUN_CATCH_ERRORS(CVodeSetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error, d->message))
     return corot_driver_refuse(d, "set-up");
   if (CVodeInit(c->memory, corot_driver_rhs, self->t, d->y)) {
     c->memory = NULL; /* lost: without memory CVodeInit frees what CVodeFree would free again */
@@ -73,13 +72,18 @@ static corot_status create(corot_integrator *self, const double *u, const double
   return COROT_OK;
 }
 
-const integrator_ops corot_integrator_cvode = {"cvode",
-                                               corot_integrator_choose_bdf,
-                                               create,
-                                               destroy,
-                                               corot_multistep_step,
-                                               corot_multistep_at,
-                                               corot_multistep_work,
-                                               corot_multistep_changed,
-                                               corot_multistep_statistics,
-                                               false};
+const integrator_ops corot_integrator_cvode = {
+    .kind = {.name = "cvode",
+             .controls_error = true,
+             .multistep = true,
+             .order_min = 1,
+             .order_max = 5},
+    .choose = corot_integrator_choose_bdf,
+    .create = create,
+    .destroy = destroy,
+    .step = corot_multistep_step,
+    .at = corot_multistep_at,
+    .work = corot_multistep_work,
+    .changed = corot_multistep_changed,
+    .statistics = corot_multistep_statistics,
+};

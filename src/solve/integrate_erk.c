@@ -146,5 +146,18 @@ static corot_status create(corot_integrator *self, const double *u, const double
 }
 
 const integrator_ops corot_integrator_erk = {
-    "erk",       choose,        create,           corot_rk_close,      corot_rk_step,
-    corot_rk_at, corot_rk_work, corot_rk_changed, corot_rk_statistics, true};
+    .kind = {.name = "erk",
+             .controls_error = true,
+             .stages = true,
+             .explicit_steps = true,
+             .order_min = 2,
+             .order_max = 8},
+    .choose = choose,
+    .create = create,
+    .destroy = corot_rk_close,
+    .step = corot_rk_step,
+    .at = corot_rk_at,
+    .work = corot_rk_work,
+    .changed = corot_rk_changed,
+    .statistics = corot_rk_statistics,
+};

@@ -72,7 +72,8 @@ static corot_status predict(corot_integrator *self, const stage *g, double *norm
 
 /* Whether K and D are the same in every step until the frames change. */
 static bool has_constant_matrices(const corot_integrator *self) {
-  if (strcmp(corot_model_strain(self->model), "cauchy") == 0) return true;
+  const corot_strain_kind *strain = corot_strain_find(corot_model_strain(self->model));
+  if (strain && strain->linear) return true; /* a hierarchy is none of them */
   return corot_model_matrices_by_frames(self->model) &&
          corot_state_frames(self->state) == COROT_FRAMES_HELD;
 }
@@ -276,7 +277,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   if (!f) return corot_fail(COROT_ENOMEM, "no memory for %s", d->method);
   f->scheme = corot_scheme_find(d->method);
   if (!(d->step > 0)) return corot_fail(COROT_EINVAL, "%s needs a step", d->method);
-  double lowest = strcmp(d->method, "hht") == 0 ? 0.5 : 0;
+  double lowest = self->ops->kind.radius_min;
   if (!(d->spectral_radius >= lowest && d->spectral_radius <= 1))
     return corot_fail(COROT_EINVAL, "%s: spectral_radius = %g is not in %g to 1", d->method,
                       d->spectral_radius, lowest);
@@ -304,16 +305,14 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   return add_work(self, self->t, 0);
 }
 
-#define FIXED(name)                                                                    \
-  {                                                                                    \
-    name, fixed_choose, fixed_create, fixed_destroy, fixed_step, fixed_at, fixed_work, \
-        fixed_changed, fixed_statistics, false                                         \
+#define FIXED(word, order, radius)                                                                \
+  {                                                                                               \
+    .kind = {.name = word, .order_min = order, .order_max = order, .radius_min = radius},         \
+    .choose = fixed_choose, .create = fixed_create, .destroy = fixed_destroy, .step = fixed_step, \
+    .at = fixed_at, .work = fixed_work, .changed = fixed_changed, .statistics = fixed_statistics, \
   }
-const integrator_ops corot_integrators_fixed[] = {FIXED("backward-euler"),
-                                                  FIXED("bdf2"),
-                                                  FIXED("bdf3"),
-                                                  FIXED("midpoint"),
-                                                  FIXED("newmark"),
-                                                  FIXED("hht"),
-                                                  FIXED("generalized-alpha"),
-                                                  {0}};
+const integrator_ops corot_integrators_fixed[] = {
+    FIXED("backward-euler", 1, 0),    FIXED("bdf2", 2, 0),      FIXED("bdf3", 3, 0),
+    FIXED("midpoint", 2, 0),          FIXED("newmark", 2, 0),   FIXED("hht", 2, 0.5),
+    FIXED("generalized-alpha", 2, 0), {.kind = {.name = NULL}},
+};

@@ -124,13 +124,19 @@ static corot_status create(corot_integrator *self, const double *u, const double
   return COROT_OK;
 }
 
-const integrator_ops corot_integrator_ida = {"ida",
-                                             choose,
-                                             create,
-                                             destroy,
-                                             corot_multistep_step,
-                                             corot_multistep_at,
-                                             corot_multistep_work,
-                                             corot_multistep_changed,
-                                             corot_multistep_statistics,
-                                             false};
+const integrator_ops corot_integrator_ida = {
+    .kind = {.name = "ida",
+             .controls_error = true,
+             .multistep = true,
+             .order_min = 1,
+             .order_max = 5,
+             .gamma_change_below = 1},
+    .choose = choose,
+    .create = create,
+    .destroy = destroy,
+    .step = corot_multistep_step,
+    .at = corot_multistep_at,
+    .work = corot_multistep_work,
+    .changed = corot_multistep_changed,
+    .statistics = corot_multistep_statistics,
+};

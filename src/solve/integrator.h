@@ -7,7 +7,7 @@
 #include "solve/pencil.h"
 
 typedef struct integrator_ops {
-  const char *name;
+  corot_method_kind kind;
   void (*choose)(corot_integrator *self); /* what the definition leaves open */
   corot_status (*create)(corot_integrator *self, const double *u, const double *v);
   void (*destroy)(void *method);
@@ -16,7 +16,6 @@ typedef struct integrator_ops {
   corot_status (*work)(corot_integrator *self, double t, double *dissipated, double *external);
   corot_status (*changed)(corot_integrator *self, corot_history history);
   void (*statistics)(const corot_integrator *self, corot_statistics *statistics);
-  bool explicit_steps; /* no linear systems: there is no pencil */
 } integrator_ops;
 
 extern const integrator_ops corot_integrator_cvode;

@@ -22,7 +22,7 @@ corot_status corot_multistep_open(multistep *m, corot_integrator *self, const mu
   m->weight = N_VClone(m->driver.y);
   m->scratch = N_VClone(m->driver.y);
   if (!m->work || !m->error || !m->weight || !m->scratch)
-    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name,
+    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->kind.name,
                       2 * corot_model_ndof(self->model));
   N_VConst(0, m->work);
   return COROT_OK;

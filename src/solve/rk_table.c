@@ -43,7 +43,7 @@ static void list(const rk_table *tables, bool names, char *text, size_t size) {
 corot_status corot_rk_refuse(const corot_integrator *self, const rk_table *mine,
                              const rk_table *others, const char *others_are) {
   const corot_integrator_def *d = &self->def;
-  const char *method = self->ops->name;
+  const char *method = self->ops->kind.name;
   char there_are[900];
   if (!d->table) {
     list(mine, false, there_are, sizeof there_are);

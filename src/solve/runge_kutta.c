@@ -31,7 +31,7 @@ corot_status corot_rk_open(runge_kutta *m, corot_integrator *self, const rk_api 
   for (size_t k = 0; k < sizeof like_y / sizeof *like_y; k++)
     short_of_memory = !(*like_y[k] = N_VClone(d->y)) || short_of_memory;
   if (short_of_memory)
-    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->name,
+    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->kind.name,
                       2 * corot_model_ndof(self->model));
   m->end.t = self->t;
   N_VScale(1, d->y, m->end.y);
@@ -129,7 +129,7 @@ static corot_status advance(runge_kutta *m, double t_stop, double *t) {
     N_VScale(1, m->start.y, d->y);
     /* ARKODE allocates its stages in the first step, and says only that its set-up failed. */
     if (flag == ARK_MEM_FAIL)
-      return corot_fail(COROT_ENOMEM, "%s: no memory for the stages of a step", d->self->ops->name);
+      return corot_fail(COROT_ENOMEM, "%s: no memory for the stages of a step", d->self->ops->kind.name);
     return corot_driver_give_up(d, d->message);
   }
   corot_driver_watch(d, *t - t_now, *t == t_stop);

@@ -84,7 +84,7 @@ static void judge_time(const scenario *s, double rtol, budget_part *reference, b
   tighten_time(s, is(method, "arkode") ? "cvode" : "arkode", rtol, check);
 }
 
-static bool has_frames(const char *strain) { return !is(strain, "cauchy") && !is(strain, "green"); }
+static bool has_frames(const char *strain) { return corot_strain_find(strain)->frames; }
 
 static budget_part *begin(budget_plan *plan, budget_kind kind) {
   budget_part *part = &plan->part[plan->npart++];

@@ -16,8 +16,8 @@ static const char *const kind_words[NKIND] = {"frames",    "mesh", "strain measu
 
 static bool has_frames(const json_t *said) {
   const char *strain = lookup_text(said, "strain");
-  bool none = strcmp(strain, "green") == 0 || strcmp(strain, "cauchy") == 0;
-  return !none || json_is_object(lookup(said, "hierarchy"));
+  const corot_strain_kind *kind = corot_strain_find(strain);
+  return !kind || kind->frames || json_is_object(lookup(said, "hierarchy"));
 }
 
 /* Frames that are renewed after every step are as old in a reference as its own steps are long:

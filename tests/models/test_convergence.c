@@ -158,11 +158,11 @@ static void manufactured(const char *strain, int cells, double *l2, double *h1) 
 /* Linear tets: order two in the displacement and one in its gradient, approached from below. */
 static void space_converges_with_orders_two_and_one(void **state) {
   (void)state;
-  static const char *const strains[] = {"polar", "hybrid", "green"};
   static const int cells[] = {4, 8, 12};
-  for (int s = 0; s < 3; s++) {
+  for (int s = 0; s < NSTRAIN; s++) {
+    if (!conserves(s)) continue;
     double l2[3], h1[3];
-    for (int k = 0; k < 3; k++) manufactured(strains[s], cells[k], &l2[k], &h1[k]);
+    for (int k = 0; k < 3; k++) manufactured(measures[s], cells[k], &l2[k], &h1[k]);
     assert_close(order_of(l2[1], l2[2], 1.5), 2, 0, 0.15);
     assert_close(order_of(h1[1], h1[2], 1.5), 1, 0, 0.05);
   }

@@ -90,10 +90,11 @@ static void every_measure_is_freed(void **state) {
   (void)state;
   membrane linear = {"cauchy", 8, 0.4999, 1e-4, nodal, NULL};
   double small = deflection(linear, NULL);
-  for (int m = 1; m < NMEASURE; m++) {
+  for (int m = 0; m < NMEASURE; m++) {
+    if (corot_strain_traits(m)->linear) continue;
     membrane of = {measures[m], 8, 0.4999, 1e-4, nodal, NULL};
     assert_close(deflection(of, NULL), small, 2e-3, 0);
-    if (m == 1) continue; /* its K is not the derivative of its force: slow at large loads */
+    if (m == WARP) continue; /* its K is not the derivative of its force: slow at large loads */
     double last;
     of.force = 0.5;
     double freed = deflection(of, &last);

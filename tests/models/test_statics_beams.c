@@ -64,9 +64,9 @@ static double buckling_load(const char *strain, int fineness) {
 
 static void a_column_buckles_under_eulers_load(void **state) {
   (void)state;
-  const char *exact[] = {"polar", "hybrid", "green"};
-  for (int m = 0; m < 3; m++) {
-    double coarse = buckling_load(exact[m], 1), fine = buckling_load(exact[m], 2);
+  for (int m = 0; m < NSTRAIN; m++) {
+    if (!conserves(m)) continue;
+    double coarse = buckling_load(measures[m], 1), fine = buckling_load(measures[m], 2);
     assert_true(coarse > fine && fine > 1 && fine < 1.06);
     assert_close(fine - (coarse - fine) / 3, 1, 5e-3, 0);
   }

@@ -130,11 +130,11 @@ static outcome press(const char *strain, corot_viscosity viscosity, double rtol)
    the tolerance. */
 static void a_pressed_body_does_not_spin(void **state) {
   (void)state;
-  static const char *const strain[] = {"polar", "hybrid", "green"};
   const double rtol = 1e-5;
-  for (int m = 0; m < 3; m++) {
-    outcome o = press(strain[m], corot_model_defaults().viscosity, rtol);
-    print_message("%s: %.2g; %.6f %.6f %.6f\n", strain[m], o.spin, o.strain[0], o.strain[1],
+  for (int m = 0; m < NSTRAIN; m++) {
+    if (!conserves(m)) continue;
+    outcome o = press(measures[m], corot_model_defaults().viscosity, rtol);
+    print_message("%s: %.2g; %.6f %.6f %.6f\n", measures[m], o.spin, o.strain[0], o.strain[1],
                   o.strain[2]);
     assert_below(o.spin, 1e-7);
     for (int c = 0; c < 3; c++) {

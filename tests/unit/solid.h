@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "check.h"
+#include "core/strain.h"
 
 /* A generator that is the same everywhere: splitmix64, uniform in [-1, 1). */
 static inline double noise(uint64_t *seed) {
@@ -131,7 +132,17 @@ static inline double inner(int n, const double *a, const double *b) {
   return sum;
 }
 
-static const char *const measures[] = {"cauchy", "warp", "polar", "hybrid", "green"};
-enum { NMEASURE = 5 };
+/* The names of all strain measures. */
+#define MEASURE_NAME(index, name, ...) name,
+static const char *const measures[] = {STRAIN_MEASURES(MEASURE_NAME)};
+enum { NMEASURE = NSTRAIN };
+
+static inline bool is_polar(int measure) { return corot_strain_traits(measure)->polar; }
+
+/* Those whose forces are those of an energy that no rotation changes. */
+static inline bool conserves(int measure) {
+  const corot_strain_kind *kind = corot_strain_traits(measure);
+  return kind->polar || (!kind->frames && !kind->linear);
+}
 
 #endif

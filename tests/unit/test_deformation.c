@@ -123,7 +123,8 @@ static void an_even_strain_does_not_jump(void **state) {
 /* Far away, and turned: what rounding leaves of no strain is no stress. */
 static void a_rigid_motion_does_not_jump(void **state) {
   (void)state;
-  for (int m = 1; m < NMEASURE; m++) {
+  for (int m = 0; m < NMEASURE; m++) {
+    if (corot_strain_traits(m)->linear) continue;
     body b = block(measures[m], true);
     double Q[9];
     rotation(about, 0.9, Q);
@@ -144,7 +145,7 @@ static void a_bent_block_jumps_however_it_is_turned(void **state) {
     body b = block(measures[m], false);
     double(*x)[3] = malloc(b.mesh->nnode * sizeof *x), Q[9], share[3];
     double *u = malloc(b.n * sizeof *u);
-    rotation(about, m == 0 ? 0 : 1.3, Q);
+    rotation(about, corot_strain_traits(m)->linear ? 0 : 1.3, Q);
     for (int k = 0; k < 3; k++) {
       double size = k == 1 ? 1e-4 : 1e-5;
       for (int n = 0; n < b.mesh->nnode; n++) {

@@ -65,36 +65,37 @@ static void expect_words(const char *words) {
 static void an_element_that_inverts_for_good_ends_the_run(void **state) {
   (void)state;
   static const double gravity[][3] = {{0, 0, -1000}, {-1000, 0, 0}, {0, 0, -30}, {-30, 0, 0}};
-  for (int m = 1; m < NMEASURE; m++)
-    for (int g = 0; g < 4; g++) {
-      cube c = cube_create(measures[m], gravity[g]);
-      corot_integrator_def def = corot_integrator_defaults();
-      corot_integrator *integrator = start_cube(&c, &def);
-      corot_step step;
-      assert_int_equal(run_until_it_fails(integrator, &step), COROT_EINTEGRATE);
-      char time[32];
-      snprintf(time, sizeof time, "past t = %.9g: tet ", step.t);
-      expect_words("cvode: cannot get ");
-      expect_words(time);
-      expect_words("is inverted (steps have shrunk to ");
-      int tet = atoi(strstr(corot_error(), "tet ") + 4);
+  for (int m = 0; m < NMEASURE; m++)
+    if (!corot_strain_traits(m)->linear)
+      for (int g = 0; g < 4; g++) {
+        cube c = cube_create(measures[m], gravity[g]);
+        corot_integrator_def def = corot_integrator_defaults();
+        corot_integrator *integrator = start_cube(&c, &def);
+        corot_step step;
+        assert_int_equal(run_until_it_fails(integrator, &step), COROT_EINTEGRATE);
+        char time[32];
+        snprintf(time, sizeof time, "past t = %.9g: tet ", step.t);
+        expect_words("cvode: cannot get ");
+        expect_words(time);
+        expect_words("is inverted (steps have shrunk to ");
+        int tet = atoi(strstr(corot_error(), "tet ") + 4);
 
-      /* what was reached is there, in working order */
-      corot_element_fields fields = {.det = c.det};
-      double dissipated, external;
-      assert_ok(corot_integrator_at(integrator, step.t, c.u, c.v));
-      assert_ok(corot_elements(c.model, c.state, step.t, c.u, &fields));
-      assert_ok(corot_integrator_work(integrator, step.t, &dissipated, &external));
-      assert_true(dissipated > 0 && external > 0);
-      assert_true(c.det[tet] > 0 && c.det[tet] < 1e-6);
-      assert_ok(corot_integrator_at(integrator, step.t - step.h / 2, c.u, c.v));
-      assert_true(corot_integrator_statistics(integrator).nst < 1000);
-      /* and it stays at that */
-      assert_int_equal(corot_integrator_step(integrator, 40, &step), COROT_EINTEGRATE);
-      expect_words(time);
-      corot_integrator_destroy(integrator);
-      cube_destroy(&c);
-    }
+        /* what was reached is there, in working order */
+        corot_element_fields fields = {.det = c.det};
+        double dissipated, external;
+        assert_ok(corot_integrator_at(integrator, step.t, c.u, c.v));
+        assert_ok(corot_elements(c.model, c.state, step.t, c.u, &fields));
+        assert_ok(corot_integrator_work(integrator, step.t, &dissipated, &external));
+        assert_true(dissipated > 0 && external > 0);
+        assert_true(c.det[tet] > 0 && c.det[tet] < 1e-6);
+        assert_ok(corot_integrator_at(integrator, step.t - step.h / 2, c.u, c.v));
+        assert_true(corot_integrator_statistics(integrator).nst < 1000);
+        /* and it stays at that */
+        assert_int_equal(corot_integrator_step(integrator, 40, &step), COROT_EINTEGRATE);
+        expect_words(time);
+        corot_integrator_destroy(integrator);
+        cube_destroy(&c);
+      }
 }
 
 /* Linear elasticity has nothing against negative volumes, only against infinite ones. */

@@ -96,6 +96,47 @@ static void open_fields_are_chosen(void **state) {
   bar_destroy(&b);
 }
 
+/* What the table says of a method is what its steps do. */
+static void traits_are_true(void **state) {
+  (void)state;
+  const corot_method_kind *kind;
+  for (int k = 0; (kind = corot_method_at(k)); k++) {
+    bar b = quick_bar();
+    corot_integrator_def def = corot_integrator_defaults();
+    assert_ptr_equal(corot_method_traits(kind->name), kind);
+    def.method = kind->name;
+    if (!kind->controls_error) {
+      expect_refusal(&b, def, "needs a step");
+      def.step = 0.01;
+    }
+    corot_integrator *integrator = start(&b, &def);
+    for (corot_step step = {0}; step.t < 0.1;) {
+      assert_ok(corot_integrator_step(integrator, 0.1, &step));
+      assert_true(step.order <= kind->order_max);
+    }
+    corot_statistics n = corot_integrator_statistics(integrator);
+    corot_integrator_choice c = corot_integrator_chosen(integrator);
+    assert_true(kind->explicit_steps == (n.nfactor == 0));
+    assert_true(kind->stages == (c.table[0] != '\0'));
+    assert_true(kind->multistep == (kind->controls_error && !kind->stages));
+    corot_integrator_destroy(integrator);
+
+    if (kind->gamma_change_below > 0) {
+      def.gamma_change = kind->gamma_change_below;
+      expect_refusal(&b, def, "gamma_change");
+      def.gamma_change = 0;
+    }
+    if (kind->radius_min > 0) {
+      def.spectral_radius = 0.99 * kind->radius_min;
+      expect_refusal(&b, def, "spectral_radius");
+    }
+    bar_destroy(&b);
+  }
+  assert_null(corot_method_at(-1));
+  assert_null(corot_method_traits("leapfrog"));
+  assert_null(corot_method_traits(NULL));
+}
+
 /* --- order ----------------------------------------------------------------------------------- */
 
 static int order_chosen(double damping, double rtol, double max_step) {
@@ -343,6 +384,7 @@ int main(void) {
       cmocka_unit_test(each_field_is_checked),
       cmocka_unit_test(the_start_is_checked),
       cmocka_unit_test(open_fields_are_chosen),
+      cmocka_unit_test(traits_are_true),
       cmocka_unit_test(higher_orders_are_chosen_where_they_pay),
       cmocka_unit_test(high_orders_pump_energy_into_an_undamped_bar),
       cmocka_unit_test(the_error_follows_the_tolerance),

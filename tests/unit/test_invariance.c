@@ -4,8 +4,6 @@
 
 #include "solid.h"
 
-enum { CAUCHY, WARP, POLAR, HYBRID, GREEN }; /* index into measures */
-
 /* Viscous forces as large as elastic ones. */
 static const corot_material thick = {
     .lambda = 1.0e5, .mu = 1.0e4, .density = 1000, .damping_lambda = 1e5, .damping_mu = 1e4};

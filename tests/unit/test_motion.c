@@ -326,10 +326,10 @@ static double imbalance(const char *strain, double rtol, double *work) {
 /* To the error of integration, which goes with the power 2/3 of the tolerance. */
 static void the_ledger_closes(void **state) {
   (void)state;
-  static const char *const strain[] = {"polar", "hybrid", "green"};
-  for (int m = 0; m < 3; m++) {
-    double work, loose = imbalance(strain[m], 1e-5, &work),
-                 tight = imbalance(strain[m], 1e-7, &work);
+  for (int m = 0; m < NSTRAIN; m++) {
+    if (!conserves(m)) continue;
+    double work, loose = imbalance(measures[m], 1e-5, &work),
+                 tight = imbalance(measures[m], 1e-7, &work);
     assert_above(work, 0.5); /* J, in a bar of 3 kg */
     assert_below(loose, 2 * pow(1e-5, 2. / 3));
     assert_below(tight, 2 * pow(1e-7, 2. / 3));

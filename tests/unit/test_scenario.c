@@ -794,6 +794,36 @@ static void suggestions(void **state) {
   assert_int_equal(suggest_distance("ab", "ba"), 1);
 }
 
+/* Whether "a|b|c" has the word. */
+static bool offers(const char *words, const char *word) {
+  size_t n = strlen(word);
+  for (const char *w = words; w; w = strchr(w, '|'), w = w ? w + 1 : NULL)
+    if (strncmp(w, word, n) == 0 && (w[n] == '|' || w[n] == '\0')) return true;
+  return false;
+}
+
+static int count_of(const char *words) {
+  int n = 1;
+  for (; *words; words++) n += *words == '|';
+  return n;
+}
+
+/* A file may name each measure and method that the libraries have, and no other. */
+static void choices_are_the_rows_of_the_tables(void **state) {
+  (void)state;
+  static const char *const measured[] = {"strain", "hierarchy.coarse_strain"};
+  int n = 0;
+  for (int k = 0; k < 2; k++) {
+    const char *words = schema_find(&scenario_schema, measured[k])->words;
+    for (n = 0; corot_strain_traits(n); n++)
+      assert_true(offers(words, corot_strain_traits(n)->name));
+    assert_int_equal(count_of(words), n);
+  }
+  const char *words = schema_find(&scenario_schema, "integrator.method")->words;
+  for (n = 0; corot_method_at(n); n++) assert_true(offers(words, corot_method_at(n)->name));
+  assert_int_equal(count_of(words), n);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(defaults),
@@ -826,6 +856,7 @@ int main(void) {
       cmocka_unit_test(schema_is_sound),
       cmocka_unit_test(schema_as_text),
       cmocka_unit_test(suggestions),
+      cmocka_unit_test(choices_are_the_rows_of_the_tables),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

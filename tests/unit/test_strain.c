@@ -248,6 +248,34 @@ static void viscous_stress_dissipates(void **state) {
     }
 }
 
+/* What the table says of a measure is what its stress does. */
+static void traits_are_true(void **state) {
+  (void)state;
+  uint64_t seed = 53;
+  for (int m = 0; m < NSTRAIN; m++) {
+    const corot_strain_kind *kind = corot_strain_traits(m);
+    double F[9], G[9], sum[9], R[9], P[9], Q[9], both[9], moved[9];
+    random_deformation(&seed, F), random_deformation(&seed, G);
+    for (int k = 0; k < 9; k++) sum[k] = F[k] + G[k] - identity[k];
+
+    frame(m, F, R);
+    assert_true(kind->frames == (distance(R, identity) > 1e-3));
+    stress_of(m, F, R, P), stress_of(m, G, R, Q), stress_of(m, sum, R, both);
+    stress_of(m, identity, R, moved);
+    for (int k = 0; k < 9; k++) moved[k] = P[k] + Q[k] - moved[k];
+    assert_true(kind->linear_in_frames == (distance(moved, both) < 1e-12));
+    assert_true(kind->linear == (kind->linear_in_frames && !kind->frames));
+    assert_false(kind->polar && !kind->frames);
+    assert_false(kind->exact && kind->frames);
+
+    assert_ptr_equal(corot_strain_find(kind->name), kind);
+  }
+  assert_null(corot_strain_traits(NSTRAIN));
+  assert_null(corot_strain_traits(-1));
+  assert_null(corot_strain_find("almansi"));
+  assert_null(corot_strain_find(NULL));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(simple_shear_of_polar_strain),
@@ -257,6 +285,7 @@ int main(void) {
       cmocka_unit_test(stress_is_the_gradient_of_the_energy),
       cmocka_unit_test(stress_is_isotropic_and_objective),
       cmocka_unit_test(viscous_stress_dissipates),
+      cmocka_unit_test(traits_are_true),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,19 +41,19 @@ static const double about_z[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
    V d_mu w^2 (s1 - s2)^2, for sym(R' dF/dt) = w (s2 - s1)/2 off the diagonal. */
 static void the_corotated_law_feels_a_spin(void **state) {
   (void)state;
-  static const char *const strain[] = {"polar", "hybrid"};
   double w = 7, Q[9], F[9], V[9], spin[9], axis[3] = {0, 0, 1};
   rotation(axis, 0.6, Q);
   multiply(Q, stretch, F);
   for (int k = 0; k < 9; k++) spin[k] = w * about_z[k];
   multiply(spin, F, V);
-  for (int k = 0; k < 2; k++) {
-    body b = free_box(strain[k], COROT_COROTATED);
+  for (int k = 0; k < NSTRAIN; k++) {
+    if (!is_polar(k)) continue;
+    body b = free_box(measures[k], COROT_COROTATED);
     double volume = corot_mesh_measure(b.mesh).volume, difference = stretch[0] - stretch[4];
     assert_close(power(&b, F, V), volume * soft.damping_mu * w * w * difference * difference, 1e-13,
                  0);
     drop_body(&b);
-    b = free_box(strain[k], COROT_OBJECTIVE);
+    b = free_box(measures[k], COROT_OBJECTIVE);
     /* the stress is the rounding of rates w S, and works at those */
     assert_below(fabs(power(&b, F, V)), 1e-15 * volume * soft.damping_lambda * w * w);
     drop_body(&b);
@@ -64,7 +64,6 @@ static void the_corotated_law_feels_a_spin(void **state) {
    spin; hybrid's pressure term is that of F : dF/dt = S : dS/dt. */
 static void the_objective_law_is_that_of_the_stretch(void **state) {
   (void)state;
-  static const char *const strain[] = {"polar", "hybrid"};
   const double rate[9] = {0.5, 0, 0, 0, -0.2, 0, 0, 0, 0.9};
   double Q[9], F[9], square = 0, trace = 0, product = 0, axis[3] = {1, 2, 2};
   rotation(axis, 2, Q);
@@ -72,11 +71,11 @@ static void the_objective_law_is_that_of_the_stretch(void **state) {
   for (int k = 0; k < 9; k += 4) {
     square += rate[k] * rate[k], trace += rate[k], product += stretch[k] * rate[k];
   }
-  for (int m = 0; m < 2; m++)
-    for (double w = 0; w < 20; w += 6) {
-      body b = free_box(strain[m], COROT_OBJECTIVE);
+  for (int m = 0; m < NSTRAIN; m++)
+    for (double w = 0; is_polar(m) && w < 20; w += 6) {
+      body b = free_box(measures[m], COROT_OBJECTIVE);
       double volume = corot_mesh_measure(b.mesh).volume, V[9], spin[9], turning[9];
-      double pressure = m == 0 ? trace : product;
+      double pressure = corot_strain_traits(m)->linear_in_frames ? trace : product;
       for (int k = 0; k < 9; k++) spin[k] = w * about_z[k];
       multiply(Q, rate, V);
       multiply(spin, F, turning);
@@ -108,7 +107,7 @@ static void the_matrix_is_symmetric_and_semi_definite(void **state) {
   (void)state;
   for (int m = 0; m < NMEASURE; m++)
     for (corot_viscosity law = COROT_COROTATED; law <= COROT_OBJECTIVE; law++) {
-      if (law == COROT_OBJECTIVE && m != 2 && m != 3) continue; /* polar and hybrid only */
+      if (law == COROT_OBJECTIVE && !is_polar(m)) continue;
       body b = free_box(measures[m], law);
       int n = b.n;
       double *u = calloc(5 * n, sizeof *u), *v = u + n, *e = v + n, *zero = e + n, *Dw = zero + n;
@@ -132,7 +131,7 @@ static void the_matrix_is_symmetric_and_semi_definite(void **state) {
         apply(spin, x, v + 3 * k);
       }
       for (int i = 0; i < n; i++) Dw[i] = inner(n, D + n * i, v);
-      bool blind = law == COROT_OBJECTIVE || m == 4;
+      bool blind = law == COROT_OBJECTIVE || corot_strain_traits(m)->exact;
       if (blind) assert_below(norm_max(n, Dw), 1e-13 * size * norm_max(n, v));
       if (!blind) assert_above(norm_max(n, Dw), 1e-3 * size * norm_max(n, v));
 
@@ -149,7 +148,7 @@ static void the_matrix_is_symmetric_and_semi_definite(void **state) {
 static void the_default_law_is_by_the_frame(void **state) {
   (void)state;
   for (int m = 0; m < NMEASURE; m++) {
-    bool polar = m == 2 || m == 3;
+    bool polar = is_polar(m);
     body b = free_box(measures[m], corot_model_defaults().viscosity);
     assert_int_equal(corot_model_viscosity(b.model), polar ? COROT_OBJECTIVE : COROT_COROTATED);
     drop_body(&b);
@@ -171,7 +170,7 @@ static void matrices_by_frames(void **state) {
   (void)state;
   for (int m = 0; m < NMEASURE; m++)
     for (corot_viscosity law = COROT_COROTATED; law <= COROT_OBJECTIVE; law++) {
-      if (law == COROT_OBJECTIVE && m != 2 && m != 3) continue; /* polar and hybrid only */
+      if (law == COROT_OBJECTIVE && !is_polar(m)) continue;
       body b = free_box(measures[m], law);
       int nblock = corot_model_nblock(b.model);
       double(*K)[9] = calloc(4 * nblock, sizeof *K), (*D)[9] = K + nblock, (*there)[9] = D + nblock;
@@ -184,7 +183,7 @@ static void matrices_by_frames(void **state) {
           corot_jacobian(b.model, b.state, 0, u, zero, COROT_TANGENT_HELD, there, there + nblock));
       bool same = memcmp(K, there, 2 * nblock * sizeof *K) == 0;
       assert_int_equal(corot_model_matrices_by_frames(b.model), same);
-      assert_int_equal(same, m <= 2 && law == COROT_COROTATED);
+      assert_int_equal(same, corot_strain_traits(m)->linear_in_frames && law == COROT_COROTATED);
       free(u), free(K), drop_body(&b);
     }
 }
