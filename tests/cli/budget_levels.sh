@@ -66,6 +66,13 @@ claim pull "part('space')['bound'] == 'at least' and part('space')['order'] is N
 expect 2 budget pull.yaml --levels 4; err "--levels 4: expected 2 or 3"
 expect 2 budget pull.yaml --levels 1; err "--levels 1: expected 2 or 3"
 
+# Where time is a small part, the third level takes steps as they are given: what is known of space is
+# less by what these are off by, and nothing is said below ten times both.
+expect 0 budget model.yaml -o steps --quiet --set strain=green
+sound steps
+claim steps "part('space')['levels'] == 3 and 40 * part('time integration')['error'] < part('space')['difference']" \
+  "abs(part('space')['floor'] / (10 * part('time integration')['error'] + part('time integration')['floor']) - 1) < 1e-6"
+
 # Two parts that work against one another are seen to: the tets are too stiff, polar too soft.
 expect 0 budget pull.yaml --static -o cancel --quiet --set strain=polar --levels 2
 sound cancel
