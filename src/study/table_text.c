@@ -190,6 +190,8 @@ corot_status table_print(const json_t *table, FILE *out) {
   print_cells(table, out);
   if (json_is_string(json_object_get(table, "shared")))
     fprintf(out, "\n%s\n", text_at(table, "shared"));
+  if (json_is_string(json_object_get(table, "mixed")))
+    fprintf(out, "\n%s\n", text_at(table, "mixed"));
   print_references(json_object_get(table, "references"), out);
   print_space(json_object_get(table, "space"), out);
   print_fits(json_object_get(table, "fits"), out);
