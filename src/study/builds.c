@@ -68,7 +68,7 @@ void builds_sort(builds *b) {
 static void describe(const json_t *list, const json_t *own, const json_t *build, FILE *out) {
   const char *separator = "";
   char text[160];
-  if (!build || json_is_null(build)) {
+  if (!json_is_string(json_object_get(build, "corot"))) {
     fputs("a build that is not recorded", out);
     return;
   }

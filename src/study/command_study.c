@@ -177,6 +177,7 @@ static int execute_here(const manifest *m, const execute_options *o) {
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
   status = execute_study(m, o, &totals, &signal_number);
+  if (status == COROT_OK) status = store_check(o->dir, lock);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
     status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
