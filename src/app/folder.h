@@ -20,8 +20,8 @@ char *folder_path(const char *dir, const char *name);
    to free, NULL as above. */
 char *folder_default(const char *path, const char *suffix);
 
-/* Fails with COROT_EIO where `path` is there and no regular file: to read a folder gives nonsense, and
-   a pipe may keep its reader for ever. */
+/* Fails with COROT_EIO where `path` is there and no regular file: to read a folder gives nonsense,
+   and a pipe may keep its reader for ever. */
 corot_status file_check_regular(const char *path);
 
 /* Opens `path` for writing from its beginning, made or emptied first. Stores a descriptor.

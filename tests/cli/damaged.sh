@@ -2,12 +2,7 @@
 # command ends in good order, says which file it is, and makes again what it can.
 . "$(dirname "$0")/lib.sh"
 
-cat >study.yaml <<'YAML'
-study: which one
-base: model.yaml
-axes: [{key: strain, values: [polar, green]}]
-reference: {rtol: 1.0e-7}
-YAML
+write_study
 cat >damage.py <<'PY'
 import json, os, sys
 path, kind = sys.argv[1:]

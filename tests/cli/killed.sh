@@ -5,12 +5,7 @@
 disturb=$3
 ulimit -c 0
 
-cat >study.yaml <<'YAML'
-study: which one
-base: model.yaml
-axes: [{key: strain, values: [polar, green]}]
-reference: {rtol: 1.0e-7}
-YAML
+write_study
 expect 0 mesh box --size 1,1,1 --cells 1,1,2 -o box.msh
 expect 0 run model.yaml -o run --quiet
 expect 0 study study.yaml -o study --quiet

@@ -9,12 +9,7 @@ disturb=${3-}
 . "$(dirname "$0")/lib.sh"
 ulimit -c 0
 
-cat >study.yaml <<'YAML'
-study: which one
-base: model.yaml
-axes: [{key: strain, values: [polar, green]}]
-reference: {rtol: 1.0e-7}
-YAML
+write_study
 expect 0 mesh box --size 1,1,1 --cells 9,9,9 -o box.msh
 expect 0 run model.yaml -o run --quiet
 expect 0 study study.yaml -o study --quiet
