@@ -12,6 +12,12 @@ static const char help[] =
     "NAME stands for a name of your own, [] for each entry of a list; \"one of\": exactly one of\n"
     "the keys so marked is given; words after \"not yet\" are known, but not supported yet.\n"
     "\n"
+    "A file has at most 16 MiB, 1000000 values (maps and lists are values, too), 10000 keys in "
+    "one\n"
+    "map (so that many probes, or groups) and 32 levels of nesting; a table of an amplitude 256 "
+    "MiB;\n"
+    "the name of a group 127 bytes.\n"
+    "\n"
     "      --json           all of it as a JSON Schema, such as editors use\n"
     "\n"
     "example: corot schema integrator\n";

@@ -29,6 +29,14 @@ typedef struct config_node {
   int nchild;
 } config_node;
 
+/* Limits of a file, and of a --set argument, so that no text can take all time or memory. */
+enum {
+  CONFIG_MOST_MIB = 16,
+  CONFIG_MOST_LEVELS = 32,
+  CONFIG_MOST_VALUES = 1000000, /* maps and lists are values, too; aliases count unfolded */
+  CONFIG_MOST_KEYS = 10000,     /* of one map: probes, groups */
+};
+
 /* A tree, and the memory of everything that was read into it. */
 typedef struct config {
   struct config_block *block; /* see config_alloc */

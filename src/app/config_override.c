@@ -4,16 +4,19 @@
 #include "config.h"
 #include "no_memory.h"
 
+enum { NAME_MOST = 200 }; /* bytes of an assignment in messages, so that the reason has room */
+
 /* The value, read with the whole assignment as its place. */
 static corot_status parse_value(config *tree, const char *assignment, config_node **out) {
   config_node *value = NULL;
   const char *text = strchr(assignment, '=') + 1;
-  size_t length = strlen(assignment);
+  int length = (int)strnlen(assignment, NAME_MOST + 1);
   config_source *s = config_alloc(tree, 1, sizeof *s);
-  char *name = config_alloc(tree, length + sizeof "--set ", 1);
+  char *name = config_alloc(tree, NAME_MOST + sizeof "--set ...", 1);
   char *copy = config_copy(tree, text, strlen(text));
   if (!s || !name || !copy) return no_memory();
-  snprintf(name, length + sizeof "--set ", "--set %s", assignment);
+  snprintf(name, NAME_MOST + sizeof "--set ...", "--set %.*s%s", NAME_MOST, assignment,
+           length > NAME_MOST ? "..." : "");
   *s = (config_source){.name = name, .text = copy, .size = strlen(text)};
   COROT_TRY(config_parse(tree, s, false, &value));
   if (!value) {

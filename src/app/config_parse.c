@@ -9,13 +9,6 @@
 #include "config.h"
 #include "no_memory.h"
 
-enum {
-  MAX_SIZE = 16 << 20, /* bytes of a file */
-  MAX_DEPTH = 32,      /* levels */
-  MAX_NODES = 1000000, /* values, aliases unfolded */
-  MAX_KEYS = 10000,    /* of one map */
-};
-
 typedef struct anchor {
   const char *name;
   const config_node *node;
@@ -124,8 +117,9 @@ static corot_status next_event(reader *r, event *out) {
 /* --- Values --- */
 
 static corot_status new_node(reader *r, config_kind kind, config_node **node) {
-  if (++r->tree->nnode > MAX_NODES)
-    return config_fail_at(r->source, r->at, "more than %d values", MAX_NODES);
+  if (++r->tree->nnode > CONFIG_MOST_VALUES)
+    return config_fail_at(r->source, r->at, "more than %d values, the limit of a file",
+                          CONFIG_MOST_VALUES);
   *node = config_node_create(r->tree, kind);
   if (!*node) return no_memory();
   (*node)->source = r->source;
@@ -173,8 +167,9 @@ static corot_status check_key(reader *r, const config_node *map, const event *ke
   for (const config_node *c = map->child; c; c = c->next)
     if (strcmp(c->key, key->text) == 0)
       return config_fail_at(r->source, key->at, "%.64s: given twice", key->text);
-  if (map->nchild >= MAX_KEYS)
-    return config_fail_at(r->source, key->at, "more than %d keys in one map", MAX_KEYS);
+  if (map->nchild >= CONFIG_MOST_KEYS)
+    return config_fail_at(r->source, key->at, "more than %d keys in one map, the limit of a file",
+                          CONFIG_MOST_KEYS);
   return COROT_OK;
 }
 
@@ -203,8 +198,9 @@ static corot_status add_anchor(reader *r, const char *name, const config_node *n
 
 static corot_status read_value(reader *r, const event *first, int depth, config_node **out) {
   config_node *node = NULL;
-  if (depth > MAX_DEPTH)
-    return config_fail_at(r->source, first->at, "nested deeper than %d levels", MAX_DEPTH);
+  if (depth > CONFIG_MOST_LEVELS)
+    return config_fail_at(r->source, first->at, "nested deeper than %d levels, the limit of a file",
+                          CONFIG_MOST_LEVELS);
   switch (first->type) {
     case FYET_ALIAS:
       return read_alias(r, first, out);
@@ -308,6 +304,8 @@ corot_status config_parse(config *tree, const config_source *source, bool json,
 
 /* --- Files --- */
 
+enum { MOST_BYTES = CONFIG_MOST_MIB << 20 };
+
 static bool ends_in(const char *text, const char *end) {
   size_t n = strlen(text), m = strlen(end);
   return n >= m && strcmp(text + n - m, end) == 0;
@@ -338,18 +336,18 @@ corot_status config_read_text(const char *path, const char *text, size_t size, c
 }
 
 static corot_status read_file(const char *path, FILE *file, char *text, size_t *size) {
-  *size = fread(text, 1, MAX_SIZE + 1, file);
+  *size = fread(text, 1, MOST_BYTES + 1, file);
   if (ferror(file)) return corot_fail(COROT_EIO, "%s: %s", path, strerror(errno));
-  if (*size > MAX_SIZE)
+  if (*size > MOST_BYTES)
     return corot_fail(COROT_EFORMAT, "%s: larger than %d MiB, the limit for a scenario", path,
-                      MAX_SIZE >> 20);
+                      CONFIG_MOST_MIB);
   return COROT_OK;
 }
 
 corot_status config_read(const char *path, config **tree) {
   FILE *file = fopen(path, "rb");
   if (!file) return corot_fail(COROT_EIO, "%s: %s", path, strerror(errno));
-  char *text = malloc(MAX_SIZE + 1);
+  char *text = malloc(MOST_BYTES + 1);
   size_t size = 0;
   corot_status status = text ? read_file(path, file, text, &size) : no_memory();
   if (status == COROT_OK) status = config_read_text(path, text, size, tree);

@@ -132,7 +132,8 @@ static corot_status load(const config_node *node, const char *path, char **text,
   if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
     return config_fail(node, "%s: not a file", path);
   if (stat(path, &about) == 0 && about.st_size > MOST_BYTES)
-    return config_fail(node, "%s: larger than %d MiB", path, MOST_BYTES >> 20);
+    return config_fail(node, "%s: larger than %d MiB, the limit of a table", path,
+                       MOST_BYTES >> 20);
   corot_status status = corot_file_load(path, text, size);
   return status == COROT_EIO ? config_fail(node, "%s", corot_error()) : status;
 }

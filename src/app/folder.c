@@ -104,6 +104,13 @@ corot_status folder_clean(const char *dir) {
   return status;
 }
 
+corot_status file_check_regular(const char *path) {
+  struct stat info;
+  if (stat(path, &info) != 0 || S_ISREG(info.st_mode)) return COROT_OK;
+  return corot_fail(COROT_EIO, "%s: is %s, not a file", path,
+                    S_ISDIR(info.st_mode) ? "a folder" : "a device or a pipe");
+}
+
 static corot_status refuse(const char *path) {
   return corot_fail(COROT_EIO, "%s: is not a regular file, and stays as it is", path);
 }
@@ -139,8 +146,17 @@ corot_status file_write(int fd, const char *path, const void *data, size_t size)
   return COROT_OK;
 }
 
+static corot_status removed(const char *path) {
+  return corot_fail(COROT_EIO, "%s: has been removed while it was written", path);
+}
+
 corot_status file_close(int fd, const char *path) {
-  if (fd < 0 || close(fd) == 0 || errno == EINTR) return COROT_OK;
+  if (fd < 0) return COROT_OK;
+  struct stat info;
+  bool lost = fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_nlink == 0;
+  bool closed = close(fd) == 0 || errno == EINTR;
+  if (closed && lost) return removed(path);
+  if (closed) return COROT_OK;
   return corot_fail(COROT_EIO, "%s: cannot write: %s", path, strerror(errno));
 }
 
@@ -178,12 +194,14 @@ static corot_status write_whole(const char *path, const void *data, size_t size,
   return status;
 }
 
-static corot_status put_in_place(const char *temporary, const char *path) {
+corot_status file_put_in_place(const char *temporary, const char *path) {
   struct stat info;
   corot_status status = COROT_OK;
   if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode))
     status = refuse(path);
-  else if (lstat(temporary, &info) != 0 || !S_ISREG(info.st_mode))
+  else if (lstat(temporary, &info) != 0)
+    status = removed(temporary);
+  else if (!S_ISREG(info.st_mode))
     status = refuse(temporary);
   else if (rename(temporary, path) != 0)
     status =
@@ -194,7 +212,7 @@ static corot_status put_in_place(const char *temporary, const char *path) {
 
 corot_status file_replace(const char *path, const char *temporary, const void *data, size_t size) {
   COROT_TRY(write_whole(temporary, data, size, false));
-  return put_in_place(temporary, path);
+  return file_put_in_place(temporary, path);
 }
 
 /* The rename itself is durable once the folder is. */
@@ -217,7 +235,7 @@ corot_status file_replace_durably(const char *path, const void *data, size_t siz
   memcpy(temporary + length, ".tmp", 5);
 
   corot_status status = write_whole(temporary, data, size, true);
-  if (status == COROT_OK) status = put_in_place(temporary, path);
+  if (status == COROT_OK) status = file_put_in_place(temporary, path);
   if (status == COROT_OK && (status = synchronise_folder_of(path)) != COROT_OK)
     unlink(path); /* what is said to have failed must not be found */
   free(temporary);

@@ -20,6 +20,10 @@ char *folder_path(const char *dir, const char *name);
    to free, NULL as above. */
 char *folder_default(const char *path, const char *suffix);
 
+/* Fails with COROT_EIO where `path` is there and no regular file: to read a folder gives nonsense,
+   and a pipe may keep its reader for ever. */
+corot_status file_check_regular(const char *path);
+
 /* Opens `path` for writing from its beginning, made or emptied first. Stores a descriptor.
 
    This and the following never write through a link to a file, and never replace what is not a
@@ -29,8 +33,12 @@ corot_status file_create(const char *path, int *fd);
 /* Writes all of it, however often the system has to be asked. `path` is for the message. */
 corot_status file_write(int fd, const char *path, const void *data, size_t size);
 
-/* Closes `fd` (-1: does nothing); a delayed error of the disk shows up here. */
+/* Closes `fd` (-1: does nothing); a delayed error of the disk shows up here, and that somebody has
+   removed the file meanwhile. */
 corot_status file_close(int fd, const char *path);
+
+/* Renames `temporary`, which is complete, to `path`; where that fails it is removed. */
+corot_status file_put_in_place(const char *temporary, const char *path);
 
 /* Puts a file in place as a whole: `temporary` is written, then renamed to `path`. */
 corot_status file_replace(const char *path, const char *temporary, const void *data, size_t size);

@@ -66,11 +66,14 @@ static size_t count(const char *text, char what) {
   return n;
 }
 
+enum { MOST_CELLS = 200000000 };
+
 static corot_status parse(csv *t, const char *path) {
   char *at = t->text;
   size_t commas = count(t->text, ','), lines = count(t->text, '\n');
-  if (commas + lines > 200000000)
-    return corot_fail(COROT_EFORMAT, "%s: %zu cells are too many", path, commas + lines);
+  if (commas + lines > MOST_CELLS)
+    return corot_fail(COROT_EFORMAT, "%s: %zu cells, more than %d, the limit of a table", path,
+                      commas + lines, MOST_CELLS);
   bool cut = false;
   t->name = malloc((commas + 1) * sizeof *t->name);
   t->cell = malloc((commas + lines + 1) * sizeof *t->cell);

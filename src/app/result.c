@@ -7,15 +7,8 @@
 
 #include "folder.h"
 #include "json_text.h"
+#include "provenance.h"
 #include "result_statics.h"
-
-#if defined(__clang__)
-#define COMPILER "clang " __clang_version__
-#elif defined(__GNUC__)
-#define COMPILER "gcc " __VERSION__
-#else
-#define COMPILER "unknown"
-#endif
 
 /* Zero stands for what was not asked for. */
 static json_t *positive(double x) { return x > 0 ? json_text_real(x) : json_null(); }
@@ -161,7 +154,7 @@ static json_t *observed_part(const run_summary *run) {
 
 json_t *result_versions(void) {
   return json_pack("{s:s, s:s, s:s}", "corot", corot_version(), "sundials",
-                   corot_sundials_version(), "compiler", COMPILER);
+                   corot_sundials_version(), "compiler", provenance_compiler);
 }
 
 corot_status result_make(const scenario *s, const outputs *o, const run_summary *run,
@@ -170,7 +163,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
   json_t *result = json_pack(
       "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
       "s:o, s:o,"
-      " s:o, s:{s:s, s:s, s:s}, s:O}",
+      " s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
       json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
@@ -181,8 +174,8 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
       timings_part(run), "memory", memory_part(run), "probes", probes_part(o), "energy",
       energy_part(o), "extremes", extremes_part(o), "observed", observed_part(run), "versions",
-      result_versions(), "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
-      "scenario", s->resolved);
+      result_versions(), "provenance", provenance_json(), "hashes", "scenario", h->scenario, "mesh",
+      h->mesh, "run", h->run, "scenario", s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
   return COROT_OK;

@@ -10,7 +10,8 @@
        energy_error  the largest balance over the largest energy; null: statics
        strained      the part of the volume strained beyond STRAIN_LIMIT, when that was largest
        turned        the part turned beyond TURN_LIMIT, when the turn was largest; of cauchy
-       stress_jumps  corot_stress_jumps when the elastic energy was largest */
+       stress_jumps  corot_stress_jumps when the elastic energy was largest
+     provenance what it was made by, see provenance.h */
 #ifndef COROT_APP_RESULT_H
 #define COROT_APP_RESULT_H
 

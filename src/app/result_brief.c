@@ -1,6 +1,7 @@
 #include "result_brief.h"
 
 #include "json_text.h"
+#include "provenance.h"
 #include "stop.h"
 #include "warnings.h"
 
@@ -19,6 +20,7 @@ static corot_status make_text(const scenario *s, const brief_result *what, json_
                           what->warnings ? warnings_json(what->warnings) : json_array());
   result = json_text_with(result, "strain", json_string(s->strain));
   result = json_text_with(result, "versions", result_versions());
+  result = json_text_with(result, "provenance", provenance_json());
   result = json_text_with(result, "scenario", json_incref(s->resolved));
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   corot_status status = result_text(result, text);

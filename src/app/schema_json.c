@@ -67,7 +67,9 @@ static json_t *value_schema(const schema_key *key) {
     case SCHEMA_MAP:
       return map_schema(inside);
     case SCHEMA_NAMED:
-      return json_text_with(of_type("object"), "additionalProperties", map_schema(inside));
+      return json_text_with(
+          json_text_with(of_type("object"), "additionalProperties", map_schema(inside)),
+          "maxProperties", json_integer(CONFIG_MOST_KEYS));
     case SCHEMA_LIST:
       return list_schema(map_schema(inside), 0, 0);
     case SCHEMA_MAPS:

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/c_locale.h"
 #include "core/mesh.h"
@@ -93,9 +94,17 @@ static corot_status write_temporary(const corot_mesh *mesh, const char *path, FI
   return status;
 }
 
+/* A link, a device or a folder of that name stays what it is. */
+static corot_status check_place(const char *path) {
+  struct stat info;
+  if (lstat(path, &info) != 0 || S_ISREG(info.st_mode)) return COROT_OK;
+  return corot_fail(COROT_EIO, "%s: is not a regular file, and stays as it is", path);
+}
+
 corot_status corot_mesh_write(const corot_mesh *mesh, const char *path) {
   char *temporary;
   size_t size = strlen(path) + 16;
+  COROT_TRY(check_place(path));
   COROT_TRY(COROT_ALLOC(temporary, size));
   corot_status status = COROT_OK;
   FILE *f = open_temporary(path, temporary, size);

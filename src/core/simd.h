@@ -30,7 +30,15 @@ static inline const char *simd_instruction_set(void) {
 }
 #else
 #define COROT_CLONES
-static inline const char *simd_instruction_set(void) { return "as built"; }
+static inline const char *simd_instruction_set(void) {
+#if defined(__AVX512F__)
+  return "as built, AVX-512";
+#elif defined(__AVX2__)
+  return "as built, AVX2";
+#else
+  return "as built";
+#endif
+}
 #endif
 
 COROT_INLINE vd vd_all(double x) { return (vd){x, x, x, x, x, x, x, x}; }

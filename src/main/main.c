@@ -89,6 +89,7 @@ int main(int argc, char **argv) {
   hold_standard_streams();
   keep_to_one_thread(argv);
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
+  signal(SIGXFSZ, SIG_IGN); /* so is a file that may not grow further */
   int code = dispatch("corot", help, table, argc, argv);
   if (fflush(stdout) != 0 || ferror(stdout)) {
     fprintf(stderr, "corot: standard output: %s\n", strerror(errno));

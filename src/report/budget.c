@@ -193,6 +193,7 @@ void budget_write(const json_t *budget, FILE *out) {
   page_section("budget", "Error budget", out);
   if (*first) page_element(out, whole ? "p class=\"answer\"" : "p class=\"warning\"", "%s", first);
   if (*measure) page_element(out, "p", "Error of the %s.", measure);
+  page_warning(lookup_text(budget, "mixed"), out);
   write_table(budget, out);
   write_probes(budget, out);
   page_section_end(out);

@@ -32,6 +32,7 @@ const char *lookup_text(const json_t *document, const char *path) {
 
 static corot_status load(const char *path, json_t **document) {
   json_error_t where;
+  COROT_TRY(file_check_regular(path));
   json_text_starved(); /* from here on */
   json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &where);
   if (!root && json_error_code(&where) == json_error_cannot_open_file)

@@ -74,6 +74,13 @@ void page_text(FILE *out, const char *format, ...) {
   va_end(arguments);
 }
 
+void page_warning(const char *text, FILE *out) {
+  if (!*text) return;
+  fputs("<p class=\"warning\">", out);
+  markup_text(out, text);
+  fputs("</p>\n", out);
+}
+
 void page_number(FILE *out, double x, int digits) {
   fputs("<td class=\"number\">", out);
   if (isfinite(x)) fprintf(out, "%.*g", digits, x);

@@ -24,6 +24,9 @@ void page_number(FILE *out, double x, int digits);
 /* Escaped text by the rules of printf, cut at 1023 bytes. */
 void page_text(FILE *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* A paragraph that warns, of any length; nothing for "". */
+void page_warning(const char *text, FILE *out);
+
 /* A row of a table of facts: a name, and a value by the rules of printf, escaped. */
 void page_fact(FILE *out, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

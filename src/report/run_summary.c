@@ -262,6 +262,11 @@ void run_summary_scenario(const run_folder *run, FILE *out) {
   fputs("</pre></details>\n<table class=\"facts\">\n", out);
   fact_text(r, "corot", "versions.corot", out);
   fact_text(r, "compiler", "versions.compiler", out);
+  fact_text(r, "commit", "provenance.commit", out);
+  fact_text(r, "build", "provenance.build", out);
+  fact_text(r, "CHOLMOD", "provenance.suitesparse.cholmod", out);
+  fact_text(r, "BLAS", "provenance.blas.config", out);
+  fact_text(r, "kernels", "provenance.processor", out);
   fact_text(r, "run", "hashes.run", out);
   fputs("</table>\n", out);
   page_section_end(out);

@@ -28,6 +28,7 @@ static void write_references(const study_table *t, FILE *out) {
   const json_t *references = lookup(t->root, "references");
   const char *shared = lookup_text(t->root, "shared");
   if (*shared) page_element(out, "p", "%s", shared);
+  page_warning(lookup_text(t->root, "mixed"), out);
   for (size_t i = 0; i < json_array_size(references); i++) {
     const json_t *r = json_array_get(references, i);
     const json_t *agree = lookup(r, "agree");

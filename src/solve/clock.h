@@ -2,12 +2,8 @@
 #ifndef COROT_SOLVE_CLOCK_H
 #define COROT_SOLVE_CLOCK_H
 
-#include <time.h>
+#include "core/clock.h"
 
-static inline double clock_wall(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+static inline double clock_wall(void) { return corot_wall_clock(); }
 
 #endif

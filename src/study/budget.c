@@ -258,13 +258,16 @@ static corot_status totals(const budgeting *b, const budget_claims *all, json_t 
       "complete", json_array_size(missing) == 0, "missing", missing, "first", verdict, "verdict",
       verdict, "runs", runs_json(b));
   if (!json) return no_memory();
+  json = json_text_with(json, "builds", json_incref(b->builds.list));
+  json = json_text_with(json, "mixed", builds_sentence(b->builds.list));
+  if (!json) return no_memory();
   set_bound(json, "total_", total_bound(b, all));
   set_bound(json, "total_end_", claim_bounds(&all->total, ERROR_DISPLACEMENT, true));
   *out = json;
   return COROT_OK;
 }
 
-static corot_status rate(const budgeting *b, json_t **out) {
+static corot_status rate(budgeting *b, json_t **out) {
   budget_claims all;
   COROT_TRY(budget_claims_make(b, &all));
   json_t *parts = json_array();
@@ -274,6 +277,7 @@ static corot_status rate(const budgeting *b, json_t **out) {
     status = part_json(b, &all, i, &part);
     if (status == COROT_OK && json_array_append_new(parts, part)) status = no_memory();
   }
+  builds_sort(&b->builds);
   if (status == COROT_OK) status = totals(b, &all, parts, out);
   json_decref(parts);
   budget_claims_free(&all);
@@ -282,6 +286,7 @@ static corot_status rate(const budgeting *b, json_t **out) {
 
 static void release(budgeting *b) {
   for (int i = 0; i < b->nrun; i++) states_free(&b->run[i].states);
+  builds_free(&b->builds);
   yardstick_destroy(b->yardstick);
   manifest_destroy(b->manifest);
   free(b);
@@ -294,6 +299,7 @@ corot_status budget_make(const scenario *s, int nset, const char *const *set,
   if (!b) return no_memory();
   b->scenario = s;
   b->options = options;
+  b->builds = builds_begin();
   if (options->still)
     budget_plan_make_static(s, &b->plan);
   else
@@ -301,7 +307,7 @@ corot_status budget_make(const scenario *s, int nset, const char *const *set,
   for (int k = 0; k < BUDGET_KINDS; k++)
     if (options->skip[k]) budget_plan_skip(&b->plan, (budget_kind)k);
   if (b->plan.npart == 0) {
-    free(b);
+    release(b);
     return corot_fail(COROT_EINVAL, "nothing is left of the budget");
   }
   json_t *made = NULL;

@@ -37,7 +37,8 @@
    lead to; "sum": of the parts; "interaction": total less sum; "check": how far two independent
    methods of integration differ, of time's part; "check_rtol": at that tolerance; "complete": no
    part is missing; "missing": their names; "first": what to change first, in words, and "verdict":
-   the same; "runs": [{"run", "id", "status", "cpu", "spare": a try whose failure is no matter}]}
+   the same; "runs": [{"run", "id", "status", "cpu", "spare": a try whose failure is no matter}],
+      "builds", "mixed": as in a study's table (collect.h)}
    What is not known, as where a run failed, is null. */
 #ifndef COROT_STUDY_BUDGET_H
 #define COROT_STUDY_BUDGET_H

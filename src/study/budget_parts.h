@@ -3,6 +3,7 @@
 #define COROT_STUDY_BUDGET_PARTS_H
 
 #include "budget.h"
+#include "builds.h"
 #include "claim.h"
 
 /* Runs: as given; the chain, one more approximation gone in each; each gone alone; the checks;
@@ -41,6 +42,7 @@ typedef struct budgeting {
   bool third_is_loose;                                          /* its steps are as given */
   char left_out[256]; /* why there is no third level; "": there is one */
   manifest *manifest;
+  builds builds; /* of the runs that are done */
   yardstick *yardstick;
 } budgeting;
 

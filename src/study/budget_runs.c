@@ -93,6 +93,7 @@ static corot_status load_run(budgeting *b, const char *dir, budget_run *run) {
   run->cpu = run->work = run->tets = NAN;
   corot_status status = COROT_OK;
   if (record.state == RUN_DONE) {
+    builds_add(&b->builds, entry, record.result, false);
     const json_t *times = json_object_get(record.result, "timings");
     run->cpu = json_number_value(json_object_get(times, "cpu"));
     run->work = work_of(record.result);
@@ -246,6 +247,7 @@ corot_status budget_runs_make(budgeting *b, int nset, const char *const *set,
   plan_runs(b);
   COROT_TRY(carry_out(b, nset, set, &o, signal_number));
   if (*signal_number) return COROT_OK;
+  o.tells_builds = false;
   o.expects_failures = true; /* told already, or looked at below */
   COROT_TRY(yardstick_create(b->scenario, &b->yardstick));
   COROT_TRY(tighten_time(b, nset, set, &o, signal_number));

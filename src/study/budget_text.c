@@ -196,4 +196,6 @@ void budget_print(const json_t *budget, FILE *out) {
   print_probes(budget, out);
   const char *first = json_string_value(json_object_get(budget, "first"));
   if (first) fprintf(out, "\n%s\n", first);
+  const char *mixed = json_string_value(json_object_get(budget, "mixed"));
+  if (mixed) fprintf(out, "\n%s\n", mixed);
 }

@@ -55,8 +55,11 @@ static corot_status look_reference(measuring *g, int index, table_reference *t) 
     status = note(measured, &t->note);
     if (t->known && !(t->floor_json = errors_json(g->yardstick, &t->floor))) status = no_memory();
   }
-  run_record_free(&record[0]);
-  run_record_free(&record[1]);
+  for (int i = 0; i < 2; i++) {
+    if (record[i].state == RUN_DONE)
+      builds_add(&g->builds, &g->m->run[r->run[i]], record[i].result, true);
+    run_record_free(&record[i]);
+  }
   return status;
 }
 
@@ -115,6 +118,7 @@ static corot_status look_cell(measuring *g, const table_reference *references, i
   t->reason = record.reason;
   record.reason = NULL;
   corot_status status = COROT_OK;
+  if (record.state == RUN_DONE) builds_add(&g->builds, t->run, record.result, false);
   if (record.state == RUN_DONE) status = read_warnings(record.result, &t->warnings);
   if (record.state == RUN_DONE && status == COROT_OK)
     status = measure_cell(g, references, record.result, t);
@@ -232,18 +236,19 @@ static json_t *columns_json(const manifest *m) {
 }
 
 static corot_status make_table(const manifest *m, const table_rows *t, json_t *space,
-                               json_t **out) {
+                               json_t *made_by, json_t **out) {
   json_t *cells = json_array(), *references = json_array();
   for (int i = 0; i < t->n; i++) cells = json_text_push(cells, cell_json(t, &t->row[i]));
   for (int i = 0; i < m->nreference; i++)
     references = json_text_push(references, reference_json(m, &t->reference[i]));
   bool whole =
       (int)json_array_size(cells) == t->n && (int)json_array_size(references) == m->nreference;
-  json_t *table = json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}", "title",
-                            m->title, "cost", m->cost, "measure", m->measure, "corot", m->version,
-                            "columns", columns_json(m), "series", series_json(t), "shared",
-                            table_shared(t), "references", references, "fits", collect_fits(t),
-                            "rankings", collect_rankings(t), "cells", cells, "space", space);
+  json_t *table =
+      json_pack("{s:s, s:s, s:s, s:s, s:O, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}", "title",
+                m->title, "cost", m->cost, "measure", m->measure, "corot", m->version, "builds",
+                made_by, "mixed", builds_sentence(made_by), "columns", columns_json(m), "series",
+                series_json(t), "shared", table_shared(t), "references", references, "fits",
+                collect_fits(t), "rankings", collect_rankings(t), "cells", cells, "space", space);
   if (!whole || !table) {
     json_decref(table);
     return no_memory();
@@ -268,7 +273,8 @@ static corot_status collect(measuring *g, table_reference *references, table_row
     return corot_fail(COROT_EFORMAT, "%s/study.json: unknown measure or cost", g->dir);
   json_t *space;
   COROT_TRY(collect_space(g, references, &space));
-  corot_status status = make_table(m, &t, space, out);
+  builds_sort(&g->builds);
+  corot_status status = make_table(m, &t, space, g->builds.list, out);
   json_decref(space);
   return status;
 }
@@ -298,7 +304,7 @@ static void free_references(int n, table_reference *reference) {
 }
 
 corot_status collect_table(const manifest *m, const char *dir, json_t **table) {
-  measuring g = {.m = m, .dir = dir, .reference = -1};
+  measuring g = {.m = m, .dir = dir, .reference = -1, .builds = builds_begin()};
   table_row *rows = calloc((size_t)m->ncell + 1, sizeof *rows);
   table_reference *references = calloc((size_t)m->nreference + 1, sizeof *references);
   corot_status status = rows && references ? collect(&g, references, rows, table) : no_memory();
@@ -326,6 +332,7 @@ static void tell_code(const json_t *cells, const char *code, FILE *out) {
 }
 
 static void warn(const json_t *table, FILE *out) {
+  const char *mixed = json_string_value(json_object_get(table, "mixed"));
   const json_t *references = json_object_get(table, "references");
   const json_t *cells = json_object_get(table, "cells");
   int nbelow = 0;
@@ -342,6 +349,11 @@ static void warn(const json_t *table, FILE *out) {
   if (nbelow > 0)
     fprintf(out, "%d of %zu cells are not rated: less than ten times what the references know\n",
             nbelow, json_array_size(cells));
+  if (mixed) {
+    fputs("warning: ", out);
+    escape_terminal(mixed, out);
+    fputc('\n', out);
+  }
   for (int code = 0; code < WARNING_CODES; code++) tell_code(cells, warning_kinds[code].word, out);
 }
 

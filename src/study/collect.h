@@ -2,6 +2,8 @@
 
    table.json
      title, cost, measure   as in the study file; corot: the version that made the runs
+     builds      of the runs that are done, the build of most runs first (builds.h)
+     mixed       a sentence where there are several: which runs are of which; null: there are not
      columns     names of the cells' coordinates
      series      names, in alphabetical order
      shared      a sentence: what errors are of, and what the runs have in common with their

@@ -118,6 +118,7 @@ corot_status measure_hold(measuring *g, int reference) {
 }
 
 void measuring_free(measuring *g) {
+  builds_free(&g->builds);
   drop_yardstick(g);
   states_free(&g->kept);
 }

@@ -2,6 +2,7 @@
 #ifndef COROT_STUDY_COLLECT_PARTS_H
 #define COROT_STUDY_COLLECT_PARTS_H
 
+#include "builds.h"
 #include "collect.h"
 #include "errors.h"
 #include "store.h"
@@ -86,6 +87,7 @@ typedef struct measuring {
   char *key;          /* what the yardstick depends on */
   int reference;      /* whose trajectory is kept; -1: none's */
   trajectory kept;
+  builds builds; /* of the runs that are done */
 } measuring;
 
 /* The errors of a run that is done against another. COROT_EINVAL, COROT_EFORMAT, COROT_EIO: there

@@ -63,6 +63,7 @@ typedef struct search {
   const variants_arguments *arguments;
   double energy; /* at `from`, at its largest [J]; NaN: not yet known */
   int signal_number;
+  bool looked; /* at what there was before */
 } search;
 
 /* --- Arguments --- */
@@ -169,6 +170,8 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
   manifest *m = NULL;
   execute_options options = s->arguments->options;
   options.expects_failures = true;
+  options.tells_builds = !s->looked;
+  s->looked = true;
   COROT_TRY(variants_execute(&all, &options, &m, run, &s->signal_number));
   corot_status status = COROT_OK;
   if (s->signal_number) status = corot_fail(COROT_EINTEGRATE, "interrupted");

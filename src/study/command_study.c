@@ -46,7 +46,9 @@ static const char help[] =
     "  export STUDY.yaml   the runs for other engines to carry out\n"
     "  schema [KEY]        every key of a study file: type, unit, default, meaning\n"
     "\n"
-    "A study file:\n"
+    "A study file (at most 64 different keys varied, 1000 values of a log, 100000 combinations; "
+    "else\n"
+    "as large as a scenario, see corot schema --help):\n"
     "\n"
     "  study: Which integrator, and how tight?\n"
     "  base: bar.yaml\n"
@@ -175,6 +177,7 @@ static int execute_here(const manifest *m, const execute_options *o) {
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
   status = execute_study(m, o, &totals, &signal_number);
+  if (status == COROT_OK) status = store_check(o->dir, lock);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
     status = collect_study(m, o->dir, o->quiet ? NULL : stderr);

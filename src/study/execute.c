@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "builds.h"
 #include "execute_parts.h"
 #include "json_file.h"
 #include "pool.h"
@@ -16,7 +17,8 @@
 execute_options execute_defaults(void) {
   long processors = sysconf(_SC_NPROCESSORS_ONLN);
   int njob = processors < 1 ? 1 : processors > POOL_MAX ? POOL_MAX : (int)processors;
-  return (execute_options){.njob = njob, .shard = 1, .nshard = 1, .progress = true};
+  return (execute_options){
+      .njob = njob, .shard = 1, .nshard = 1, .progress = true, .tells_builds = true};
 }
 
 enum { MOST_RETRIES = 2 }; /* of one run, before the next call of the program */
@@ -176,11 +178,14 @@ static bool is_due(const execution *e, const task *t) {
   return t->state == RUN_MISSING || (t->state == RUN_FAILED && e->o->retry_failed);
 }
 
-static corot_status look_all(execution *e) {
+/* *made_by takes up those of the runs that are done. */
+static corot_status look_at_each(execution *e, builds *made_by) {
   for (int i = 0; i < e->ntask; i++) {
     run_record record;
     COROT_TRY(store_look(e->o->dir, e->task[i].run, &record));
     e->task[i].state = record.state;
+    if (record.state == RUN_DONE)
+      builds_add(made_by, e->task[i].run, record.result, !e->task[i].is_cell);
     e->task[i].due = is_due(e, &e->task[i]);
     if (record.state == RUN_FAILED && !e->task[i].due) {
       e->nfailed++;
@@ -189,6 +194,15 @@ static corot_status look_all(execution *e) {
     run_record_free(&record);
   }
   return COROT_OK;
+}
+
+static corot_status look_all(execution *e) {
+  builds made_by = builds_begin();
+  corot_status status = look_at_each(e, &made_by);
+  if (status == COROT_OK && e->o->tells_builds && !e->o->quiet)
+    status = builds_tell(e->o->dir, made_by.list);
+  builds_free(&made_by);
+  return status;
 }
 
 static corot_status wait_one(execution *e) {

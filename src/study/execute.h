@@ -14,6 +14,7 @@ typedef struct execute_options {
   bool progress;         /* a line on stderr, if that is a terminal */
   bool quiet;            /* nothing on stderr but errors */
   bool expects_failures; /* of runs: they are no errors then, and not told */
+  bool tells_builds;     /* says on stderr how many runs another build has made, unless quiet */
 } execute_options;
 
 /* All of it, on all processors, with progress. */

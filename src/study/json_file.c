@@ -21,6 +21,7 @@ static corot_status read_text(FILE *file, const char *path, char **text, size_t 
 }
 
 corot_status json_file_read(const char *path, json_t **out) {
+  COROT_TRY(file_check_regular(path));
   FILE *file = fopen(path, "re");
   if (!file) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
   char *text = NULL;

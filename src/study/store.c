@@ -10,6 +10,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "json_file.h"
@@ -174,6 +175,16 @@ corot_status store_fail(const char *dir, const study_run *run, int ended, const 
   json_decref(failure);
   free(path);
   return status;
+}
+
+corot_status store_check(const char *dir, store_lock lock) {
+  struct stat info;
+  int fd = lock.part >= 0 ? lock.part : lock.whole;
+  if (fd < 0 || fstat(fd, &info) != 0 || info.st_nlink > 0) return COROT_OK;
+  return corot_fail(COROT_EIO,
+                    "%s: has been removed while it was written; the same command does all of it "
+                    "again",
+                    dir);
 }
 
 /* --- Timings --- */

@@ -74,4 +74,7 @@ corot_status store_enter(const char *dir, const manifest *m, int shard, int nsha
                          store_lock *lock);
 void store_leave(store_lock lock);
 
+/* COROT_EIO: somebody has removed the folder, or its lock, since it was entered. */
+corot_status store_check(const char *dir, store_lock lock);
+
 #endif

@@ -23,7 +23,7 @@ static const schema_key keys[] = {
   {"axes[].zip",           SCHEMA_OPEN,   ONE_OF,   ANY,      "",  0, 0, "several keys, each with a list of values: the first of each together, the second, ..."},
   {"axes[].variants",      SCHEMA_LIST,   ONE_OF,   ANY,      "",  0, 0, "labelled sets of keys"},
   {"axes[].values",        SCHEMA_VALUES, OPTIONAL, ANY,      "",  0, 0, "of the key"},
-  {"axes[].log",           MAP,           OPTIONAL, ANY,      "",  0, 0, "values of the key at equal ratios"},
+  {"axes[].log",           MAP,           OPTIONAL, ANY,      "",  0, 0, "values of the key at equal ratios, at most 1000"},
   {"axes[].log.from",      NUMBER,        REQUIRED, POSITIVE, "",  0, 0, "the first"},
   {"axes[].log.to",        NUMBER,        REQUIRED, POSITIVE, "",  0, 0, "the last, larger or smaller"},
   {"axes[].log.per_decade", INTEGER,      ONE_OF,   POSITIVE, "",  0, 0, "values for each factor of ten; the last is the last of these that does not pass `to`"},

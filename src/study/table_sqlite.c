@@ -2,7 +2,6 @@
 #include <app/folder.h>
 #include <app/json_text.h>
 #include <app/text_stream.h>
-#include <errno.h>
 #include <sqlite3.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -101,9 +100,10 @@ corot_status table_write_sqlite(const json_t *table, const char *dir) {
     unlink(temporary);
     status = write_database(&f, json_object_get(table, "cells"), temporary);
   }
-  if (status == COROT_OK && rename(temporary, path) != 0)
-    status = corot_fail(COROT_EIO, "%s: cannot be put in place: %s", path, strerror(errno));
-  if (status != COROT_OK && temporary) unlink(temporary);
+  if (status == COROT_OK)
+    status = file_put_in_place(temporary, path);
+  else if (temporary)
+    unlink(temporary);
   free(path);
   free(temporary);
   flat_free(&f);

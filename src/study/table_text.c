@@ -32,8 +32,10 @@ static const json_t *value_of(const json_t *cell, const column *c) {
 
 static bool is_unrated(const json_t *cell, const char *name) {
   const json_t *list = json_object_get(cell, "unrated");
-  for (size_t i = 0; i < json_array_size(list); i++)
-    if (strcmp(json_string_value(json_array_get(list, i)), name) == 0) return true;
+  for (size_t i = 0; i < json_array_size(list); i++) {
+    const char *listed = json_string_value(json_array_get(list, i));
+    if (listed && strcmp(listed, name) == 0) return true;
+  }
   return false;
 }
 
@@ -181,15 +183,26 @@ static void print_rankings(const json_t *table, FILE *out) {
   }
 }
 
+static corot_status check_columns(const json_t *table) {
+  const json_t *columns = json_object_get(table, "columns");
+  for (size_t i = 0; i < json_array_size(columns); i++)
+    if (!json_is_string(json_array_get(columns, i)))
+      return corot_fail(COROT_EFORMAT, "table.json: the name of column %zu is not a text", i);
+  return COROT_OK;
+}
+
 corot_status table_print(const json_t *table, FILE *out) {
   if (!json_is_array(json_object_get(table, "cells")) ||
       !json_is_array(json_object_get(table, "columns")))
     return corot_fail(COROT_EFORMAT, "table.json: not a table of a study");
+  COROT_TRY(check_columns(table));
   escape_line(text_at(table, "title"), out);
   fputs("\n\n", out);
   print_cells(table, out);
   if (json_is_string(json_object_get(table, "shared")))
     fprintf(out, "\n%s\n", text_at(table, "shared"));
+  if (json_is_string(json_object_get(table, "mixed")))
+    fprintf(out, "\n%s\n", text_at(table, "mixed"));
   print_references(json_object_get(table, "references"), out);
   print_space(json_object_get(table, "space"), out);
   print_fits(json_object_get(table, "fits"), out);

@@ -130,6 +130,7 @@ corot_status variants_execute(const variants *v, const execute_options *options,
   corot_status status = store_enter(options->dir, m, options->shard, options->nshard, &lock);
   if (status == COROT_OK) {
     status = execute_study(m, options, &totals, signal_number);
+    if (status == COROT_OK) status = store_check(options->dir, lock);
     store_leave(lock);
   }
   if (status == COROT_OK && totals.nlost > 0 && !*signal_number)

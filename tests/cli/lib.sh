@@ -43,3 +43,13 @@ time: {end: 0.05, output: 0.01}
 probes:
   corner: {point: [0.1, 0.1, 0.2]}
 YAML
+
+# write_study: of that model, with references.
+write_study() {
+  cat >study.yaml <<'YAML'
+study: which one
+base: model.yaml
+axes: [{key: strain, values: [polar, green]}]
+reference: {rtol: 1.0e-7}
+YAML
+}
