@@ -1,4 +1,4 @@
-/* Names in the order of the table below, then the frames by number. */
+/* Names in the order of the inventory, then the frames by number. */
 #include "folder_files.h"
 
 #include <errno.h>
@@ -12,12 +12,8 @@
 
 #include "folder.h"
 #include "hash.h"
+#include "inventory.h"
 #include "json_text.h"
-
-static const char *const names[] = {"probes.csv",  "energy.csv",  "steps.csv",
-                                    "history.csv", "compare.csv", "reactions.csv",
-                                    "groups.json", "states.bin",  "fields.pvd"};
-enum { NNAME = sizeof names / sizeof *names };
 
 /* Its entry for an open file; NULL: no memory. */
 static corot_status describe(int fd, const char *path, const char *name, json_t **entry) {
@@ -56,7 +52,8 @@ corot_status folder_files(const char *dir, json_t **list) {
   bool found = true;
   char frame[64];
   corot_status status = made ? COROT_OK : corot_fail(COROT_ENOMEM, "%s: out of memory", dir);
-  for (int i = 0; i < NNAME && status == COROT_OK; i++) status = add(dir, names[i], made, &found);
+  for (int i = 0; i < INVENTORY_SIZE && status == COROT_OK; i++)
+    if (inventory[i].listed) status = add(dir, inventory[i].name, made, &found);
   found = true;
   for (int i = 0; found && status == COROT_OK; i++) {
     snprintf(frame, sizeof frame, "fields/fields_%06d.vtu", i);
