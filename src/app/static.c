@@ -76,7 +76,7 @@ static corot_status prepare(equilibrium_run *r) {
 
 static corot_status open_outputs(equilibrium_run *r) {
   const scenario *s = r->scenario;
-  COROT_TRY(run_enter(s, r->options, &r->lock));
+  COROT_TRY(run_enter(s->path, r->options, &r->lock));
   COROT_TRY(outputs_open(s, r->model, r->options->dir, &r->outputs));
   return reactions_create(r->options->dir, s, r->model, &r->reactions);
 }

@@ -1,0 +1,81 @@
+# What no run of corot has left is not replaced, unless that is asked for; and what a run has left
+# does not say "ok" of one that failed.
+. "$(dirname "$0")/lib.sh"
+
+# same FOLDER: the files of `theirs` stand there as they were, and nothing beside them.
+same() { diff -r theirs "$1" >/dev/null || complain "$what: $1 has changed: $(diff -r theirs "$1")"; }
+refused() { err "$1"; err "--force"; no_out; }
+
+# One file of each name that a run writes, in a folder of somebody else's.
+for name in report.html probes.csv energy.csv steps.csv history.csv compare.csv reactions.csv \
+  groups.json groups.json.tmp states.bin fields.pvd fields/fields_000001.vtu fields/frame.tmp \
+  result.json result.json.tmp; do
+  for command in run static; do
+    rm -rf theirs out && mkdir -p theirs/fields && echo mine >theirs/$name
+    cp -r theirs out
+    expect 5 $command model.yaml -o out --quiet; refused "out/$name"; same out
+    expect 0 $command model.yaml -o out --quiet --force
+    grep -q '"status": "ok"' out/result.json || complain "$what: no result"
+    [ "$(cat out/$name 2>/dev/null)" != mine ] || case $name in *.tmp) ;; reactions.csv | compare.csv) complain "$name stays" ;; esac
+  done
+done
+
+# What looks like a result is one only if a run has written it.
+rm -rf theirs && mkdir theirs
+for text in '{"status": "ok"}' '{"status": "ok", "exit_code": 0}' '{"status": "great", "exit_code": 0, "versions": {"corot": "1"}}' '[]' '' '{"status": "ok", "exit_'; do
+  printf '%s' "$text" >theirs/result.json
+  echo mine >theirs/probes.csv
+  rm -rf out && cp -r theirs out
+  expect 5 run model.yaml -o out --quiet; refused out/result.json; same out
+done
+
+# Other names are no matter, nor is an empty folder; and they stay.
+rm -rf theirs out && mkdir -p theirs/fields theirs/runs
+for name in notes.txt my-report.html fields/fields_old.vtu runs/probes.csv; do echo mine >theirs/$name; done
+cp -r theirs out
+expect 0 run model.yaml -o out --quiet
+for name in notes.txt my-report.html fields/fields_old.vtu runs/probes.csv; do
+  cmp -s theirs/$name out/$name || complain "$name has changed"
+done
+
+# Here, too, and before anything takes long.
+rm -rf here theirs && mkdir here && cp model.yaml here && echo mine >here/report.html
+cp -r here theirs
+cd here
+expect 5 run model.yaml -o . --quiet; mv stdout stderr ..
+cd ..
+err ./report.html; same here
+
+# A run's own folder is replaced, whatever has become of it; but for a page that is somebody's own.
+rm -rf out
+expect 0 run model.yaml -o out --quiet
+expect 0 report out
+sed -i 's/"title": "[^"]*"/"title": "edited by hand"/' out/result.json
+rm out/probes.csv
+expect 0 run model.yaml -o out --quiet
+[ ! -e out/report.html ] || complain "the page of an earlier run stays"
+echo mine >out/report.html
+expect 5 run model.yaml -o out --quiet; refused out/report.html
+[ "$(cat out/report.html)" = mine ] || complain "a page of somebody's own is gone"
+rm out/report.html
+head -c 300 out/result.json >cut && cp cut out/result.json
+expect 5 run model.yaml -o out --quiet; refused out/result.json
+cmp -s cut out/result.json || complain "a result that was cut has changed"
+expect 0 run model.yaml -o out --quiet --force
+
+# A lock that a killed run has left is its mark; a file of the lock's name is not.
+rm -rf out && mkdir out && echo mine >out/probes.csv && echo "process 1 on a machine" >out/.lock-run
+expect 0 run model.yaml -o out; err "process 1 on a machine was writing to out"
+rm -rf theirs && mkdir theirs && echo mine >theirs/.lock-run
+rm -rf out && cp -r theirs out
+expect 5 run model.yaml -o out --quiet; err "out/.lock-run: is no lock of a run"; same out
+
+# Where the result itself could not be written, the lock says whose files these are.
+if [ -w /dev/full ]; then
+  rm -rf out && mkdir out && ln -s /dev/full out/result.json.tmp
+  expect 5 run model.yaml -o out --quiet --force; err "No space left"
+  [ ! -e out/result.json ] || complain "a result in spite of that"
+  rm -f out/result.json.tmp
+  expect 0 run model.yaml -o out; err "has left no result"
+fi
+exit $failed
