@@ -68,6 +68,12 @@ corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], has
   return COROT_OK;
 }
 
+void hashes_static(hashes *h) {
+  char identity[HASH_SIZE + 16];
+  snprintf(identity, sizeof identity, "static\n%s\n", h->run);
+  hash_text(identity, h->run);
+}
+
 corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out) {
   char digest[HASH_SIZE];
   hash_mesh(mesh, digest);

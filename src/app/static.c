@@ -212,7 +212,9 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .warnings = &r->warnings,
       .seen = &r->seen,
   };
-  return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
+  COROT_TRY(hashes_of(r->scenario->resolved, r->mesh, &summary->hashes));
+  hashes_static(&summary->hashes);
+  return COROT_OK;
 }
 
 static void tell(const equilibrium_run *r, const char *reason, const run_summary *summary) {

@@ -106,6 +106,7 @@ static corot_status make_study(const variants *v, study **out) {
 static corot_status plan(const variants *v, manifest **out) {
   study *s = NULL;
   COROT_TRY(make_study(v, &s));
+  s->still = v->still;
   corot_status status = plan_study(s, out);
   study_destroy(s);
   return status;

@@ -78,4 +78,21 @@ if [ -w /dev/full ]; then
   rm -f out/result.json.tmp
   expect 0 run model.yaml -o out; err "has left no result"
 fi
+# What is found at rest is not what is found in motion: they have identities of their own, in a
+# budget's folder, too.
+rm -rf run still parts
+expect 0 run model.yaml -o run --quiet
+expect 0 static model.yaml -o still --quiet
+python3 - <<'PY2' || complain "hashes of run and static"
+import json
+run, still = [json.load(open(d + "/result.json"))["hashes"] for d in ("run", "still")]
+assert run["scenario"] == still["scenario"] and run["mesh"] == still["mesh"] and run["run"] != still["run"]
+PY2
+expect 0 budget model.yaml --static -o parts --quiet --skip space
+grep -h '"command"\|"hash"' parts/study.json | grep -o '[0-9a-f]\{64\}' | sort -u >planned
+cat parts/runs/*/result.json | grep -o '"run": "[0-9a-f]\{64\}' | grep -o '[0-9a-f]\{64\}' | sort -u >made
+cmp -s planned made || complain "$what: what was planned is not what was made"
+touch before; sleep 1
+expect 0 budget model.yaml --static -o parts --quiet --skip space
+[ -z "$(find parts/runs -name result.json -newer before)" ] || complain "$what: a run was repeated"
 exit $failed
