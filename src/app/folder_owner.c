@@ -64,7 +64,7 @@ static corot_status refuse(const char *path, const char *writer) {
                     path, writer);
 }
 
-static corot_status permit_name(const char *dir, const char *name, const char *writer) {
+corot_status folder_permit_name(const char *dir, const char *name, const char *writer) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
   struct stat info;
@@ -81,13 +81,14 @@ static corot_status permit_frames(const char *dir) {
   if (!d && errno != ENOENT && errno != ENOTDIR)
     status = corot_fail(COROT_EIO, "%s: cannot list it: %s", fields, strerror(errno));
   for (struct dirent *entry; d && status == COROT_OK && (entry = readdir(d));)
-    if (inventory_is_frame(entry->d_name)) status = permit_name(fields, entry->d_name, "run");
+    if (inventory_is_frame(entry->d_name))
+      status = folder_permit_name(fields, entry->d_name, "run");
   if (d) closedir(d);
   free(fields);
   return status;
 }
 
-static corot_status permit_page(const char *dir) {
+corot_status folder_permit_page(const char *dir) {
   char *path = folder_path(dir, "report.html");
   if (!path) return COROT_ENOMEM;
   corot_status status = file_permit(path, FOLDER_PAGE_MARK);
@@ -98,9 +99,9 @@ static corot_status permit_page(const char *dir) {
 corot_status folder_permit(const char *dir, bool locked) {
   bool ours = locked;
   if (!ours) COROT_TRY(has_result(dir, &ours));
-  if (ours) return permit_page(dir);
+  if (ours) return folder_permit_page(dir);
   for (int i = 0; i < INVENTORY_SIZE; i++)
-    COROT_TRY(permit_name(dir, inventory[i].name, inventory[i].writer));
+    COROT_TRY(folder_permit_name(dir, inventory[i].name, inventory[i].writer));
   return permit_frames(dir);
 }
 

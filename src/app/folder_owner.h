@@ -18,6 +18,11 @@ corot_status folder_is_ours(const char *dir, bool *ours);
    there; the process may hold its own by now. */
 corot_status folder_permit(const char *dir, bool locked);
 
+/* Of a folder that is not corot's: there is no file of that name, which `writer`, a command, would
+   replace. And of any: its report.html is a page of corot's, or not there. COROT_EIO as above. */
+corot_status folder_permit_name(const char *dir, const char *name, const char *writer);
+corot_status folder_permit_page(const char *dir);
+
 /* Whether a file that corot is to replace at `path` is its own, by how it begins: `mark` stands
    in its first 1024 bytes. One that is not there is. COROT_EIO: it is somebody else's. */
 corot_status file_permit(const char *path, const char *mark);

@@ -1,6 +1,7 @@
 /* Whose folder it is, and who is at work there. */
 #include <app/escape.h>
 #include <app/folder.h>
+#include <app/folder_owner.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -47,21 +48,37 @@ static corot_status check_owner(const char *dir, const manifest *m, const manife
                     dir, before->base);
 }
 
-/* Writes study.json if it is new, or says more than it did. */
-static corot_status claim(const char *dir, const manifest *m) {
-  manifest *before = NULL;
+/* In a folder that is no study's: what a study would replace. */
+static corot_status permit_files(const char *dir) {
+  static const char *const name[] = {"study.json",   "table.json",  "table.csv",
+                                     "index.sqlite", "budget.json", "limit.json"};
+  for (size_t i = 0; i < sizeof name / sizeof *name; i++)
+    COROT_TRY(folder_permit_name(dir, name[i], "study"));
+  return COROT_OK;
+}
+
+/* The study that has the folder; NULL: none has, and it may be taken. */
+static corot_status read_owner(const char *dir, bool force, manifest **owner) {
   char *path = folder_path(dir, "study.json");
   if (!path) return COROT_ENOMEM;
-  bool there = access(path, F_OK) == 0;
+  corot_status status = COROT_OK;
+  *owner = NULL;
+  if (access(path, F_OK) == 0) status = manifest_read(dir, owner);
   free(path);
-  bool same = false;
-  if (there) {
-    COROT_TRY(manifest_read(dir, &before));
-    corot_status status = check_owner(dir, m, before);
-    same = status == COROT_OK && json_equal(before->root, m->root);
-    manifest_destroy(before);
-    COROT_TRY(status);
-  }
+  if (status != COROT_OK && status != COROT_EFORMAT) return status;
+  if (!*owner && !force) COROT_TRY(permit_files(dir));
+  return force ? COROT_OK : folder_permit_page(dir);
+}
+
+/* Writes study.json if it is new, or says more than it did. */
+static corot_status claim(const char *dir, const manifest *m, bool force) {
+  manifest *before;
+  COROT_TRY(read_owner(dir, force, &before));
+  if (!before) return manifest_write(m, dir);
+  corot_status status = check_owner(dir, m, before);
+  bool same = json_equal(before->root, m->root);
+  manifest_destroy(before);
+  COROT_TRY(status);
   return same ? COROT_OK : manifest_write(m, dir);
 }
 
@@ -72,24 +89,25 @@ void store_leave(store_lock lock) {
 
 /* Shards begin at the same time: one after the other they look at study.json. */
 static corot_status enter_shard(const char *dir, const manifest *m, int shard, int nshard,
-                                int *part) {
+                                bool force, int *part) {
   char name[64];
   int claiming;
   snprintf(name, sizeof name, ".lock-%d-of-%d", shard, nshard);
   COROT_TRY(take_lock(dir, name, LOCK_EX, part));
   COROT_TRY(take_lock(dir, ".lock-study", LOCK_EX, &claiming));
-  corot_status status = claim(dir, m);
+  corot_status status = claim(dir, m, force);
   close(claiming);
   return status;
 }
 
-corot_status store_enter(const char *dir, const manifest *m, int shard, int nshard,
+corot_status store_enter(const char *dir, const manifest *m, int shard, int nshard, bool force,
                          store_lock *lock) {
   bool sharded = nshard > 1;
   store_lock l = {-1, -1};
   COROT_TRY(folder_make(dir));
   COROT_TRY(take_lock(dir, ".lock", sharded ? LOCK_SH : LOCK_EX, &l.whole));
-  corot_status status = sharded ? enter_shard(dir, m, shard, nshard, &l.part) : claim(dir, m);
+  corot_status status =
+      sharded ? enter_shard(dir, m, shard, nshard, force, &l.part) : claim(dir, m, force);
   if (status == COROT_OK)
     *lock = l;
   else

@@ -128,7 +128,8 @@ corot_status variants_execute(const variants *v, const execute_options *options,
   COROT_TRY(plan(v, &m));
   store_lock lock;
   execute_totals totals;
-  corot_status status = store_enter(options->dir, m, options->shard, options->nshard, &lock);
+  corot_status status =
+      store_enter(options->dir, m, options->shard, options->nshard, options->force, &lock);
   if (status == COROT_OK) {
     status = execute_study(m, options, &totals, signal_number);
     store_leave(lock);

@@ -95,4 +95,51 @@ cmp -s planned made || complain "$what: what was planned is not what was made"
 touch before; sleep 1
 expect 0 budget model.yaml --static -o parts --quiet --skip space
 [ -z "$(find parts/runs -name result.json -newer before)" ] || complain "$what: a run was repeated"
+# The folder of a study, of a budget, of a search for a limit.
+cat >study.yaml <<'YAML'
+study: which one
+base: model.yaml
+axes: [{key: integrator.rtol, values: [1e-2, 1e-3]}]
+repeat: 0
+YAML
+limit='find-limit model.yaml --key integrator.step --from 1e-4 --to 2e-4 --scan 2 --set integrator.method=newmark'
+for name in study.json table.json table.csv index.sqlite report.html budget.json limit.json; do
+  rm -rf theirs && mkdir theirs && echo mine >theirs/$name
+  for command in 'study study.yaml' 'study export study.yaml --format commands' 'budget model.yaml --skip space' "$limit"; do
+    rm -rf store && cp -r theirs store
+    # shellcheck disable=SC2086
+    expect 5 $command -o store; err "store/$name"; err "--force"; no_out
+    rm -f store/.lock; same store
+  done
+done
+rm -rf store && cp -r theirs store && echo mine >store/study.json
+expect 0 study study.yaml -o store --quiet --force
+expect 0 study study.yaml -o store; err "(0 now)"
+mkdir -p store/runs/other && echo mine >store/runs/other/probes.csv && echo mine >store/notes.txt
+expect 0 study study.yaml -o store --quiet
+[ "$(cat store/runs/other/probes.csv store/notes.txt)" = "mine
+mine" ] || complain "files of others in a study's folder have changed"
+echo mine >store/report.html
+expect 5 study study.yaml -o store --quiet; err store/report.html; err "--force"
+[ "$(cat store/report.html)" = mine ] || complain "a page of somebody's own is gone"
+expect 0 study study.yaml -o store --quiet --force
+
+# Pages and diagrams replace their like, and nothing else.
+expect 0 run model.yaml -o run --quiet
+for page in run/report.html page.html; do
+  expect 0 report run -o $page
+  expect 0 report run -o $page
+  echo mine >$page
+  expect 5 report run -o $page; err "$page: is not a file that corot has written"; err "--force"; no_out
+  [ "$(cat $page)" = mine ] || complain "$page has changed"
+  expect 0 report run -o $page --force
+done
+expect 0 plot store -o figure.svg
+for suffix in svg csv gp py; do
+  expect 0 plot store -o figure.svg
+  echo mine >figure.$suffix
+  expect 5 plot store -o figure.svg; err "figure.$suffix: is not a file that corot has written"; err "--force"; no_out
+  [ "$(cat figure.$suffix)" = mine ] || complain "figure.$suffix has changed"
+  expect 0 plot store -o figure.svg --force
+done
 exit $failed
