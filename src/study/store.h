@@ -65,8 +65,8 @@ void timings_free(timings *t);
 
 /* Makes the folder the study's own, or fails with COROT_EINVAL: it is another study's, or one is at
    work there. Or with COROT_EIO: it is no study's, and has files of the names above; unless
-   `force`, which replaces them. Several shards may be (1 to `nshard` > 1). Runs that were started
-   hold the locks, too: the folder is free when all are over. */
+   `force`, which replaces them. Several shards may be (1 to `nshard` > 1), all of one `nshard`. Runs
+   that were started hold the locks, too: the folder is free when all are over. */
 typedef struct store_lock {
   int whole, part; /* descriptors; -1: none */
 } store_lock;
