@@ -40,9 +40,10 @@ static const char help[] =
     "                      study.json, table.json, table.csv, index.sqlite, report.html\n"
     "  -q, --quiet         nothing on stderr but errors\n"
     "\n"
-    "  status DIR          how far a study is\n"
+    "  status DIR          how far a study is, by the files' sizes, not by what is in them\n"
     "  collect DIR         table.json, table.csv and index.sqlite anew, from the folders of the "
-    "runs\n"
+    "runs;\n"
+    "                      exit code 1: files of runs are not as the runs have left them\n"
     "  table DIR           the table in columns; errors below ten times the floor in parentheses\n"
     "  csv DIR             the table as CSV\n"
     "  export STUDY.yaml   the runs for other engines to carry out\n"
@@ -179,7 +180,8 @@ static int execute_here(const manifest *m, const execute_options *o) {
   status = execute_study(m, o, &totals, &signal_number);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
-    status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
+    int ndamaged; /* since they were looked at: the next call does them again */
+    status = collect_runs(m, o->dir, true, o->quiet ? NULL : stderr, &ndamaged);
     if (status == COROT_OK && !o->quiet) say("corot study table %s\n", o->dir);
     if (status == COROT_OK) status = study_page(o->dir, o->quiet);
     if (status != COROT_OK) code = failure(status);

@@ -180,7 +180,7 @@ static bool is_due(const execution *e, const task *t) {
 static corot_status look_all(execution *e) {
   for (int i = 0; i < e->ntask; i++) {
     run_record record;
-    COROT_TRY(store_look(e->o->dir, e->task[i].run, &record));
+    COROT_TRY(store_verify(e->o->dir, e->task[i].run, &record));
     e->task[i].state = record.state;
     e->task[i].due = is_due(e, &e->task[i]);
     if (record.state == RUN_FAILED && !e->task[i].due) {
