@@ -64,6 +64,11 @@ static corot_status write_run(const void *what, FILE *out) {
   run_summary_write(run, out);
   write_lost(run, out);
   if (run->budget) budget_write(run->budget, out);
+  if (run->stranger)
+    page_element(
+        out, "p class=\"warning\"",
+        "The budget.json in this folder is not of this run, but of another scenario, mesh or "
+        "command: it is left out.");
   COROT_TRY(write_body(run, out));
   page_hint(out);
   COROT_TRY(still ? write_equilibrium(run, out) : write_motion(run, out));

@@ -1,10 +1,12 @@
 #include "run_folder.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "folder.h"
 #include "folder_files.h"
+#include "hash.h"
 #include "lookup.h"
 
 void run_folder_free(run_folder *f) {
@@ -40,6 +42,26 @@ static corot_status verify(run_folder *f, const char *name) {
   return COROT_OK;
 }
 
+/* Keeps the budget only if it is of what the folder holds. */
+static corot_status claim_budget(run_folder *f) {
+  char digest[HASH_SIZE];
+  const json_t *scenario = lookup(f->result, "scenario");
+  COROT_TRY(read_if_there(f->dir, "budget.json", &f->budget));
+  if (!f->budget) return COROT_OK;
+  f->stranger = true;
+  if (json_is_object(scenario)) {
+    COROT_TRY(hash_solution(scenario, digest));
+    f->stranger =
+        strcmp(lookup_text(f->budget, "hashes.solution"), digest) != 0 ||
+        strcmp(lookup_text(f->budget, "hashes.mesh"), lookup_text(f->result, "hashes.mesh")) != 0 ||
+        json_is_true(lookup(f->budget, "static")) != run_folder_is_static(f);
+  }
+  if (!f->stranger) return COROT_OK;
+  json_decref(f->budget);
+  f->budget = NULL;
+  return COROT_OK;
+}
+
 static corot_status read_all(run_folder *f) {
   const struct {
     const char *name;
@@ -48,7 +70,7 @@ static corot_status read_all(run_folder *f) {
                {"history.csv", &f->history},     {"steps.csv", &f->steps},
                {"reactions.csv", &f->reactions}, {"compare.csv", &f->compare}};
   COROT_TRY(lookup_read(f->dir, "result.json", &f->result));
-  COROT_TRY(read_if_there(f->dir, "budget.json", &f->budget));
+  COROT_TRY(claim_budget(f));
   COROT_TRY(verify(f, "groups.json"));
   COROT_TRY(read_if_there(f->dir, "groups.json", &f->groups));
   for (size_t i = 0; i < sizeof table / sizeof *table; i++) {

@@ -10,7 +10,8 @@
 typedef struct run_folder {
   const char *dir;
   json_t *result; /* result.json */
-  json_t *budget; /* budget.json; NULL: there is none */
+  json_t *budget; /* budget.json; NULL: there is none, or none of this run */
+  bool stranger;  /* there is one of another run */
   json_t *groups; /* groups.json; NULL: there is none */
   /* without columns where there is no such file */
   csv probes, energy, history, steps, compare, reactions;

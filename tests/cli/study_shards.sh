@@ -18,10 +18,10 @@ tries=0
 until ls store/runs/*/steps.csv >/dev/null 2>&1 || [ $tries = 600 ]; do sleep 0.05; tries=$((tries + 1)); done
 before=$(ls store/runs)
 for shard in 2/4 1/2 1/4; do
-  expect 3 study long_study.yaml -o store --shard $shard; err "store: shard 1/3 is at work here, and this is $shard"
+  expect 3 study long_study.yaml -o store --timeout 5 --shard $shard; err "store: shard 1/3 is at work here, and this is $shard"
 done
-expect 3 study long_study.yaml -o store; err "another study is at work here"
-expect 3 study long_study.yaml -o store --shard 1/3; err "another study is at work here"
+expect 3 study long_study.yaml -o store --timeout 5; err "another study is at work here"
+expect 3 study long_study.yaml -o store --timeout 5 --shard 1/3; err "another study is at work here"
 [ "$(ls store/runs)" = "$before" ] || complain "who was refused has begun runs"
 kill -TERM $first; wait $first
 
@@ -36,7 +36,7 @@ expect 0 study study.yaml -o other; err "4 of 4 runs done (0 now)"
 running=
 for i in 1 2 3; do
   for n in 3 4; do
-    { "$corot" study long_study.yaml -o both -q --shard $i/$n 2>err$n$i & echo $! >pid$n$i; wait $!; echo $? >code$n$i; } &
+    { "$corot" study long_study.yaml -o both -q --timeout 60 --shard $i/$n 2>err$n$i & echo $! >pid$n$i; wait $!; echo $? >code$n$i; } &
     running="$running $!"
   done
 done
