@@ -6,28 +6,34 @@
 
 #include "cli.h"
 #include "folder.h"
+#include "run_common.h"
 #include "stop.h"
 
 static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
-    {"quiet", no_argument, NULL, 'q'},        {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},         {0},
+    {"output", required_argument, NULL, 'o'},
+    {"set", required_argument, NULL, 's'},
+    {"quiet", no_argument, NULL, 'q'},
+    {"json", no_argument, NULL, 'j'},
+    {"force", no_argument, NULL, 'f'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
 
 static int read_and_go(scenario_action *go, const char *path, const char *suffix, int noverride,
                        char **override, run_options *o) {
+  char *folder = o->dir ? NULL : folder_default(path, suffix);
+  if (folder) o->dir = folder;
+  if (!o->dir) return failure(COROT_ENOMEM);
   scenario *s = NULL;
   corot_status status = scenario_read(path, noverride, override, &s);
   status = read_failure(status, path);
-  if (status != COROT_OK) return failure(status);
-  char *folder = o->dir ? NULL : folder_default(path, suffix);
-  if (folder) o->dir = folder;
-  int code = EXIT_SYSTEM;
-  if (o->dir) {
+  int code;
+  if (status == COROT_OK) {
     stop_heed();
     code = go(s, o);
   } else {
-    failure(COROT_ENOMEM);
+    code = failure(status);
+    run_end_unread(path, o, status, code);
   }
   free(folder);
   scenario_destroy(s);
@@ -50,6 +56,8 @@ int command_scenario(const char *program, const char *suffix, const char *help, 
       o.quiet = true, o.progress = false;
     else if (answer == 'j')
       o.json = true;
+    else if (answer == 'f')
+      o.force = true;
     else if (answer == 'h')
       fputs(help, stdout), code = EXIT_OK;
     else

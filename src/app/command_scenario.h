@@ -9,7 +9,8 @@ typedef int scenario_action(const scenario *s, const run_options *options);
 
 /* Without -o, the folder is out/MODELSUFFIX.
 
-   "PROGRAM MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--quiet] [--json]". */
+   "PROGRAM MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--force] [--quiet]
+   [--json]". */
 int command_scenario(const char *program, const char *suffix, const char *help,
                      scenario_action *go, int argc, char **argv);
 

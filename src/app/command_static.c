@@ -3,7 +3,8 @@
 #include "static.h"
 
 static const char help[] =
-    "usage: corot static MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--quiet] [--json]\n"
+    "usage: corot static MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--force] [--quiet]\n"
+    "                    [--json]\n"
     "\n"
     "Finds the equilibrium of a scenario under its full loads, those of time.end, by load steps,\n"
     "and writes the folder that a run would leave: a row of probes.csv, energy.csv and steps.csv\n"
@@ -17,6 +18,7 @@ static const char help[] =
     "\n"
     "  -o, --output DIR     the folder, made if need be; default: out/MODEL-static here\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
+    "      --force          replaces files that corot has not written, too; see corot run --help\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           result.json on stdout as well\n"
     "\n"

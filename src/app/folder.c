@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "inventory.h"
+
 static corot_status make_one(const char *path) {
   if (mkdir(path, 0777) == 0) return COROT_OK;
   if (errno != EEXIST)
@@ -59,22 +61,21 @@ char *folder_default(const char *path, const char *suffix) {
   return folder;
 }
 
+/* What is written there replaces nothing. */
+static bool is_device(const char *path) {
+  struct stat info;
+  return stat(path, &info) == 0 && (S_ISCHR(info.st_mode) || S_ISFIFO(info.st_mode));
+}
+
 /* A file that is not there counts as removed. */
 static corot_status remove_file(const char *dir, const char *name) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
   corot_status status = COROT_OK;
-  if (unlink(path) != 0 && errno != ENOENT)
+  if (!is_device(path) && unlink(path) != 0 && errno != ENOENT)
     status = corot_fail(COROT_EIO, "%s: cannot remove it: %s", path, strerror(errno));
   free(path);
   return status;
-}
-
-/* fields_DIGITS.vtu */
-static bool is_frame(const char *name) {
-  if (strncmp(name, "fields_", 7) != 0) return false;
-  size_t digits = strspn(name + 7, "0123456789");
-  return digits > 0 && strcmp(name + 7 + digits, ".vtu") == 0;
 }
 
 static corot_status remove_frames(const char *fields) {
@@ -83,21 +84,15 @@ static corot_status remove_frames(const char *fields) {
   if (!d) return corot_fail(COROT_EIO, "%s: cannot list it: %s", fields, strerror(errno));
   corot_status status = COROT_OK;
   for (struct dirent *entry; status == COROT_OK && (entry = readdir(d));)
-    if (is_frame(entry->d_name)) status = remove_file(fields, entry->d_name);
+    if (inventory_is_frame(entry->d_name)) status = remove_file(fields, entry->d_name);
   closedir(d);
   return status;
 }
 
 corot_status folder_clean(const char *dir) {
-  COROT_TRY(remove_file(dir, "result.json"));
-  COROT_TRY(remove_file(dir, "compare.csv"));
-  COROT_TRY(remove_file(dir, "reactions.csv"));
-  COROT_TRY(remove_file(dir, "groups.json"));
-  COROT_TRY(remove_file(dir, "history.csv"));
-  COROT_TRY(remove_file(dir, "states.bin"));
-  COROT_TRY(remove_file(dir, "fields.pvd"));
-  COROT_TRY(remove_file(dir, "report.html"));
-  char *fields = folder_path(dir, "fields");
+  for (int i = 0; i < INVENTORY_SIZE; i++)
+    if (inventory[i].cleaned) COROT_TRY(remove_file(dir, inventory[i].name));
+  char *fields = folder_path(dir, INVENTORY_FIELDS);
   if (!fields) return COROT_ENOMEM;
   corot_status status = remove_frames(fields);
   free(fields);
@@ -120,7 +115,7 @@ static corot_status refuse(const char *path) {
 static corot_status find_flags(const char *path, int *flags) {
   struct stat info;
   *flags = O_WRONLY | O_CLOEXEC;
-  if (stat(path, &info) == 0 && (S_ISCHR(info.st_mode) || S_ISFIFO(info.st_mode))) return COROT_OK;
+  if (is_device(path)) return COROT_OK;
   *flags |= O_CREAT | O_NOFOLLOW;
   return lstat(path, &info) != 0 || S_ISREG(info.st_mode) ? COROT_OK : refuse(path);
 }

@@ -8,9 +8,8 @@
 /* Makes the folder and those above it; one that exists is fine. */
 corot_status folder_make(const char *path);
 
-/* Removes what an earlier run left and this one might not overwrite: result.json, compare.csv,
-   history.csv, reactions.csv, groups.json, states.bin, fields.pvd, fields/fields_*.vtu and
-   report.html. All other files stay. */
+/* Removes what an earlier run left: what inventory.h says, and the frames of fields. All other
+   files stay. Call this where folder_owner.h permits it. */
 corot_status folder_clean(const char *dir);
 
 /* "DIR/NAME", the caller's to free; NULL where memory ran out (the message is set). */

@@ -1,4 +1,4 @@
-/* Names in the order of the table below, then the frames by number. */
+/* Names in the order of the inventory, then the frames by number. */
 #include "folder_files.h"
 
 #include <errno.h>
@@ -12,12 +12,8 @@
 
 #include "folder.h"
 #include "hash.h"
+#include "inventory.h"
 #include "json_text.h"
-
-static const char *const names[] = {"probes.csv",  "energy.csv",  "steps.csv",
-                                    "history.csv", "compare.csv", "reactions.csv",
-                                    "groups.json", "states.bin",  "fields.pvd"};
-enum { NNAME = sizeof names / sizeof *names };
 
 /* Its entry for an open file; NULL: no memory. */
 static corot_status describe(int fd, const char *path, const char *name, json_t **entry) {
@@ -56,7 +52,8 @@ corot_status folder_files(const char *dir, json_t **list) {
   bool found = true;
   char frame[64];
   corot_status status = made ? COROT_OK : corot_fail(COROT_ENOMEM, "%s: out of memory", dir);
-  for (int i = 0; i < NNAME && status == COROT_OK; i++) status = add(dir, names[i], made, &found);
+  for (int i = 0; i < INVENTORY_SIZE && status == COROT_OK; i++)
+    if (inventory[i].listed) status = add(dir, inventory[i].name, made, &found);
   found = true;
   for (int i = 0; found && status == COROT_OK; i++) {
     snprintf(frame, sizeof frame, "fields/fields_%06d.vtu", i);
@@ -69,26 +66,83 @@ corot_status folder_files(const char *dir, json_t **list) {
   return status;
 }
 
-static corot_status check_one(const char *dir, const json_t *file) {
+/* --- Whether they are what they were --- */
+
+/* That its contents are those of an entry. */
+static corot_status check_contents(const char *path, const json_t *file) {
+  const char *listed = json_string_value(json_object_get(file, "sha256"));
+  char digest[HASH_SIZE];
+  long long size;
+  int fd = open(path, O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+  corot_status status = hash_file(fd, path, &size, digest);
+  close(fd);
+  COROT_TRY(status);
+  if (listed && strcmp(listed, digest) == 0) return COROT_OK;
+  return corot_fail(COROT_EFORMAT, "%s: has other contents than when result.json was written",
+                    path);
+}
+
+/* COROT_EFORMAT: it is not as listed. *there is set in any case. */
+static corot_status check_one(const char *dir, const json_t *file, bool contents, bool *there) {
   const char *name = json_string_value(json_object_get(file, "name"));
   json_int_t size = json_integer_value(json_object_get(file, "size"));
-  if (!name) return corot_fail(COROT_EIO, "%s/result.json: a file has no name", dir);
+  *there = false;
+  if (!name) return corot_fail(COROT_EFORMAT, "%s/result.json: a file has no name", dir);
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
   struct stat info;
   corot_status status = COROT_OK;
-  if (stat(path, &info) != 0)
-    status = corot_fail(COROT_EIO, "%s: result.json lists it, and it is not there", path);
+  *there = stat(path, &info) == 0;
+  if (!*there)
+    status = corot_fail(COROT_EFORMAT, "%s: result.json lists it, and it is not there", path);
   else if (info.st_size != (off_t)size)
-    status = corot_fail(COROT_EIO, "%s: has %lld bytes where result.json says %lld", path,
+    status = corot_fail(COROT_EFORMAT, "%s: has %lld bytes where result.json says %lld", path,
                         (long long)info.st_size, (long long)size);
+  else if (contents)
+    status = check_contents(path, file);
   free(path);
   return status;
 }
 
-corot_status folder_check(const char *dir, const json_t *result) {
+static corot_status check_all(const char *dir, const json_t *result, bool contents) {
   const json_t *file;
   size_t i;
-  json_array_foreach(json_object_get(result, "files"), i, file) { COROT_TRY(check_one(dir, file)); }
+  bool there;
+  json_array_foreach(json_object_get(result, "files"), i, file) {
+    COROT_TRY(check_one(dir, file, contents, &there));
+  }
   return COROT_OK;
+}
+
+corot_status folder_check(const char *dir, const json_t *result) {
+  return check_all(dir, result, false);
+}
+
+corot_status folder_verify(const char *dir, const json_t *result) {
+  return check_all(dir, result, true);
+}
+
+corot_status folder_verify_file(const char *dir, const json_t *result, const char *name,
+                                bool *lost) {
+  const json_t *files = json_object_get(result, "files"), *file;
+  size_t i;
+  bool there;
+  *lost = false;
+  if (!json_is_array(files)) return COROT_OK;
+  json_array_foreach(files, i, file) {
+    const char *listed = json_string_value(json_object_get(file, "name"));
+    if (!listed || strcmp(listed, name) != 0) continue;
+    corot_status status = check_one(dir, file, true, &there);
+    *lost = status == COROT_EFORMAT && !there;
+    return *lost ? COROT_OK : status;
+  }
+  char *path = folder_path(dir, name);
+  if (!path) return COROT_ENOMEM;
+  bool stray = access(path, F_OK) == 0;
+  corot_status status =
+      stray ? corot_fail(COROT_EFORMAT, "%s: is not among the files that result.json lists", path)
+            : COROT_OK;
+  free(path);
+  return status;
 }

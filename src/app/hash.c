@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <sha2.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,20 +53,44 @@ corot_status hash_file(int fd, const char *path, long long *size, char digest[HA
 
 void hash_text(const char *text, char digest[HASH_SIZE]) { hash_bytes(text, strlen(text), digest); }
 
-corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out) {
+static corot_status hash_scenario(const json_t *resolved, char digest[HASH_SIZE]) {
   char *text =
       json_text_dump_plain(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   if (!text) return corot_fail(COROT_ENOMEM, "the hash of the scenario: out of memory");
-  hashes h;
-  hash_text(text, h.scenario);
+  hash_text(text, digest);
   free(text);
+  return COROT_OK;
+}
 
+corot_status hash_solution(const json_t *resolved, char digest[HASH_SIZE]) {
+  json_t *bare = json_object(), *value;
+  const char *key;
+  bool complete = bare != NULL;
+  json_object_foreach((json_t *)resolved, key, value) { /* jansson's iteration wants it so */
+    bool counts = strcmp(key, "title") != 0 && strcmp(key, "output") != 0;
+    if (complete && counts) complete = json_object_set(bare, key, value) == 0;
+  }
+  corot_status status = complete ? hash_scenario(bare, digest)
+                                 : corot_fail(COROT_ENOMEM, "the hash of the scenario: no memory");
+  json_decref(bare);
+  return status;
+}
+
+corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out) {
+  hashes h;
+  COROT_TRY(hash_scenario(resolved, h.scenario));
   memcpy(h.mesh, mesh, HASH_SIZE);
   char identity[256];
   snprintf(identity, sizeof identity, "corot %s\n%s\n%s\n", corot_version(), h.scenario, h.mesh);
   hash_text(identity, h.run);
   *out = h;
   return COROT_OK;
+}
+
+void hashes_static(hashes *h) {
+  char identity[HASH_SIZE + 16];
+  snprintf(identity, sizeof identity, "static\n%s\n", h->run);
+  hash_text(identity, h->run);
 }
 
 corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out) {

@@ -10,10 +10,19 @@ enum { HASH_SIZE = 65 }; /* 64 digits and a terminator */
 typedef struct hashes {
   char scenario[HASH_SIZE]; /* of the resolved scenario as compact JSON with sorted keys */
   char mesh[HASH_SIZE];     /* of counts, coordinates, tets and groups as they stand in memory */
-  char run[HASH_SIZE];      /* of "corot VERSION\nSCENARIO\nMESH\n" */
+  char run[HASH_SIZE]; /* of "corot VERSION\nSCENARIO\nMESH\n"; of a search for the equilibrium,
+                          of "static\nRUN\n" with that sum */
 } hashes;
 
 corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out);
+
+/* Of a resolved scenario without its title and without what is written of it: what its solution
+   depends on, beside the mesh. */
+corot_status hash_solution(const json_t *resolved, char digest[HASH_SIZE]);
+
+/* Makes the identity of a run that of corot static of the same scenario and mesh, which is other
+   work. */
+void hashes_static(hashes *h);
 
 /* The same in parts, for who has many scenarios of one mesh. */
 void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]);

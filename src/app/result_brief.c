@@ -14,14 +14,14 @@ static corot_status make_text(const scenario *s, const brief_result *what, json_
   result = json_text_with(result, "exit_code", json_integer(what->exit_code));
   result = json_text_with(result, "t_reached", t_reached);
   result = json_text_with(result, "failure", run_failure_json(what->failure));
-  result = json_text_with(result, "t_end", json_text_real(s->t_end));
-  result = json_text_with(result, "title", json_text_string(s->title));
+  result = json_text_with(result, "t_end", s ? json_text_real(s->t_end) : json_null());
+  result = json_text_with(result, "title", s ? json_text_string(s->title) : json_null());
   result = json_text_with(result, "warnings",
                           what->warnings ? warnings_json(what->warnings) : json_array());
-  result = json_text_with(result, "strain", json_string(s->strain));
+  result = json_text_with(result, "strain", s ? json_string(s->strain) : json_null());
   result = json_text_with(result, "versions", result_versions());
   result = json_text_with(result, "provenance", provenance_json());
-  result = json_text_with(result, "scenario", json_incref(s->resolved));
+  result = json_text_with(result, "scenario", s ? json_incref(s->resolved) : json_null());
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   corot_status status = result_text(result, text);
   json_decref(result);

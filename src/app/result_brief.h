@@ -14,7 +14,7 @@ typedef struct brief_result {
   const warnings *warnings; /* NULL: none */
 } brief_result;
 
-/* The text of it; the caller's to free. */
+/* The text of it; the caller's to free. Without a scenario (NULL), what it says is null. */
 corot_status result_brief(const scenario *s, const brief_result *what, char **text);
 
 /* The text for stop_prepare(). */

@@ -6,6 +6,7 @@
 
 typedef struct run_options {
   const char *dir; /* made if need be; files of an earlier run in it are replaced */
+  bool force;      /* files of others, too, where they have the names of a run's */
   bool progress;   /* a line on stderr while it runs, if that is a terminal */
   bool quiet;      /* nothing on stderr but the reason of a failure */
   bool json;       /* result.json on stdout, too */
@@ -16,7 +17,8 @@ typedef struct run_options {
    go to stderr. A run that fails or is interrupted writes what it had, up to the time it reached.
 
    The answer is the exit code of the program: 0 ok; 3 bad scenario or mesh; 4 the integrator gave
-   up; 5 the system refused memory, reading or writing; 128 + signal: interrupted. */
+   up; 5 the system refused memory, reading or writing, or the folder is another's
+   (folder_owner.h); 128 + signal: interrupted. */
 int run_scenario(const scenario *s, const run_options *options);
 
 /* Asks the run to stop after the step it is in. For a signal handler: it is safe there. A request

@@ -3,10 +3,12 @@
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include "cli.h"
 #include "folder.h"
 #include "folder_files.h"
+#include "folder_owner.h"
 #include "result_brief.h"
 #include "say.h"
 #include "stop.h"
@@ -36,6 +38,11 @@ run_failure run_failure_of(corot_status status, int code) {
 
 corot_status run_begin(const scenario *s, const run_options *options) {
   char *text = NULL;
+  bool locked = false;
+  if (!options->force) {
+    COROT_TRY(folder_lock_stands(options->dir, &locked));
+    COROT_TRY(folder_permit(options->dir, locked));
+  }
   COROT_TRY(result_for_stop(s, &text));
   corot_status status = stop_prepare(options->dir, text);
   free(text);
@@ -57,12 +64,49 @@ corot_status run_preparing(corot_status status) {
   return other ? status : COROT_EFORMAT;
 }
 
-corot_status run_enter(const scenario *s, const run_options *options, folder_lock *lock) {
+corot_status run_enter(const char *path, const run_options *options, folder_lock *lock) {
   COROT_TRY(folder_enter(options->dir, lock));
+  corot_status status = options->force ? COROT_OK : folder_permit(options->dir, lock->taken);
+  if (status != COROT_OK) {
+    folder_leave(lock);
+    return status;
+  }
+  lock->keeps = true;
+  stop_hold();
   if (lock->taken && !options->quiet)
-    say("%s: %s was writing to %s and has left no result; its files are replaced\n", s->path,
+    say("%s: %s was writing to %s and has left no result; its files are replaced\n", path,
         lock->taken, options->dir);
   return COROT_OK;
+}
+
+/* A scenario that is bad makes no folder, and replaces what another run has left of it only where
+   that is known to be a run's. */
+static bool may_enter(const run_options *options, int code) {
+  bool ours = false;
+  return code != EXIT_SCENARIO || (folder_is_ours(options->dir, &ours) == COROT_OK && ours);
+}
+
+/* If it cannot, all is said. */
+static void leave_failure(const char *path, const scenario *s, const run_options *options,
+                          folder_lock *lock, const brief_result *what) {
+  if (!lock->path && (!may_enter(options, what->exit_code) ||
+                      run_enter(path, options, lock) != COROT_OK))
+    return;
+  leave_brief(s, what, options->dir);
+}
+
+void run_end_unread(const char *path, const run_options *options, corot_status status, int code) {
+  folder_lock lock = {.fd = -1};
+  char reason[1024];
+  snprintf(reason, sizeof reason, "%s", corot_error());
+  struct stat info;
+  if (stat(options->dir, &info) != 0) return;
+  brief_result what = {.status = "failed",
+                       .reason = reason,
+                       .exit_code = code,
+                       .failure = run_failure_of(status, code)};
+  leave_failure(path, NULL, options, &lock, &what);
+  folder_leave(&lock);
 }
 
 int run_end_early(const scenario *s, const run_options *options, folder_lock *lock,
@@ -83,8 +127,7 @@ int run_end_early(const scenario *s, const run_options *options, folder_lock *lo
                        .exit_code = code,
                        .failure = run_failure_of(status, code),
                        .warnings = warned};
-  if (code != EXIT_SCENARIO && (lock->path || run_enter(s, options, lock) == COROT_OK))
-    leave_brief(s, &what, options->dir); /* if it cannot, all is said */
+  leave_failure(s->path, s, options, lock, &what);
   return code;
 }
 

@@ -76,7 +76,7 @@ static corot_status prepare(equilibrium_run *r) {
 
 static corot_status open_outputs(equilibrium_run *r) {
   const scenario *s = r->scenario;
-  COROT_TRY(run_enter(s, r->options, &r->lock));
+  COROT_TRY(run_enter(s->path, r->options, &r->lock));
   COROT_TRY(outputs_open(s, r->model, r->options->dir, &r->outputs));
   return reactions_create(r->options->dir, s, r->model, &r->reactions);
 }
@@ -212,7 +212,9 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .warnings = &r->warnings,
       .seen = &r->seen,
   };
-  return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
+  COROT_TRY(hashes_of(r->scenario->resolved, r->mesh, &summary->hashes));
+  hashes_static(&summary->hashes);
+  return COROT_OK;
 }
 
 static void tell(const equilibrium_run *r, const char *reason, const run_summary *summary) {

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "folder.h"
+#include "folder_lock.h"
 #include "no_memory.h"
 
 const int stop_signals[STOP_SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU, SIGALRM};
@@ -25,11 +26,11 @@ enum {
 };
 
 static struct {
-  volatile sig_atomic_t signal, heeded, prepared;
+  volatile sig_atomic_t signal, heeded, prepared, held;
   struct timespec first; /* when it came */
   timer_t timer;
   bool has_timer;
-  char *dir, *path, *temporary, *text;
+  char *dir, *path, *temporary, *lock, *text;
   const char *part[PARTS]; /* of the text, around the numbers */
   size_t length[PARTS];
   char reached[2][32];
@@ -64,10 +65,9 @@ static void make_folder(char *dir) {
 }
 
 /* Complete, or not at all: what stands there otherwise stays. */
-static void write_prepared(void) {
-  make_folder(stop.dir);
+static bool put_prepared(void) {
   int fd = open(stop.temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (fd < 0) return;
+  if (fd < 0) return false;
   const char *reached = stop.reached[stop.latest];
   put(fd, stop.part[0], stop.length[0]);
   put_number(fd, stop.signal);
@@ -79,10 +79,16 @@ static void write_prepared(void) {
   off_t size = lseek(fd, 0, SEEK_CUR), least = 0;
   for (int i = 0; i < PARTS; i++) least += (off_t)stop.length[i];
   bool whole = size > least && fsync(fd) == 0;
-  if (close(fd) == 0 && whole)
-    rename(stop.temporary, stop.path);
-  else
-    unlink(stop.temporary);
+  whole = close(fd) == 0 && whole && rename(stop.temporary, stop.path) == 0;
+  if (!whole) unlink(stop.temporary);
+  return whole;
+}
+
+/* Where another process writes, what it says is not to be replaced. */
+static void write_prepared(void) {
+  make_folder(stop.dir);
+  if (!stop.held && folder_lock_try(stop.lock) < 0) return;
+  if (put_prepared()) unlink(stop.lock);
 }
 
 static void end_now(void) {
@@ -176,8 +182,9 @@ corot_status stop_prepare(const char *dir, const char *text) {
   stop.dir = folder_path(dir, "");
   stop.path = folder_path(dir, "result.json");
   stop.temporary = folder_path(dir, "result.json.tmp");
+  stop.lock = folder_path(dir, FOLDER_LOCK_NAME);
   stop.text = malloc(strlen(text) + 1);
-  if (!stop.dir || !stop.path || !stop.temporary || !stop.text) {
+  if (!stop.dir || !stop.path || !stop.temporary || !stop.lock || !stop.text) {
     stop_release();
     return no_memory();
   }
@@ -190,11 +197,14 @@ corot_status stop_prepare(const char *dir, const char *text) {
   return status;
 }
 
+void stop_hold(void) { stop.held = 1; }
+
 void stop_release(void) {
-  stop.prepared = 0;
+  stop.prepared = stop.held = 0;
   free(stop.dir);
   free(stop.path);
   free(stop.temporary);
+  free(stop.lock);
   free(stop.text);
-  stop.dir = stop.path = stop.temporary = stop.text = NULL;
+  stop.dir = stop.path = stop.temporary = stop.lock = stop.text = NULL;
 }

@@ -33,9 +33,13 @@ enum { STOP_NUMBER = 990000001, STOP_CODE = 990000002, STOP_REACHED = 990000003 
 
 /* What DIR/result.json is to say if the process has to end without being asked again. The text has
    STOP_NUMBER, STOP_CODE and STOP_REACHED in it, in this order. It holds until stop_release().
+   It is written only where this process has the folder's lock, or gets it (folder_lock.h).
    COROT_ENOMEM; COROT_EINVAL: one of them is missing. */
 corot_status stop_prepare(const char *dir, const char *text);
 void stop_release(void);
+
+/* This process has taken the folder that was prepared for. */
+void stop_hold(void);
 
 /* How far the run has come, for that text [s]. */
 void stop_reached(double t);

@@ -270,7 +270,7 @@ void chart_write(const chart *c, FILE *out) {
   lay_out(&l);
   fprintf(out,
           "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %.0f\" width=\"%d\""
-          " height=\"%.0f\" role=\"img\">\n<title>",
+          " height=\"%.0f\" role=\"img\">\n" CHART_MARK "\n<title>",
           WIDTH, l.height, WIDTH, l.height);
   markup_text(out, c->title ? c->title : c->y.label);
   fprintf(out, "</title>\n%s<rect class=\"paper\" width=\"100%%\" height=\"100%%\"/>\n", style);

@@ -32,6 +32,9 @@ typedef struct chart {
    logarithmic. They are left out, the line is broken there, and the chart says how many. */
 int chart_skipped(const chart *c);
 
+/* Stands at the beginning of what chart_write() writes, to know it by. */
+#define CHART_MARK "<!-- written by corot -->"
+
 /* Writes the SVG. Errors are left in the stream. */
 void chart_write(const chart *c, FILE *out);
 

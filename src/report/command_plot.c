@@ -10,7 +10,7 @@
 #include "suggest.h"
 
 static const char help[] =
-    "usage: corot plot DIR [--cost COST] [--error NAME] [-o FILE.svg]\n"
+    "usage: corot plot DIR [--cost COST] [--error NAME] [-o FILE.svg] [--force]\n"
     "\n"
     "Draws the work-precision diagram of a study from DIR/table.json: error against cost, a line\n"
     "for each series, and the floor below which the references say nothing. Beside the SVG stand\n"
@@ -21,21 +21,21 @@ static const char help[] =
     "      --cost COST      cpu, wall, steps, rhs, factorisations or solves\n"
     "      --error NAME     one of the table's measures of error, as velocity or displacement_end\n"
     "  -o, --output FILE    default: DIR/precision-COST-NAME.svg\n"
+    "      --force          replaces files that corot has not written, too\n"
     "\n"
     "Without --cost and --error: those that the study compares by.\n"
     "\n"
     "example: corot plot out/integrators --cost rhs\n";
 
 static const struct option options[] = {
-    {"cost", required_argument, NULL, 'c'},
-    {"error", required_argument, NULL, 'e'},
-    {"output", required_argument, NULL, 'o'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
+    {"cost", required_argument, NULL, 'c'},   {"error", required_argument, NULL, 'e'},
+    {"output", required_argument, NULL, 'o'}, {"force", no_argument, NULL, 'f'},
+    {"help", no_argument, NULL, 'h'},         {0},
 };
 
 typedef struct wish {
   const char *cost, *error, *output; /* NULL: the default */
+  bool force;
 } wish;
 
 /* The index of `typed` among names; -1, and the message, where it is none of them. */
@@ -91,7 +91,8 @@ static int plot(const char *dir, const wish *w, const study_table *t) {
   p.error = error;
   char *base = base_of(dir, w, &p);
   if (!base) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
-  corot_status status = precision_write(&p, base);
+  corot_status status = w->force ? COROT_OK : precision_permit(base);
+  if (status == COROT_OK) status = precision_write(&p, base);
   if (status == COROT_OK) {
     tell(t, error);
     show("%s.svg\n%s.csv\n%s.gp\n%s.py\n", base, base, base, base);
@@ -110,6 +111,8 @@ int command_plot(int argc, char **argv) {
       w.error = optarg;
     else if (answer == 'o')
       w.output = optarg;
+    else if (answer == 'f')
+      w.force = true;
     else if (answer == 'h')
       return fputs(help, stdout), EXIT_OK;
     else

@@ -7,6 +7,7 @@
 
 #include "core/reader.h"
 #include "folder.h"
+#include "folder_files.h"
 #include "vtu.h"
 
 void fields_close(fields *f) {
@@ -169,6 +170,8 @@ static corot_status read_arrays(const fields *f, const vtu_file *file, fields_fr
 corot_status fields_read(const fields *f, int i, fields_frame *frame) {
   char *path;
   vtu_file file;
+  bool lost; /* which opening it says */
+  if (f->result) COROT_TRY(folder_verify_file(f->dir, f->result, f->file[i], &lost));
   COROT_TRY(open_frame(f, i, &path, &file));
   corot_status status = read_arrays(f, &file, frame);
   vtu_close(&file);

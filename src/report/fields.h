@@ -4,9 +4,12 @@
 #define COROT_REPORT_FIELDS_H
 
 #include <corot/base.h>
+#include <jansson.h>
 
 typedef struct fields {
   const char *dir;
+  const json_t
+      *result; /* what frames are to be as it lists them; NULL: they are taken as they are */
   int nframe;
   double *t;   /* [nframe] [s] */
   char **file; /* [nframe] relative to dir */
@@ -27,6 +30,7 @@ typedef struct fields_frame {
    a fields.pvd, or with an empty one, nframe is 0. COROT_EFORMAT: not what the run writes. */
 corot_status fields_open(const char *dir, fields *f);
 
+/* COROT_EFORMAT: not what the run writes, or has written. */
 corot_status fields_read(const fields *f, int i, fields_frame *frame);
 
 void fields_close(fields *f);

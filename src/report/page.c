@@ -1,5 +1,6 @@
 #include "page.h"
 
+#include <app/folder_owner.h>
 #include <corot/base.h>
 #include <math.h>
 #include <stdarg.h>
@@ -16,6 +17,7 @@ static const char policy[] =
 void page_begin(const char *title, const char *kind, FILE *out) {
   fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n", out);
   fputs(policy, out);
+  fputs(FOLDER_PAGE_MARK "\n", out);
   fputs(
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n"

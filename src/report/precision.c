@@ -1,6 +1,7 @@
 #include "precision.h"
 
 #include <app/escape.h>
+#include <app/folder_owner.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -118,6 +119,23 @@ static corot_status save(const char *base, const char *suffix, save_writer *writ
   corot_status status = save_text(path, write, what);
   free(path);
   return status;
+}
+
+corot_status precision_permit(const char *base) {
+  static const struct {
+    const char *suffix, *mark; /* by which corot's own are known */
+  } file[] = {{".svg", CHART_MARK},
+              {".csv", "number,series,tolerance,"},
+              {".gp", "# Draws the diagram with gnuplot"},
+              {".py", "Draws the diagram with matplotlib"}};
+  for (size_t i = 0; i < sizeof file / sizeof *file; i++) {
+    char *path = with_suffix(base, file[i].suffix);
+    if (!path) return corot_fail(COROT_ENOMEM, "%s: out of memory", base);
+    corot_status status = file_permit(path, file[i].mark);
+    free(path);
+    COROT_TRY(status);
+  }
+  return COROT_OK;
 }
 
 static corot_status write_all(const precision *p, const points *all, const char *base) {

@@ -11,6 +11,10 @@ typedef struct precision {
   int error;
 } precision;
 
+/* Whether what would be replaced of the following files is corot's own. COROT_EIO names one that is
+   not. */
+corot_status precision_permit(const char *base);
+
 /* Writes BASE.svg, and BASE.csv with all cells, also those without a point, beside it; BASE.gp and
    BASE.py draw the same from the CSV with gnuplot and matplotlib. */
 corot_status precision_write(const precision *p, const char *base);

@@ -26,6 +26,7 @@ static corot_status section(const run_folder *run, const char *id, const char *h
 static corot_status write_body(const run_folder *run, FILE *out) {
   fields f;
   COROT_TRY(fields_open(run->dir, &f));
+  f.result = run->result;
   corot_status status = f.nframe > 0 ? body_write(&f, run, out) : COROT_OK;
   fields_close(&f);
   return status;
@@ -48,13 +49,26 @@ static corot_status write_equilibrium(const run_folder *run, FILE *out) {
   return COROT_OK;
 }
 
+static void write_lost(const run_folder *run, FILE *out) {
+  for (size_t i = 0; i < json_array_size(run->lost); i++)
+    page_element(out, "p class=\"warning\"",
+                 "%s is listed in result.json, and is not there any more: it is left out.",
+                 json_string_value(json_array_get(run->lost, i)));
+}
+
 static corot_status write_run(const void *what, FILE *out) {
   const run_folder *run = what;
   const char *title = lookup_text(run->result, "title");
   bool still = run_folder_is_static(run);
   page_begin(*title ? title : run->dir, still ? "static" : "run", out);
   run_summary_write(run, out);
+  write_lost(run, out);
   if (run->budget) budget_write(run->budget, out);
+  if (run->stranger)
+    page_element(
+        out, "p class=\"warning\"",
+        "The budget.json in this folder is not of this run, but of another scenario, mesh or "
+        "command: it is left out.");
   COROT_TRY(write_body(run, out));
   page_hint(out);
   COROT_TRY(still ? write_equilibrium(run, out) : write_motion(run, out));

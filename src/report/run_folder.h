@@ -10,13 +10,16 @@
 typedef struct run_folder {
   const char *dir;
   json_t *result; /* result.json */
-  json_t *budget; /* budget.json; NULL: there is none */
+  json_t *budget; /* budget.json; NULL: there is none, or none of this run */
+  bool stranger;  /* there is one of another run */
   json_t *groups; /* groups.json; NULL: there is none */
   /* without columns where there is no such file */
   csv probes, energy, history, steps, compare, reactions;
+  json_t *lost; /* names of files that result.json lists, and that are not there; NULL: none are */
 } run_folder;
 
-/* `dir` must outlive the folder. COROT_EIO where there is no result.json. */
+/* `dir` must outlive the folder. COROT_EIO where there is no result.json; COROT_EFORMAT where a
+   file is not what result.json says. */
 corot_status run_folder_read(const char *dir, run_folder *folder);
 
 /* The table that has a column at the most times: history.csv, else `table`. */

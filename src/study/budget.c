@@ -1,6 +1,7 @@
 /* The error budget as JSON: the runs of budget_runs.c, by the claims of budget_claims.c. */
 #include "budget.h"
 
+#include <app/hash.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
 #include <math.h>
@@ -237,6 +238,15 @@ static double check_rtol(const budgeting *b) {
   return b->ntight > 0 ? rtol : NAN;
 }
 
+/* The run that it is of. */
+static corot_status set_owner(const budgeting *b, json_t *json) {
+  char solution[HASH_SIZE], mesh[HASH_SIZE];
+  COROT_TRY(hash_solution(b->scenario->resolved, solution));
+  hash_mesh(b->yardstick->mesh, mesh);
+  json_t *of = json_pack("{s:s, s:s}", "solution", solution, "mesh", mesh);
+  return json_object_set_new(json, "hashes", of) ? no_memory() : COROT_OK;
+}
+
 static corot_status totals(const budgeting *b, const budget_claims *all, json_t *parts,
                            json_t **out) {
   error_pair total = displacement_of(&all->total.error);
@@ -261,6 +271,10 @@ static corot_status totals(const budgeting *b, const budget_claims *all, json_t 
   json = json_text_with(json, "builds", json_incref(b->builds.list));
   json = json_text_with(json, "mixed", builds_sentence(b->builds.list));
   if (!json) return no_memory();
+  if (set_owner(b, json) != COROT_OK) {
+    json_decref(json);
+    return COROT_ENOMEM;
+  }
   set_bound(json, "total_", total_bound(b, all));
   set_bound(json, "total_end_", claim_bounds(&all->total, ERROR_DISPLACEMENT, true));
   *out = json;

@@ -19,6 +19,7 @@
 
    DIR/budget.json:
      {"title", "scenario", "measure", "static": of the equilibrium,
+      "hashes": {"solution", "mesh"}: of the run that it is of, see app/hash.h,
       "parts": [{"part", "pair": the settings that take it away, "error", "end": largest over time,
                  at the end; "bound": "about", "at least", "at most" (below the floor), "unchecked"
                  or "missing"; "low", "high": between which it is; "floor"; "end_bound", "end_low",

@@ -116,6 +116,7 @@ static corot_status carry_out(budgeting *b, int nset, const char *const *set,
     list[i] = (variant){.label = b->run[i].label, .nset = b->run[i].nset, .set = b->run[i].set};
   variants v = {.what = b->options->still ? "Error budget of the equilibrium" : "Error budget",
                 .scenario = b->scenario,
+                .still = b->options->still,
                 .nset = nset,
                 .set = set,
                 .nvariant = b->nrun,

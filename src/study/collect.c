@@ -37,8 +37,8 @@ static corot_status note(corot_status status, char **out) {
 static corot_status look_reference(measuring *g, int index, table_reference *t) {
   const study_reference *r = &g->m->reference[index];
   run_record record[2] = {{0}, {0}};
-  corot_status status = store_look(g->dir, &g->m->run[r->run[0]], &record[0]);
-  if (status == COROT_OK) status = store_look(g->dir, &g->m->run[r->run[1]], &record[1]);
+  corot_status status = measure_look(g, &g->m->run[r->run[0]], &record[0]);
+  if (status == COROT_OK) status = measure_look(g, &g->m->run[r->run[1]], &record[1]);
   t->reference = r;
   t->state = RUN_DONE;
   for (int i = 1; i >= 0 && status == COROT_OK; i--) {
@@ -113,8 +113,9 @@ static corot_status look_cell(measuring *g, const table_reference *references, i
   const study_cell *c = &g->m->cell[index];
   run_record record = {0};
   *t = (table_row){.cell = c, .run = &g->m->run[c->run], .drift = {NAN, NAN}};
-  COROT_TRY(store_look(g->dir, t->run, &record));
+  COROT_TRY(measure_look(g, t->run, &record));
   t->state = record.state;
+  t->damaged = record.damaged;
   t->reason = record.reason;
   record.reason = NULL;
   corot_status status = COROT_OK;
@@ -303,15 +304,22 @@ static void free_references(int n, table_reference *reference) {
   free(reference);
 }
 
-corot_status collect_table(const manifest *m, const char *dir, json_t **table) {
-  measuring g = {.m = m, .dir = dir, .reference = -1, .builds = builds_begin()};
+static corot_status make(const manifest *m, const char *dir, bool looked, json_t **table,
+                         int *ndamaged) {
+  measuring g = {.m = m, .dir = dir, .looked = looked, .reference = -1, .builds = builds_begin()};
   table_row *rows = calloc((size_t)m->ncell + 1, sizeof *rows);
   table_reference *references = calloc((size_t)m->nreference + 1, sizeof *references);
   corot_status status = rows && references ? collect(&g, references, rows, table) : no_memory();
   if (rows) free_rows(m->ncell, rows);
   if (references) free_references(m->nreference, references);
   measuring_free(&g);
+  *ndamaged = g.ndamaged;
   return status;
+}
+
+corot_status collect_table(const manifest *m, const char *dir, json_t **table) {
+  int ignored;
+  return make(m, dir, false, table, &ignored);
 }
 
 /* "warning: bending: 2 of 8 cells: ID ID", all too many left out. */
@@ -329,6 +337,24 @@ static void tell_code(const json_t *cells, const char *code, FILE *out) {
     told++;
   }
   fputs(count > MOST ? " ...\n" : "\n", out);
+}
+
+/* Runs that were lost, and why, all too many left out. */
+static void tell_lost(const json_t *cells, FILE *out) {
+  enum { MOST = 8 };
+  size_t told = 0, count = 0;
+  for (size_t i = 0; i < json_array_size(cells); i++) {
+    const json_t *c = json_array_get(cells, i);
+    const char *reason = json_string_value(json_object_get(c, "reason"));
+    if (!reason || strcmp(json_string_value(json_object_get(c, "status")), "missing") != 0)
+      continue;
+    if (++count > MOST) continue;
+    told++;
+    fprintf(out, "%s is missing: ", json_string_value(json_object_get(c, "id")));
+    escape_terminal(reason, out);
+    fputc('\n', out);
+  }
+  if (count > told) fprintf(out, "and %zu more cells\n", count - told);
 }
 
 static void warn(const json_t *table, FILE *out) {
@@ -357,14 +383,21 @@ static void warn(const json_t *table, FILE *out) {
   for (int code = 0; code < WARNING_CODES; code++) tell_code(cells, warning_kinds[code].word, out);
 }
 
-corot_status collect_study(const manifest *m, const char *dir, FILE *remarks) {
+corot_status collect_runs(const manifest *m, const char *dir, bool looked, FILE *remarks,
+                          int *ndamaged) {
   json_t *table = NULL;
   json_text_starved(); /* an earlier lack of memory is none of this table */
-  COROT_TRY(collect_table(m, dir, &table));
+  COROT_TRY(make(m, dir, looked, &table, ndamaged));
   corot_status status = json_file_write(dir, "table.json", table);
   if (status == COROT_OK) status = table_write_csv(table, dir);
   if (status == COROT_OK) status = table_write_sqlite(table, dir);
+  if (status == COROT_OK && remarks && !looked) tell_lost(json_object_get(table, "cells"), remarks);
   if (status == COROT_OK && remarks) warn(table, remarks);
   json_decref(table);
   return status;
+}
+
+corot_status collect_study(const manifest *m, const char *dir, FILE *remarks) {
+  int ignored;
+  return collect_runs(m, dir, false, remarks, &ignored);
 }

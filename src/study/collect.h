@@ -10,7 +10,7 @@
                  references, so that no error says anything of it
      cells       by series, each from coarse to fine:
        id, series, settings {column: value}, tolerance, tolerance_key
-       status      done | failed | missing;  reason: of a failure
+       status      done | failed | missing;  reason: of a failure, or why it was lost
        cost        cpu, cpu_min, cpu_max, wall, wall_min, wall_max [s]: median and extremes of
                    `repeats` timed repetitions, or of the one run if that is 0;
                    steps, rhs, factorisations, solves
@@ -45,5 +45,10 @@ corot_status collect_table(const manifest *m, const char *dir, json_t **table);
 /* Collects, and writes all three files. To `remarks` (or NULL): references that part ways or are
    not known, how many cells are not rated, and which cells carry which warnings. */
 corot_status collect_study(const manifest *m, const char *dir, FILE *remarks);
+
+/* The same; `looked`: the files of the runs have just been verified (store.h), else they are now.
+ *ndamaged: how often the files of a run are not those that it left; it is missing then. */
+corot_status collect_runs(const manifest *m, const char *dir, bool looked, FILE *remarks,
+                          int *ndamaged);
 
 #endif

@@ -106,6 +106,12 @@ corot_status measure_run(measuring *g, const study_run *run, const json_t *resul
   return status;
 }
 
+corot_status measure_look(measuring *g, const study_run *run, run_record *record) {
+  COROT_TRY(g->looked ? store_look(g->dir, run, record) : store_verify(g->dir, run, record));
+  g->ndamaged += record->damaged;
+  return COROT_OK;
+}
+
 corot_status measure_hold(measuring *g, int reference) {
   const study_run *run = &g->m->run[g->m->reference[reference].run[0]];
   run_record record;

@@ -18,7 +18,8 @@ typedef struct table_row {
   const study_cell *cell;
   const study_run *run;
   run_state state;
-  char *reason; /* of a failure */
+  bool damaged; /* its files are not those that it left */
+  char *reason; /* of a failure, or of that */
   char *note;   /* why there are no errors; NULL: none */
   costs cost;
   bool measured;
@@ -82,6 +83,8 @@ json_t *collect_rankings(const table_rows *t);
 typedef struct measuring {
   const manifest *m;
   const char *dir;
+  bool looked;  /* the runs' files have been verified already */
+  int ndamaged; /* runs whose files are not those that they left */
   yardstick *yardstick;
   scenario *scenario; /* the yardstick's */
   char *key;          /* what the yardstick depends on */
@@ -98,6 +101,9 @@ corot_status measure_run(measuring *g, const study_run *run, const json_t *resul
 /* Makes the yardstick that of a reference, and reads the states of its first run. */
 corot_status measure_hold(measuring *g, int reference);
 corot_status measure_states(measuring *g, int reference, trajectory *out);
+
+/* What there is of a run, verified once. */
+corot_status measure_look(measuring *g, const study_run *run, run_record *record);
 
 void measuring_free(measuring *g);
 

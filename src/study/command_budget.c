@@ -45,6 +45,7 @@ static const char help[] =
     "                       takes minutes rather than hours\n"
     "  -j, --jobs N         so many runs at once; default: the number of processors\n"
     "      --timeout S      ends a run that takes longer than S seconds\n"
+    "      --force          takes a folder that holds files of others by the names of corot's\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           budget.json on stdout in place of the table\n"
     "\n"

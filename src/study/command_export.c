@@ -21,12 +21,14 @@ static const char help[] =
     "\n"
     "  -f, --format WORD   commands: one a line, in any order\n"
     "  -o, --output DIR    the study's folder, made if need be; default: out/STUDY in this folder\n"
+    "      --force         as of corot study\n"
     "\n"
     "example: corot study export bar.yaml --format commands | xargs -d '\\n' -n 1 -P 8 sh -c\n";
 
 static const struct option options[] = {
     {"format", required_argument, NULL, 'f'},
     {"output", required_argument, NULL, 'o'},
+    {"force", no_argument, NULL, 'F'},
     {"help", no_argument, NULL, 'h'},
     {0},
 };
@@ -47,10 +49,10 @@ static export_format *format_named(const char *name) {
 }
 
 /* With the folder made the study's own, under absolute names. */
-static corot_status write_runs(const manifest *m, const char *path, const char *dir,
+static corot_status write_runs(const manifest *m, const char *path, const char *dir, bool force,
                                export_format *write) {
   store_lock lock;
-  COROT_TRY(store_enter(dir, m, 1, 1, &lock));
+  COROT_TRY(store_enter(dir, m, 1, 1, force, &lock));
   store_leave(lock);
   char *program = realpath("/proc/self/exe", NULL), *study_path = realpath(path, NULL);
   char *folder = realpath(dir, NULL);
@@ -65,7 +67,7 @@ static corot_status write_runs(const manifest *m, const char *path, const char *
   return status;
 }
 
-static int export_study(const char *path, const char *dir, export_format *write) {
+static int export_study(const char *path, const char *dir, bool force, export_format *write) {
   study *s = NULL;
   manifest *m = NULL;
   corot_status status = study_read(path, &s);
@@ -73,7 +75,7 @@ static int export_study(const char *path, const char *dir, export_format *write)
   if (status == COROT_OK) status = plan_study(s, &m);
   char *folder = status == COROT_OK && !dir ? folder_path("out", s->name) : NULL;
   if (status == COROT_OK && !dir && !folder) status = COROT_ENOMEM;
-  if (status == COROT_OK) status = write_runs(m, path, dir ? dir : folder, write);
+  if (status == COROT_OK) status = write_runs(m, path, dir ? dir : folder, force, write);
   free(folder);
   manifest_destroy(m);
   study_destroy(s);
@@ -82,6 +84,7 @@ static int export_study(const char *path, const char *dir, export_format *write)
 
 int command_study_export(int argc, char **argv) {
   const char *dir = NULL, *format = NULL;
+  bool force = false;
   int code = -1;
   opterr = 0;
   for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":o:f:h", options, NULL)) != -1;) {
@@ -89,6 +92,8 @@ int command_study_export(int argc, char **argv) {
       dir = optarg;
     else if (answer == 'f')
       format = optarg;
+    else if (answer == 'F')
+      force = true;
     else if (answer == 'h')
       fputs(help, stdout), code = EXIT_OK;
     else
@@ -102,5 +107,5 @@ int command_study_export(int argc, char **argv) {
   if (!write)
     return usage_error("corot study export", "--format %s: expected commands, slurm or snakemake",
                        format);
-  return export_study(argv[optind], dir, write);
+  return export_study(argv[optind], dir, force, write);
 }

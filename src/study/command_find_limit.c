@@ -34,6 +34,7 @@ static const char help[] =
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
     "  -j, --jobs N         so many runs at once; default: the number of processors\n"
     "      --timeout S      ends a run that takes longer than S seconds\n"
+    "      --force          takes a folder that holds files of others by the names of corot's\n"
     "  -q, --quiet          nothing on stderr but errors\n"
     "      --json           limit.json on stdout in place of the table\n"
     "\n"

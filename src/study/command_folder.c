@@ -58,10 +58,10 @@ int command_study_status(int argc, char **argv) {
 }
 
 /* Collects what there is now; the manifest is that of the folder. */
-static corot_status collect_folder(const char *dir) {
+static corot_status collect_folder(const char *dir, int *ndamaged) {
   manifest *m = NULL;
   COROT_TRY(manifest_read(dir, &m));
-  corot_status status = collect_study(m, dir, stderr);
+  corot_status status = collect_runs(m, dir, false, stderr, ndamaged);
   manifest_destroy(m);
   return status;
 }
@@ -70,8 +70,12 @@ int command_study_collect(int argc, char **argv) {
   const char *dir = NULL;
   int code = only_folder("collect", argc, argv, &dir);
   if (code >= 0) return code;
-  corot_status status = collect_folder(dir);
-  return status == COROT_OK ? EXIT_OK : failure(status);
+  int ndamaged = 0;
+  corot_status status = collect_folder(dir, &ndamaged);
+  if (status != COROT_OK) return failure(status);
+  if (ndamaged == 0) return EXIT_OK;
+  fputs("corot study with this study does again what is not as it was left\n", stderr);
+  return EXIT_CHECK;
 }
 
 static corot_status write_table(const void *table, FILE *out) { return table_print(table, out); }

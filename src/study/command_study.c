@@ -36,11 +36,14 @@ static const char help[] =
     "      --dry-run       lists the runs and what has become of them; runs nothing\n"
     "      --retry-failed  those that failed before, again\n"
     "      --timeout S     ends a run that takes longer than S seconds; it counts as failed\n"
+    "      --force         takes a folder that holds files of others by the names of a study's:\n"
+    "                      study.json, table.json, table.csv, index.sqlite, report.html\n"
     "  -q, --quiet         nothing on stderr but errors\n"
     "\n"
-    "  status DIR          how far a study is\n"
+    "  status DIR          how far a study is, by the files' sizes, not by what is in them\n"
     "  collect DIR         table.json, table.csv and index.sqlite anew, from the folders of the "
-    "runs\n"
+    "runs;\n"
+    "                      exit code 1: files of runs are not as the runs have left them\n"
     "  table DIR           the table in columns; errors below ten times the floor in parentheses\n"
     "  csv DIR             the table as CSV\n"
     "  export STUDY.yaml   the runs for other engines to carry out\n"
@@ -62,20 +65,17 @@ static const char help[] =
     "\n"
     "Exit codes: 0 ok, 1 some runs failed, 2 usage, 3 bad study, scenario or mesh, 5 no memory, "
     "or\n"
-    "reading or writing failed, 128 + N interrupted by signal N (130: Ctrl-C, 143: kill).\n"
+    "reading or writing failed, or the folder holds files of others, 128 + N interrupted by signal "
+    "N (130: Ctrl-C, 143: kill).\n"
     "\n"
     "example: corot study models/studies/integrators.yaml -o out/integrators -j 8\n";
 
 static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'},
-    {"jobs", required_argument, NULL, 'j'},
-    {"shard", required_argument, NULL, 's'},
-    {"dry-run", no_argument, NULL, 'd'},
-    {"retry-failed", no_argument, NULL, 'r'},
-    {"quiet", no_argument, NULL, 'q'},
-    {"timeout", required_argument, NULL, 't'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
+    {"output", required_argument, NULL, 'o'}, {"jobs", required_argument, NULL, 'j'},
+    {"shard", required_argument, NULL, 's'},  {"dry-run", no_argument, NULL, 'd'},
+    {"retry-failed", no_argument, NULL, 'r'}, {"force", no_argument, NULL, 'f'},
+    {"quiet", no_argument, NULL, 'q'},        {"timeout", required_argument, NULL, 't'},
+    {"help", no_argument, NULL, 'h'},         {0},
 };
 
 /* --- What the arguments say --- */
@@ -115,6 +115,9 @@ static int take_option(int answer, char **argv, arguments *a) {
       return -1;
     case 'r':
       a->o.retry_failed = true;
+      return -1;
+    case 'f':
+      a->o.force = true;
       return -1;
     case 'q':
       a->o.quiet = true;
@@ -173,14 +176,15 @@ static int execute_here(const manifest *m, const execute_options *o) {
   execute_totals totals;
   int signal_number;
   if (!o->quiet) tell_version(o->dir);
-  corot_status status = store_enter(o->dir, m, o->shard, o->nshard, &lock);
+  corot_status status = store_enter(o->dir, m, o->shard, o->nshard, o->force, &lock);
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
   status = execute_study(m, o, &totals, &signal_number);
   if (status == COROT_OK) status = store_check(o->dir, lock);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
-    status = collect_study(m, o->dir, o->quiet ? NULL : stderr);
+    int ndamaged; /* since they were looked at: the next call does them again */
+    status = collect_runs(m, o->dir, true, o->quiet ? NULL : stderr, &ndamaged);
     if (status == COROT_OK && !o->quiet) say("corot study table %s\n", o->dir);
     if (status == COROT_OK) status = study_page(o->dir, o->quiet);
     if (status != COROT_OK) code = failure(status);

@@ -89,7 +89,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
   const study_run *run = e->task[i].run;
   char *dir = store_path(e->o->dir, run, folder);
   char *messages = store_path(e->o->dir, run, "messages.txt");
-  const char **argv = calloc(2 * (size_t)run->nset + 10, sizeof *argv);
+  const char **argv = calloc(2 * (size_t)run->nset + 11, sizeof *argv);
   corot_status status = dir && messages && argv ? COROT_OK : no_memory();
   if (status == COROT_OK) {
     int n = 0;
@@ -97,6 +97,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
     argv[n++] = e->o->command ? e->o->command : "run";
     argv[n++] = e->m->base;
     argv[n++] = "--quiet";
+    argv[n++] = "--force"; /* the folder is the study's, whatever an earlier attempt has left */
     argv[n++] = "--output";
     argv[n++] = dir;
     for (int k = 0; k < run->nset; k++) {
@@ -182,7 +183,7 @@ static bool is_due(const execution *e, const task *t) {
 static corot_status look_at_each(execution *e, builds *made_by) {
   for (int i = 0; i < e->ntask; i++) {
     run_record record;
-    COROT_TRY(store_look(e->o->dir, e->task[i].run, &record));
+    COROT_TRY(store_verify(e->o->dir, e->task[i].run, &record));
     e->task[i].state = record.state;
     if (record.state == RUN_DONE)
       builds_add(made_by, e->task[i].run, record.result, !e->task[i].is_cell);

@@ -9,6 +9,7 @@ typedef struct execute_options {
   const char *command;   /* of the program that makes a run; NULL: run */
   int njob;              /* runs at once */
   int shard, nshard;     /* this one of so many parts of the runs, 1 to nshard */
+  bool force;            /* files of others in the folder are replaced */
   bool retry_failed;     /* those that failed before, too */
   double timeout;        /* for each run [s]; 0: none */
   bool progress;         /* a line on stderr, if that is a terminal */

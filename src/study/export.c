@@ -33,7 +33,7 @@ corot_status export_commands(const manifest *m, const export_target *t, FILE *ou
     escape_shell(t->program, out);
     fputs(" run ", out);
     escape_shell(m->base, out);
-    fputs(" --quiet --output ", out);
+    fputs(" --quiet --force --output ", out);
     escape_shell(t->dir, out);
     fprintf(out, "/runs/%s ", m->run[i].id);
     write_sets(&m->run[i], out);
@@ -107,7 +107,7 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
       "rule run:\n"
       "    output: DIR + \"/runs/{id}/result.json\"\n"
       "    params: settings=lambda wildcards: RUNS[wildcards.id]\n"
-      "    shell: \"{PROGRAM:q} run {BASE:q} --quiet --output {DIR:q}/runs/{wildcards.id} "
+      "    shell: \"{PROGRAM:q} run {BASE:q} --quiet --force --output {DIR:q}/runs/{wildcards.id} "
       "{params.settings}\"\n"
       "\n"
       "rule collect:\n"

@@ -7,8 +7,9 @@
 
 /* One run of the program. */
 typedef struct study_run {
-  const char *hash; /* of resolved scenario, mesh and version: hashes.run of its result.json */
-  const char *id;   /* the first 16 digits, the name of its folder */
+  const char
+      *hash; /* of resolved scenario, mesh, version and command: hashes.run of its result.json */
+  const char *id; /* the first 16 digits, the name of its folder */
   int nset;
   const char **set; /* [nset] "KEY=VALUE" */
 } study_run;

@@ -79,6 +79,7 @@ static corot_status find_run(planner *p, const scenario *s, int nset, const sett
   char digest[HASH_SIZE], id[17];
   COROT_TRY(mesh_digest(p, s, digest));
   COROT_TRY(hashes_with(s->resolved, digest, &h));
+  if (p->study->still) hashes_static(&h);
   const json_t *known = json_object_get(p->run_at, h.run);
   *index = known ? json_integer_value(known) : (json_int_t)json_array_size(p->runs);
   if (known) return COROT_OK;

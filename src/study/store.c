@@ -69,29 +69,30 @@ static corot_status keep_reason(const json_t *json, run_record *record) {
 
 /* A result is worth as much as the files that it lists: where one is lost, the run is. */
 static corot_status look_at_files(const char *dir, const study_run *run, json_t *result,
-                                  run_record *record) {
+                                  bool contents, run_record *record) {
   char *path = store_path(dir, run, "");
   if (!path) return COROT_ENOMEM;
-  corot_status status = folder_check(path, result);
+  corot_status status = contents ? folder_verify(path, result) : folder_check(path, result);
   free(path);
   if (status == COROT_OK) {
     record->state = RUN_DONE;
     record->result = json_incref(result);
-  } else if (status == COROT_EIO) {
+  } else if (status == COROT_EIO || status == COROT_EFORMAT) {
+    record->damaged = status == COROT_EFORMAT;
     record->reason = strdup(corot_error());
     status = record->reason ? COROT_OK : no_memory();
   }
   return status;
 }
 
-corot_status store_look(const char *dir, const study_run *run, run_record *record) {
-  run_record r = {RUN_MISSING, NULL, NULL};
+static corot_status look(const char *dir, const study_run *run, bool contents, run_record *record) {
+  run_record r = {.state = RUN_MISSING};
   json_t *result = NULL, *failure = NULL;
   COROT_TRY(read_own(dir, run, "result.json", "hashes.run", &result));
   const char *status = json_string_value(json_object_get(result, "status"));
   corot_status looked = COROT_OK;
   if (status && strcmp(status, "ok") == 0) {
-    looked = look_at_files(dir, run, result, &r);
+    looked = look_at_files(dir, run, result, contents, &r);
   } else if (is_lasting(result)) {
     looked = keep_reason(result, &r);
   } else {
@@ -103,6 +104,14 @@ corot_status store_look(const char *dir, const study_run *run, run_record *recor
   json_decref(failure);
   if (looked == COROT_OK) *record = r;
   return looked;
+}
+
+corot_status store_look(const char *dir, const study_run *run, run_record *record) {
+  return look(dir, run, false, record);
+}
+
+corot_status store_verify(const char *dir, const study_run *run, run_record *record) {
+  return look(dir, run, true, record);
 }
 
 void run_record_free(run_record *record) {

@@ -31,9 +31,12 @@ typedef struct run_record {
   run_state state;
   char *reason;   /* of a failure, or why it was lost; NULL otherwise */
   json_t *result; /* result.json of one that is done; NULL otherwise */
+  bool damaged;   /* it was done, and is missing now: its files are not what result.json lists */
 } run_record;
 
+/* By the sizes of its files; and by their contents, which takes as long as reading them. */
 corot_status store_look(const char *dir, const study_run *run, run_record *record);
+corot_status store_verify(const char *dir, const study_run *run, run_record *record);
 void run_record_free(run_record *record);
 
 /* "DIR/runs/ID" or "DIR/runs/ID/NAME", the caller's to free; NULL: no memory. */
@@ -64,13 +67,14 @@ corot_status timings_add(const char *dir, const study_run *run, timings *t, doub
 void timings_free(timings *t);
 
 /* Makes the folder the study's own, or fails with COROT_EINVAL: it is another study's, or one is at
-   work there. Several shards may be (1 to `nshard` > 1). Runs that were started hold the locks,
-   too: the folder is free when all are over. */
+   work there. Or with COROT_EIO: it is no study's, and has files of the names above; unless
+   `force`, which replaces them. Several shards may be (1 to `nshard` > 1), all of one `nshard`.
+   Runs that were started hold the locks, too: the folder is free when all are over. */
 typedef struct store_lock {
   int whole, part; /* descriptors; -1: none */
 } store_lock;
 
-corot_status store_enter(const char *dir, const manifest *m, int shard, int nshard,
+corot_status store_enter(const char *dir, const manifest *m, int shard, int nshard, bool force,
                          store_lock *lock);
 void store_leave(store_lock lock);
 

@@ -48,6 +48,8 @@ typedef struct study {
   int ngrid;
   const grid *grid;
   int repeat; /* timed repetitions */
+  bool still; /* runs are searches for the equilibrium, as of corot static; false where a file is
+                 read */
 
   bool referred;         /* errors are measured, against references */
   double reference_rtol; /* 0: by the tightest cell */

@@ -106,6 +106,7 @@ static corot_status make_study(const variants *v, study **out) {
 static corot_status plan(const variants *v, manifest **out) {
   study *s = NULL;
   COROT_TRY(make_study(v, &s));
+  s->still = v->still;
   corot_status status = plan_study(s, out);
   study_destroy(s);
   return status;
@@ -127,7 +128,8 @@ corot_status variants_execute(const variants *v, const execute_options *options,
   COROT_TRY(plan(v, &m));
   store_lock lock;
   execute_totals totals;
-  corot_status status = store_enter(options->dir, m, options->shard, options->nshard, &lock);
+  corot_status status =
+      store_enter(options->dir, m, options->shard, options->nshard, options->force, &lock);
   if (status == COROT_OK) {
     status = execute_study(m, options, &totals, signal_number);
     if (status == COROT_OK) status = store_check(options->dir, lock);

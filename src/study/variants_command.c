@@ -8,11 +8,13 @@
 
 #include "pool.h"
 
+enum { FORCE = 300 }; /* commands have letters of their own */
+
 static const struct option common[] = {
     {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
     {"jobs", required_argument, NULL, 'j'},   {"quiet", no_argument, NULL, 'q'},
     {"json", no_argument, NULL, 'J'},         {"timeout", required_argument, NULL, 'T'},
-    {"help", no_argument, NULL, 'h'},
+    {"force", no_argument, NULL, FORCE},      {"help", no_argument, NULL, 'h'},
 };
 
 enum { NCOMMON = sizeof common / sizeof *common, NOPTION = 32 };
@@ -35,6 +37,9 @@ static int take_option(const variants_command *c, int answer, char **argv,
     case 'T':
       if (parse_seconds(optarg, &a->options.timeout)) return -1;
       return usage_error(c->program, "--timeout %s: expected seconds > 0", optarg);
+    case FORCE:
+      a->options.force = true;
+      return -1;
     case 'q':
       a->options.quiet = true;
       return -1;

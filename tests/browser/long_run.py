@@ -23,5 +23,6 @@ result["extremes"] = {name: {"min": {"value": -7 + math.sin(1e-3 * DIP), "t": DI
                              "max": {"value": 5 + math.sin(1e-3 * PEAK), "t": PEAK / N}}
                       for name in names if name not in ("balance", "frame_energy")}
 result["warnings"] = [{"code": "one-thing", "text": "One <b>thing</b> is off."}, "Another is, too."]
+result.pop("files")  # this history is none of them
 with open(folder + "/result.json", "w") as file:
     json.dump(result, file)

@@ -76,7 +76,23 @@ done
 grep -qF 'check of time' budget/report.html && complain "something of what is not known"
 cp budget/budget.json bare
 expect 0 report bare
-grep -qF 'space first' bare/report.html || complain "the run's report lacks its budget"
+grep -qF 'space first' bare/report.html && complain "a budget of nobody knows what is on the run's page"
+grep -qF 'is not of this run' bare/report.html || complain "the page says nothing of a budget that is not its own"
+
+# A run's page shows its budget, whatever is written of the run, and not one of another run.
+expect 0 budget model.yaml -o parts --quiet --skip space
+expect 0 budget model.yaml -o parts-still --quiet --skip space --static
+expect 0 run model.yaml -o other --quiet --set material.lambda=1.1e5
+expect 0 run model.yaml -o finer --quiet --set 'mesh.box.cells=[1, 1, 3]'
+for pair in bare:parts:1 run:parts:1 other:parts:0 finer:parts:0 still:parts:0 still:parts-still:1 bare:parts-still:0; do
+  IFS=: read -r folder budget own <<HERE
+$pair
+HERE
+  cp "$budget/budget.json" "$folder"
+  expect 0 report "$folder"
+  [ "$(grep -c 'id="budget"' "$folder/report.html")" = "$own" ] || complain "$pair: whether the page shows the budget"
+  [ "$(grep -c 'is not of this run' "$folder/report.html")" = $((1 - own)) ] || complain "$pair: what the page says of it"
+done
 
 expect 5 report run -o none/report.html; err "none/report.html"
 printf '{' >bare/result.json

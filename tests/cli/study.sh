@@ -146,7 +146,7 @@ expect 3 study table e; err "not a table of a study"
 
 # A reference that is wrong is caught.
 python3 - <<'PYTHON'
-import array, glob, json
+import array, glob, hashlib, json
 study = json.load(open("e/ours/study.json"))
 path = "e/ours/runs/" + study["runs"][study["references"][0]["runs"][1]]["id"] + "/states.bin"
 data = bytearray(open(path, "rb").read())
@@ -155,7 +155,12 @@ head = 24 + 4 * (n + n % 2)
 states = array.array("d", data[head:])
 for k in range(0, len(states), 1 + 2 * n):
     for i in range(n): states[k + 1 + i] *= 1.01
-open(path, "wb").write(data[:head] + states.tobytes())
+data = data[:head] + states.tobytes()
+open(path, "wb").write(data)
+result = json.load(open(path.replace("states.bin", "result.json")))
+for file in result["files"]:  # as if the run had written that
+    if file["name"] == "states.bin": file["sha256"] = hashlib.sha256(data).hexdigest()
+json.dump(result, open(path.replace("states.bin", "result.json"), "w"))
 PYTHON
 expect 0 study collect e/ours; err "reference 0: cvode and arkode part ways"; err "2 of 2 cells are not rated"
 expect 0 study table e/ours; out "cvode and arkode part ways: from t = 0.0"

@@ -5,6 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <app/folder.h>
+#include <app/inventory.h>
+
 #include "whole_run.h"
 
 static void a_run_leaves_its_books(void **state) {
@@ -346,6 +349,23 @@ static void a_full_disk_is_an_exit_code_of_its_own(void **state) {
   }
 }
 
+/* All that a run writes stands in the inventory: what is cleaned leaves no file. */
+static void the_inventory_is_complete(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  forget(run_with(dir, (run_options){.quiet = true},
+                  SET("time.end=0.01", "output.states=binary", "output.fields=vtu",
+                      "compare=[polar]")));
+  for (int i = 0; i < INVENTORY_SIZE; i++)
+    if (inventory[i].listed) assert_true(inventory[i].cleaned);
+  assert_true(exists(in(dir, "out/fields/fields_000000.vtu")));
+  assert_true(exists(in(dir, "out/compare.csv")));
+  assert_ok(folder_clean(in(dir, "out")));
+  assert_int_equal(rmdir(in(dir, "out/fields")), 0);
+  assert_int_equal(rmdir(in(dir, "out")), 0);
+  remove_folder(dir);
+}
+
 static void a_bad_scenario_leaves_no_folder(void **state) {
   (void)state;
   char *dir = temporary_folder();
@@ -376,6 +396,7 @@ int main(void) {
       cmocka_unit_test(an_interrupted_run_keeps_what_it_had),
       cmocka_unit_test(a_killed_run_leaves_whole_rows),
       cmocka_unit_test(a_full_disk_is_an_exit_code_of_its_own),
+      cmocka_unit_test(the_inventory_is_complete),
       cmocka_unit_test(a_bad_scenario_leaves_no_folder),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
