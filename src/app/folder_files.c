@@ -37,7 +37,10 @@ static corot_status add(const char *dir, const char *name, json_t *list, bool *f
   struct stat info;
   json_t *entry = NULL;
   corot_status status = COROT_OK;
-  *found = lstat(path, &info) == 0 && S_ISREG(info.st_mode);
+  bool there = lstat(path, &info) == 0;
+  if (!there && errno != ENOENT && errno != ENOTDIR)
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+  *found = there && S_ISREG(info.st_mode);
   int fd = *found ? open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC) : -1;
   if (*found && fd < 0)
     status = corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
@@ -72,15 +75,18 @@ corot_status folder_files(const char *dir, json_t **list) {
 static corot_status check_one(const char *dir, const json_t *file) {
   const char *name = json_string_value(json_object_get(file, "name"));
   json_int_t size = json_integer_value(json_object_get(file, "size"));
-  if (!name) return corot_fail(COROT_EIO, "%s/result.json: a file has no name", dir);
+  if (!name) return corot_fail(COROT_EFORMAT, "%s/result.json: a file has no name", dir);
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
   struct stat info;
   corot_status status = COROT_OK;
-  if (stat(path, &info) != 0)
-    status = corot_fail(COROT_EIO, "%s: result.json lists it, and it is not there", path);
+  bool there = stat(path, &info) == 0;
+  if (!there && errno != ENOENT && errno != ENOTDIR)
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+  else if (!there)
+    status = corot_fail(COROT_EFORMAT, "%s: result.json lists it, and it is not there", path);
   else if (info.st_size != (off_t)size)
-    status = corot_fail(COROT_EIO, "%s: has %lld bytes where result.json says %lld", path,
+    status = corot_fail(COROT_EFORMAT, "%s: has %lld bytes where result.json says %lld", path,
                         (long long)info.st_size, (long long)size);
   free(path);
   return status;

@@ -9,9 +9,9 @@
    which is on the disk by then. The caller's to json_decref. COROT_EIO, COROT_ENOMEM. */
 corot_status folder_files(const char *dir, json_t **list);
 
-/* Whether they are there and of the size that result.json says: COROT_EIO names the first that is
-   not. A result without a list of files is taken at its word. Their contents are not read: what a
-   failure of power leaves is empty or cut. */
+/* Whether they are there and of the size that result.json says: COROT_EFORMAT names the first that
+   is not, COROT_EIO what the system does not show. A result without a list of files is taken at its
+   word. Their contents are not read: what a failure of power leaves is empty or cut. */
 corot_status folder_check(const char *dir, const json_t *result);
 
 #endif

@@ -52,9 +52,10 @@ static corot_status claim(const char *dir, const manifest *m) {
   manifest *before = NULL;
   char *path = folder_path(dir, "study.json");
   if (!path) return COROT_ENOMEM;
-  bool there = access(path, F_OK) == 0;
+  bool there, same = false;
+  corot_status looked = folder_look(path, &there);
   free(path);
-  bool same = false;
+  COROT_TRY(looked);
   if (there) {
     COROT_TRY(manifest_read(dir, &before));
     corot_status status = check_owner(dir, m, before);
