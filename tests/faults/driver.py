@@ -94,15 +94,17 @@ CASES = {
     "budget-again": Case("budget", "budget model.yaml -o out/budget -j 1 --skip space", True),
 }
 
-# Crashes of libraries that corot cannot help: a function in the back-trace of the crash, and why.
-# They are excused as any crash in a library is, but not news. Debian 12; what is never seen there
-# is reported, and can go.
-KNOWN_CRASHES = [
-    (r"libfyaml\S* fy_", "libfyaml 0.7.12 uses an input, a token or a mark it could not allocate"),
-    (r"libsundials\S* ARKodeButcherTable", "SUNDIALS 6.4 fills a table it could not allocate"),
-    (r"libsundials\S* SUNLogger_Create", "SUNDIALS 6.4 uses a logger it could not allocate"),
-    (r"libsundials\S* N_VClone", "SUNDIALS 6.4 uses the clone of a vector it could not allocate"),
-]
+# Crashes of libraries that corot cannot help: the innermost function of the library that has a
+# name. They are excused as any crash in a library is, but not news; what is never seen in a whole
+# run is reported, so that it can go. SUNDIALS 6.4 and libfyaml 0.7.12, of Debian 12.
+KNOWN_CRASHES = {
+    "fy_parse_input_append": "uses an input that it could not allocate",
+    "N_VClone": "uses the clone of a vector that it could not allocate",
+    "arkAllocVec": "uses the clone of a vector that it could not allocate",
+    "ARKodeButcherTable_LoadDIRK": "fills a table that it could not allocate",
+    "SUNLogger_Create": "uses a logger that it could not allocate",
+    "SUNLogger_Destroy": "releases a map of a logger that it could not allocate",
+}
 
 Outcome = collections.namedtuple("Outcome", "code out err tree")
 
@@ -266,8 +268,9 @@ def judge_rest(case, before, plain, o):
         folder = os.path.dirname(name) + "/"
         part = {n for n in plain.tree if n.startswith(folder) and "timed/" not in n[len(folder):]
                 and is_result(n)}
-        different = [n for n in part if n in o.tree and o.tree[n] != plain.tree[n] or n not in o.tree
-                     and os.path.basename(n) not in ("timings.json", "report.html")]
+        may_lack = ("timings.json", "report.html")
+        different = [n for n in part if n in o.tree and o.tree[n] != plain.tree[n]
+                     or n not in o.tree and os.path.basename(n) not in may_lack]
         if not case.several and b"standard output" in o.err:
             if differences(o.tree, plain.tree):  # it was complete before that failed
                 wrong.append("standard output failed, and other files")
@@ -324,9 +327,21 @@ def judge(name, o, crash):
 def blamed(crash):
     """The innermost frame of a crash that is not the C library's, nor of what fails the calls."""
     for frame in crash.strip().split("\n")[1:]:
-        if not re.match(r"(libc\.so|libc-|ld-linux|libpthread|libfaults|linux-vdso|libgcc_s|\?)", frame):
+        if not re.match(r"libc\.so|libc-|ld-|libpthread|libfaults|linux-vdso|libgcc_s|\?", frame):
             return frame
     return ""
+
+
+def culprit(crash):
+    """The innermost function of a library that crashed, and the library."""
+    frames = crash.strip().split("\n")[1:]
+    inner = blamed(crash)
+    library = inner.split("+")[0]
+    for frame in frames[frames.index(inner):]:
+        module, _, function = re.match(r"([^+]*)(\+0x[0-9a-f]+)? ?(.*)", frame).groups()
+        if module != library or function:
+            return function if module == library else "?", library
+    return "?", library
 
 
 def is_foreign(crash):
@@ -398,8 +413,8 @@ def next_report(process, reports):
     if not report:
         return None
     k, ended, inner = struct.unpack("3q", report)
-    code = "hangs" if hung else -os.WTERMSIG(ended) if os.WIFSIGNALED(ended) else os.WEXITSTATUS(ended)
-    return k, code, inner
+    code = -os.WTERMSIG(ended) if os.WIFSIGNALED(ended) else os.WEXITSTATUS(ended)
+    return k, "hangs" if hung else code, inner
 
 
 def serve(task):
@@ -438,7 +453,8 @@ def list_calls(task):
     name, kind = task
     renew(setting.folder + "/again", fixture(name).before)
     setting.again.reset(RECORD, kind)
-    o, plain = whole(CASES[name].command, setting.folder + "/again", setting.again), fixture(name).plain
+    o = whole(CASES[name].command, setting.folder + "/again", setting.again)
+    plain = fixture(name).plain
     assert o.code == 0 and o.out == plain.out and not differences(o.tree, plain.tree), \
         "%s: the same command twice differs: %s" % (name, differences(o.tree, plain.tree))
     sites, inner = setting.again.calls()
@@ -448,12 +464,13 @@ def list_calls(task):
 setting = argparse.Namespace()
 
 
-def begin(corot, library, folder):
-    """Of each worker. Its results repeat those of others where paths are in them: one home for all."""
+def begin(folder):
+    """Of each worker."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     setting.folder = "%s/w%d" % (folder, os.getpid())
     os.makedirs(setting.folder)
-    setting.state, setting.again = State(setting.folder + "/state"), State(setting.folder + "/state-again")
+    setting.state = State(setting.folder + "/state")
+    setting.again = State(setting.folder + "/state-again")
 
 
 def choose(listed, seed):
@@ -486,14 +503,16 @@ def symbols(where):
     addresses = [m.group(1) for m in (re.match(r"corot\+(0x[0-9a-f]+)", l) for l in lines) if m]
     if not addresses or not shutil.which("addr2line"):
         return lines
-    said = subprocess.run(["addr2line", "-f", "-e", setting.corot] + ["0x%x" % (int(a, 16) - 1) for a in addresses],
-                          capture_output=True, text=True).stdout
+    before = ["0x%x" % (int(a, 16) - 1) for a in addresses]
+    said = subprocess.run(["addr2line", "-f", "-e", setting.corot] + before, capture_output=True,
+                          text=True).stdout
     names = iter(said.split("\n")[::2])
     return [next(names, "?") if l.startswith("corot+") else l for l in lines]
 
 
 def read_options():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     for word in ("corot", "library", "folder"):
         parser.add_argument(word)
     parser.add_argument("--all", action="store_true")
@@ -507,12 +526,19 @@ def read_options():
 
 
 def choose_folder(folder):
-    """In memory where there is room: a trial makes and removes dozens of files and folders."""
+    """In memory where there is room: a trial makes and removes dozens of files and folders. What a
+    run that was killed has left is removed by the next."""
     memory = "/dev/shm"
-    if os.access(memory, os.W_OK):
+    try:
         room = os.statvfs(memory)
         if room.f_bavail * room.f_frsize > 40e6:
-            return tempfile.mkdtemp(prefix="corot-faults-", dir=memory)
+            mark = hashlib.blake2b(folder.encode(), digest_size=6).hexdigest()
+            quick = "%s/corot-faults-%d-%s" % (memory, os.getuid(), mark)
+            shutil.rmtree(quick, ignore_errors=True)
+            os.mkdir(quick, 0o700)
+            return quick
+    except OSError:
+        pass
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     return folder
@@ -527,31 +553,29 @@ class Report:
         self.tried[t.name, t.kind].add(t.k)
         if t.wrong:
             self.failed.setdefault("%s: %s" % (t.name, "; ".join(t.wrong)), []).append(t)
-        self.outcomes["failed" if t.wrong else "equal bytes" if t.code == 0 else "a message" if
-                      is_foreign(t.crash) < 1 else "a crash in a library"] += 1
+        what = "equal bytes" if t.code == 0 else "a message"
         if is_foreign(t.crash):
-            self.crashes[self.why(t.crash)] += 1
-
-    @staticmethod
-    def why(crash):
-        for pattern, why in KNOWN_CRASHES:
-            if re.search(pattern, crash):
-                return why
-        return "NEW: " + blamed(crash)
+            what = "a crash in a library"
+        self.outcomes["FAILED" if t.wrong else what] += 1
+        if is_foreign(t.crash):
+            self.crashes[culprit(t.crash)] += 1
 
     def show(self, listed, complete):
         for name, kind, sites, inner in listed:
             tried = self.tried[name, kind]
             covered = {sites[k - 1] for k in tried if k}
-            print("%-13s %-5s %6d calls (%d of other processes) of %4d sites; tried %6d of %4d" %
+            complete = complete and len(covered) == len(set(sites))
+            print("%-13s %-5s %6d calls, %5d of them of children, of %4d sites; "
+                  "tried %6d calls of %4d sites" %
                   (name, kind, len(sites), inner, len(set(sites)), len(tried), len(covered)))
-        print("%d trials: %s" % (sum(self.outcomes.values()),
-                                 ", ".join("%d %s" % (n, what) for what, n in self.outcomes.items())))
-        for why, n in self.crashes.most_common():
-            print("crash in a library, %d times: %s" % (n, why))
-        for pattern, why in KNOWN_CRASHES:
-            if complete and why not in self.crashes:
-                print("known crash that was never seen: %s" % why)
+        print("%d trials: %s" % (sum(self.outcomes.values()), ", ".join(
+            "%d %s" % (n, what) for what, n in self.outcomes.items())))
+        for (function, library), n in self.crashes.most_common():
+            print("%d crashes in %s of %s, %s" % (n, function, library, KNOWN_CRASHES.get(
+                function, "which is NEW: add it to KNOWN_CRASHES")))
+        for function, why in KNOWN_CRASHES.items():
+            if complete and function not in {f for f, _ in self.crashes}:
+                print("never seen: the crash in %s, which %s" % (function, why))
         for what, trials in self.failed.items():
             print("FAILED (%d times) %s" % (len(trials), what))
             for t in trials[:2]:
@@ -566,44 +590,51 @@ def main():
     a, began = read_options(), time.monotonic()
     setting.corot, setting.library = os.path.abspath(a.corot), os.path.abspath(a.library)
     folder = choose_folder(os.path.abspath(a.folder))
-    setting.folder, setting.home = folder + "/first", folder + "/home"
-    os.makedirs(setting.folder)
-    renew(setting.home, first_tree())
-    kinds, cases = [a.kind] if a.kind else list(KINDS), a.only or list(CASES)
-    for name in cases:
-        fixture(name)  # before the workers begin, which share it
-    with multiprocessing.Manager() as manager:
-        setting.repaired, setting.judged = manager.dict(), manager.dict()
-        report, complete = Report(), True
-        with multiprocessing.Pool(a.jobs, begin, (setting.corot, setting.library, folder)) as pool:
-            listed = pool.map(list_calls, [(name, kind) for name in cases for kind in kinds], 1)
-            if a.at:
-                work = [pool.imap_unordered(try_whole, [(c, kind, a.at) for c in cases for kind in kinds])]
-            else:
-                work = batches(pool, choose(listed, a.seed), a, began)
-            for batch in work:
-                for trials in batch:
-                    for t in trials:
-                        report.add(t)
-                        if a.at:
-                            print(t.code, t.err.decode(), *symbols(t.where), "crash:", *symbols(t.crash), sep="\n")
-    report.show(listed, not (a.only or a.kind or a.at))
+    try:
+        report = try_all(a, folder, began)
+    finally:
+        shutil.rmtree(folder)
     print("%.0f s" % (time.monotonic() - began))
-    shutil.rmtree(folder)
     return 1 if report.failed else 0
 
 
-def batches(pool, chunks, a, began):
+def try_all(a, folder, began):
+    setting.folder, setting.home = folder + "/first", folder + "/home"
+    os.makedirs(setting.folder)
+    renew(setting.home, first_tree())
+    tasks = [(name, kind) for name in a.only or CASES for kind in ([a.kind] if a.kind else KINDS)]
+    for name, _ in tasks:
+        fixture(name)  # before the workers begin, which share it
+    report, fork = Report(), multiprocessing.get_context("fork")
+    with fork.Manager() as manager:
+        setting.repaired, setting.judged = manager.dict(), manager.dict()
+        with fork.Pool(a.jobs, begin, (folder,)) as pool:
+            listed = pool.map(list_calls, tasks, 1)
+            if a.at:
+                results = pool.imap(try_whole, [task + (a.at,) for task in tasks])
+            else:
+                results = serve_all(pool, choose(listed, a.seed), a, began)
+            for trials in results:
+                for t in trials:
+                    report.add(t)
+                    if a.at:
+                        print("code %s: %s" % (t.code, t.err.decode("utf-8", "replace")))
+                        print(*symbols(t.where), "crash:", *symbols(t.crash), sep="\n")
+    report.show(listed, not (a.only or a.kind or a.at))
+    return report
+
+
+def serve_all(pool, chunks, a, began):
     """Results of a few servers at a time, so that it can end when its time is over."""
     waiting = collections.deque()
-    for n, (_, _, name, kind, ks) in enumerate(chunks):
+    for _, _, name, kind, ks in chunks:
         if not a.all and time.monotonic() - began > a.seconds:
             break
         waiting.append(pool.apply_async(serve, ((name, kind, ks),)))
         if len(waiting) > a.jobs:
-            yield [waiting.popleft().get()]
+            yield waiting.popleft().get()
     while waiting:
-        yield [waiting.popleft().get()]
+        yield waiting.popleft().get()
 
 
 if __name__ == "__main__":
