@@ -175,14 +175,10 @@ void corot_driver_on_error(SUN_ERROR_HANDLER_ARGUMENTS) {
     if (*p == '\n') *p = ' ';
 }
 
-/* What a failure of SUNDIALS comes to. Its packages have different numbers for want of memory, and
-   the same words. An integrator is there whenever it is asked for something: where ARKODE calls it
-   NULL, it is the copy of a table that it could not allocate. */
+/* What a failure of SUNDIALS comes to. */
 static corot_status meaning(const driver *d) {
   if (d->fatal) return d->fatal;
-  bool memory =
-      strstr(d->message, "memory request failed") || strstr(d->message, "_mem = NULL illegal");
-  return memory ? COROT_ENOMEM : COROT_EINTEGRATE;
+  return sun_says_no_memory(d->message) ? COROT_ENOMEM : COROT_EINTEGRATE;
 }
 
 corot_status corot_driver_refuse(const driver *d, const char *what) {
