@@ -15,9 +15,9 @@ Nothing may crash or hang, and what was there before stays as it was. Callbacks 
 failed by unit/test_seams.c, for each integrator and each linear solver.
 
 Which calls. A site is a call with its eight innermost callers. By default the last call of each
-site is failed, then the first, then one amid, then others at random, until S seconds are over; what
-was reached is printed. --all fails every single call, however long it takes. --at K fails the K-th
-call of one case and says what happened.
+site is failed (first of those that no command before has), then the first call, then one amid, then
+others at random, until S seconds are over; what was reached is printed. --all fails every single
+call, however long it takes. --at K fails the K-th call of one case and says what happened.
 
 How it is quick. The program runs once for many trials, and forks before each call that is to fail
 (faults.c). An outcome that was judged before is not judged again: what repairs a folder depends on
@@ -282,9 +282,18 @@ def judge_rest(case, before, plain, o):
     return wrong
 
 
+def essence(tree):
+    """A digest of what can matter to another process: why a run failed is but a text to it."""
+    kept = {name: text for name, text in tree.items() if is_result(name)}
+    for name, text in kept.items():
+        if os.path.basename(name) in ("result.json", "failure.json"):
+            if b'"status": "ok"' not in text:
+                kept[name] = re.sub(rb'"reason": ".*"', b"", text)
+    return digest(kept)
+
+
 def judge_repair(case, plain, o):
-    tree = {name: text for name, text in o.tree.items() if is_result(name)}
-    key = case.command, digest(tree)
+    key = case.command, essence(o.tree)
     if key not in setting.repaired:
         renew(setting.folder + "/again", o.tree)
         setting.again.reset(OFF)
@@ -365,14 +374,10 @@ Trial = collections.namedtuple("Trial", "name kind k code err where crash wrong"
 
 def key_of(o, crash, inner):
     """Outcomes of one key are judged alike."""
-    tree = {name: text for name, text in o.tree.items() if is_result(name)}
-    if inner:  # why a run failed is but a text to the study
-        for name, text in tree.items():
-            if os.path.basename(name) == "result.json" and b'"status": "ok"' not in text:
-                tree[name] = re.sub(rb'"reason": ".*"', b"", text)
     words = [word in o.err for word in (b"standard output", b"killed by signal")]
-    return (inner, o.code, digest({"out": o.out}), bool(o.err.strip()), tuple(words), digest(tree),
-            is_foreign(crash), crash and blamed(crash) if inner else "")
+    where = crash and blamed(crash) if inner else is_foreign(crash)
+    said = digest({"": o.out}), bool(o.err.strip()), tuple(words)
+    return inner, o.code, said, essence(o.tree), where
 
 
 def judge_once(name, kind, k, o, crash, inner):
@@ -443,9 +448,10 @@ def serve(task):
     os.close(reports)
     os.close(answers)
     o, plain = read_outcome(folder + "/main", process.returncode), fixture(name).plain
-    if (o.code, o.out) != (0, plain.out) or differences(o.tree, plain.tree) or len(trials) != len(ks):
+    different = differences(o.tree, plain.tree)
+    if (o.code, o.out, len(trials)) != (0, plain.out, len(ks)) or different:
         wrong = ["the server was disturbed: code %s, %d of %d trials, %s: %s" % (
-            o.code, len(trials), len(ks), differences(o.tree, plain.tree), o.err[:300])]
+            o.code, len(trials), len(ks), different, o.err[:300])]
         trials.append(Trial(name, kind, 0, o.code, o.err, "", "", wrong))
     return trials
 
@@ -476,25 +482,24 @@ def begin(folder):
 
 def choose(listed, seed):
     """Rounds of trials, as they are worth: (round, part of it, name, kind, calls)."""
-    chunks = []
+    chunks, known = [], set()
     for name, kind, sites, _ in listed:
         of = collections.defaultdict(list)
         for k, site in enumerate(sites, 1):
             of[site].append(k)
-        rounds = [{ks[-1] for ks in of.values()}, {ks[0] for ks in of.values()},
-                  {ks[len(ks) // 2] for ks in of.values()}]
         others = list(range(1, len(sites) + 1))
         random.Random("%s %s %s" % (seed, name, kind)).shuffle(others)
-        rounds += [others]
+        rounds = [[ks[-1] for site, ks in of.items() if site not in known],
+                  [ks[-1] for ks in of.values()], [ks[0] for ks in of.values()],
+                  [ks[len(ks) // 2] for ks in of.values()], others]
+        known.update(of)
         done = set()
         for i, ks in enumerate(rounds):
-            ks = [k for k in (ks if i == 3 else sorted(ks)) if k not in done]
+            ks = [k for k in ks if k not in done]
             done.update(ks)
-            parts = max(1, -(-len(ks) // CHUNK))
+            parts = -(-len(ks) // CHUNK)
             for part in range(parts):
-                some = sorted(ks[part::parts])
-                if some:
-                    chunks.append((i, part / parts, name, kind, some))
+                chunks.append((i, part / parts, name, kind, sorted(ks[part::parts])))
     return sorted(chunks)
 
 
@@ -562,15 +567,19 @@ class Report:
             self.crashes[culprit(t.crash)] += 1
 
     def show(self, listed, complete):
+        everything, reached = set(), set()
         for name, kind, sites, inner in listed:
             tried = self.tried[name, kind]
             covered = {sites[k - 1] for k in tried if k}
+            everything.update(sites)
+            reached.update(covered)
             complete = complete and len(covered) == len(set(sites))
             print("%-13s %-5s %6d calls, %5d of them of children, of %4d sites; "
                   "tried %6d calls of %4d sites" %
                   (name, kind, len(sites), inner, len(set(sites)), len(tried), len(covered)))
-        print("%d trials: %s" % (sum(self.outcomes.values()), ", ".join(
-            "%d %s" % (n, what) for what, n in self.outcomes.items())))
+        print("%d trials at %d of %d sites (a site may occur in several commands): %s" % (
+            sum(self.outcomes.values()), len(reached), len(everything),
+            ", ".join("%d %s" % (n, what) for what, n in self.outcomes.items())))
         for (function, library), n in self.crashes.most_common():
             print("%d crashes in %s of %s, %s" % (n, function, library, KNOWN_CRASHES.get(
                 function, "which is NEW: add it to KNOWN_CRASHES")))
