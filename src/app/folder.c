@@ -47,6 +47,12 @@ char *folder_path(const char *dir, const char *name) {
   return path;
 }
 
+corot_status folder_look(const char *path, bool *there) {
+  *there = access(path, F_OK) == 0;
+  if (*there || errno == ENOENT || errno == ENOTDIR) return COROT_OK;
+  return corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+}
+
 char *folder_default(const char *path, const char *suffix) {
   const char *slash = strrchr(path, '/');
   const char *name = slash ? slash + 1 : path;

@@ -3,6 +3,7 @@
 #define COROT_APP_FOLDER_H
 
 #include <corot/base.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Makes the folder and those above it; one that exists is fine. */
@@ -14,6 +15,9 @@ corot_status folder_clean(const char *dir);
 
 /* "DIR/NAME", the caller's to free; NULL where memory ran out (the message is set). */
 char *folder_path(const char *dir, const char *name);
+
+/* Whether something of that name is there: COROT_EIO where the system does not say. */
+corot_status folder_look(const char *path, bool *there);
 
 /* Where results go if nothing is said: "out/NAMESUFFIX" for "some/folder/NAME.yaml"; the caller's
    to free, NULL as above. */

@@ -33,7 +33,10 @@ static corot_status add(const char *dir, const char *name, json_t *list, bool *f
   struct stat info;
   json_t *entry = NULL;
   corot_status status = COROT_OK;
-  *found = lstat(path, &info) == 0 && S_ISREG(info.st_mode);
+  bool there = lstat(path, &info) == 0;
+  if (!there && errno != ENOENT && errno != ENOTDIR)
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+  *found = there && S_ISREG(info.st_mode);
   int fd = *found ? open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC) : -1;
   if (*found && fd < 0)
     status = corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
@@ -94,7 +97,9 @@ static corot_status check_one(const char *dir, const json_t *file, bool contents
   struct stat info;
   corot_status status = COROT_OK;
   *there = stat(path, &info) == 0;
-  if (!*there)
+  if (!*there && errno != ENOENT && errno != ENOTDIR)
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+  else if (!*there)
     status = corot_fail(COROT_EFORMAT, "%s: result.json lists it, and it is not there", path);
   else if (info.st_size != (off_t)size)
     status = corot_fail(COROT_EFORMAT, "%s: has %lld bytes where result.json says %lld", path,

@@ -11,8 +11,8 @@
 corot_status folder_files(const char *dir, json_t **list);
 
 /* Whether they are there and of the size that result.json says: COROT_EFORMAT names the first that
-   is not. A result without a list of files is taken at its word. Their contents are not read: what
-   a failure of power leaves is empty or cut. */
+   is not, COROT_EIO what the system does not show. A result without a list of files is taken at its
+   word. Their contents are not read: what a failure of power leaves is empty or cut. */
 corot_status folder_check(const char *dir, const json_t *result);
 
 /* The same, and that their contents are what they were; all of them are read, at some 250 MB/s. */

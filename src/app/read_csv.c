@@ -1,12 +1,10 @@
 #include "read_csv.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/reader.h"
 #include "escape.h"
@@ -114,14 +112,13 @@ corot_status csv_read(const char *dir, const char *name, csv *table) {
 corot_status csv_read_if_there(const char *dir, const char *name, csv *table) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
-  bool there = access(path, F_OK) == 0, absent = !there && (errno == ENOENT || errno == ENOTDIR);
-  corot_status status = COROT_OK;
-  if (!there && !absent)
-    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+  bool there;
+  corot_status status = folder_look(path, &there);
   free(path);
+  COROT_TRY(status);
   if (there) return csv_read(dir, name, table);
-  if (absent) *table = (csv){0};
-  return status;
+  *table = (csv){0};
+  return COROT_OK;
 }
 
 int csv_find(const csv *t, const char *name) {

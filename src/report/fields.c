@@ -3,7 +3,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/reader.h"
 #include "folder.h"
@@ -134,9 +133,10 @@ static corot_status read_first(fields *f) {
 static corot_status read_list(fields *f) {
   char *path = folder_path(f->dir, "fields.pvd");
   if (!path) return COROT_ENOMEM;
-  corot_status status = COROT_OK;
+  bool there;
   size_t size;
-  if (access(path, F_OK) == 0) {
+  corot_status status = folder_look(path, &there);
+  if (status == COROT_OK && there) {
     status = corot_file_load(path, &f->text, &size);
     if (status == COROT_OK) status = parse_list(f, path);
   }

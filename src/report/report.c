@@ -2,7 +2,6 @@
 
 #include <stdbool.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "budget.h"
 #include "folder.h"
@@ -13,9 +12,9 @@
 static corot_status has(const char *dir, const char *name, bool *there) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
-  *there = access(path, F_OK) == 0;
+  corot_status status = folder_look(path, there);
   free(path);
-  return COROT_OK;
+  return status;
 }
 
 corot_status report_write(const char *dir, const char *path) {

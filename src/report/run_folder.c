@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "folder.h"
 #include "folder_files.h"
@@ -26,8 +25,10 @@ void run_folder_free(run_folder *f) {
 static corot_status read_if_there(const char *dir, const char *name, json_t **document) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
-  int there = access(path, F_OK) == 0;
+  bool there;
+  corot_status status = folder_look(path, &there);
   free(path);
+  COROT_TRY(status);
   return there ? lookup_read(dir, name, document) : COROT_OK;
 }
 

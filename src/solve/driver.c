@@ -175,18 +175,18 @@ void corot_driver_on_error(SUN_ERROR_HANDLER_ARGUMENTS) {
     if (*p == '\n') *p = ' ';
 }
 
-/* Where SUNDIALS gives no reason, it did not get its memory. */
-/* What a failure of SUNDIALS comes to. Its packages have different numbers for want of memory, and
-   the same words. */
+/* What a failure of SUNDIALS comes to. */
 static corot_status meaning(const driver *d) {
   if (d->fatal) return d->fatal;
-  return strstr(d->message, "memory request failed") ? COROT_ENOMEM : COROT_EINTEGRATE;
+  return sun_says_no_memory(d->message) ? COROT_ENOMEM : COROT_EINTEGRATE;
 }
 
 corot_status corot_driver_refuse(const driver *d, const char *what) {
   if (d->fatal) return corot_driver_give_up(d, what);
-  return corot_fail(d->message[0] ? meaning(d) : COROT_ENOMEM, "%s: %s: %s",
-                    d->self->ops->kind.name, what, d->message[0] ? d->message : "out of memory");
+  /* where SUNDIALS gives no reason, it did not get its memory */
+  corot_status status = d->message[0] ? meaning(d) : COROT_ENOMEM;
+  return corot_fail(status, "%s: %s: %s", d->self->ops->kind.name, what,
+                    status == COROT_ENOMEM ? "out of memory" : d->message);
 }
 
 /* Whether a trial of the last few steps met a state that cannot be evaluated. */

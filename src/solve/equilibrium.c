@@ -188,6 +188,12 @@ static corot_status measure_stiffness(equilibrium *e) {
   return COROT_OK;
 }
 
+static corot_status refuse_setup(const equilibrium *e) {
+  if (!e->reason[0] || sun_says_no_memory(e->reason))
+    return corot_fail(COROT_ENOMEM, "kinsol: set-up: out of memory");
+  return corot_fail(COROT_EINTEGRATE, "kinsol: set-up: %s", e->reason);
+}
+
 static corot_status open_kinsol(equilibrium *e) {
   e->u_scale = N_VClone(e->u);
   e->f_scale = N_VClone(e->u);
@@ -204,8 +210,7 @@ static corot_status open_kinsol(equilibrium *e) {
       KINSetLinearSolver(m, e->LS, e->A) || KINSetJacFn(m, jacobian) || KINSetMaxSetupCalls(m, 1) ||
       KINSetNoResMon(m, 1) || KINSetNumMaxIters(m, e->def->max_iterations) ||
       KINSetMaxNewtonStep(m, fmax(1, sqrt(e->n))) || KINSetScaledStepTol(m, 4 * DBL_EPSILON))
-    return corot_fail(COROT_EINTEGRATE, "kinsol: set-up: %s",
-                      e->reason[0] ? e->reason : "out of memory");
+    return refuse_setup(e);
   return COROT_OK;
 }
 

@@ -22,6 +22,7 @@
 
 #include <corot/base.h>
 #include <stdbool.h>
+#include <string.h>
 
 #include "solve/sun_compat.h"
 
@@ -39,6 +40,13 @@ static inline int sun_callback_code(corot_status status) {
 static inline int sun_solve_code(corot_status status) {
   if (status == COROT_ENOMEM) return SUN_SOLVE_NO_MEMORY;
   return sun_is_fatal(status) ? SUN_SOLVE_FATAL : status ? SUNLS_CONV_FAIL : 0;
+}
+
+/* Whether SUNDIALS' own words on a failure mean want of memory: its packages have different numbers
+   for that, and the same words. An integrator is there whenever it is asked for something: where
+   ARKODE calls it NULL, it is the copy of a table that it could not allocate. */
+static inline bool sun_says_no_memory(const char *message) {
+  return strstr(message, "memory request failed") || strstr(message, "_mem = NULL illegal");
 }
 
 #endif

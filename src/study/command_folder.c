@@ -102,6 +102,8 @@ int command_study_csv(int argc, char **argv) {
   FILE *file = fopen(path, "re");
   if (!file) code = failure(corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno)));
   for (int c; file && (c = getc(file)) != EOF;) putchar(c);
+  if (file && ferror(file))
+    code = failure(corot_fail(COROT_EIO, "%s: cannot be read: %s", path, strerror(errno)));
   if (file) fclose(file);
   free(path);
   return code < 0 ? EXIT_OK : code;

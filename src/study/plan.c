@@ -4,6 +4,7 @@
 #include <app/hash.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -296,12 +297,20 @@ static corot_status identify(const study *s, char digest[HASH_SIZE]) {
   return COROT_OK;
 }
 
+static corot_status find_base(const study *s, char **base) {
+  *base = realpath(s->base, NULL);
+  if (*base) return COROT_OK;
+  if (errno == ENOENT || errno == ENOTDIR)
+    return config_fail(s->base_node, "%s: cannot be found", s->base);
+  if (errno == ENOMEM) return no_memory();
+  return corot_fail(COROT_EIO, "%s: cannot be looked at: %s", s->base, strerror(errno));
+}
+
 static corot_status finish(planner *p, manifest **out) {
   const study *s = p->study;
-  char digest[HASH_SIZE];
+  char digest[HASH_SIZE], *base;
   COROT_TRY(identify(s, digest));
-  char *base = realpath(s->base, NULL);
-  if (!base) return config_fail(s->base_node, "%s: cannot be found", s->base);
+  COROT_TRY(find_base(s, &base));
   json_t *path = json_text_string(base);
   free(base);
   json_t *root =

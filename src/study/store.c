@@ -32,11 +32,9 @@ static corot_status read_own(const char *dir, const study_run *run, const char *
   char *path = store_path(dir, run, name);
   if (!path) return COROT_ENOMEM;
   json_t *json = NULL;
-  corot_status status = COROT_OK;
-  if (access(path, F_OK) == 0)
-    status = json_file_read(path, &json);
-  else if (errno != ENOENT && errno != ENOTDIR)
-    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+  bool there;
+  corot_status status = folder_look(path, &there);
+  if (status == COROT_OK && there) status = json_file_read(path, &json);
   free(path);
   if (status == COROT_ENOMEM || status == COROT_EIO) return status;
   const json_t *hash = json_object_get(json, "hash");
@@ -77,8 +75,8 @@ static corot_status look_at_files(const char *dir, const study_run *run, json_t 
   if (status == COROT_OK) {
     record->state = RUN_DONE;
     record->result = json_incref(result);
-  } else if (status == COROT_EIO || status == COROT_EFORMAT) {
-    record->damaged = status == COROT_EFORMAT;
+  } else if (status == COROT_EFORMAT) {
+    record->damaged = true;
     record->reason = strdup(corot_error());
     status = record->reason ? COROT_OK : no_memory();
   }

@@ -76,10 +76,11 @@ static corot_status permit_files(const char *dir) {
 static corot_status read_owner(const char *dir, bool force, manifest **owner) {
   char *path = folder_path(dir, "study.json");
   if (!path) return COROT_ENOMEM;
-  corot_status status = COROT_OK;
+  bool there;
   *owner = NULL;
-  if (access(path, F_OK) == 0) status = manifest_read(dir, owner);
+  corot_status status = folder_look(path, &there);
   free(path);
+  if (status == COROT_OK && there) status = manifest_read(dir, owner);
   if (status != COROT_OK && status != COROT_EFORMAT) return status;
   if (!*owner && !force) COROT_TRY(permit_files(dir));
   return force ? COROT_OK : folder_permit_page(dir);

@@ -2,6 +2,7 @@
 
 #include <app/escape.h>
 #include <app/json_text.h>
+#include <app/no_memory.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -128,15 +129,17 @@ static double number_at(const json_t *object, const char *key) {
   return json_number_value(json_object_get(object, key));
 }
 
-static void print_references(const json_t *list, FILE *out) {
+static corot_status print_references(const json_t *list, FILE *out) {
   if (json_array_size(list) > 0) fputs("\nreferences\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *r = json_array_get(list, i);
     char *settings = json_text_dump_plain(json_object_get(r, "settings"), JSON_REAL_PRECISION(6));
+    if (!settings && json_object_get(r, "settings")) return no_memory();
     fprintf(out, "  %s, rtol %.2g: %s\n", settings ? settings : "-", number_at(r, "rtol"),
             text_at(r, "note"));
     free(settings);
   }
+  return COROT_OK;
 }
 
 static void print_space(const json_t *list, FILE *out) {
@@ -203,7 +206,7 @@ corot_status table_print(const json_t *table, FILE *out) {
     fprintf(out, "\n%s\n", text_at(table, "shared"));
   if (json_is_string(json_object_get(table, "mixed")))
     fprintf(out, "\n%s\n", text_at(table, "mixed"));
-  print_references(json_object_get(table, "references"), out);
+  COROT_TRY(print_references(json_object_get(table, "references"), out));
   print_space(json_object_get(table, "space"), out);
   print_fits(json_object_get(table, "fits"), out);
   print_rankings(table, out);

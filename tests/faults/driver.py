@@ -1,7 +1,7 @@
 """Fails one call after another of corot's whole process, and judges what comes of it.
 
-usage: driver.py COROT LIBRARY FOLDER [--all] [--trials N] [--seconds S] [--jobs N] [--only CASE]
-                 [--kind KIND] [--at K] [--seed N]
+usage: driver.py COROT LIBRARY FOLDER [--all] [--seconds S] [--jobs N] [--only CASE] [--kind KIND]
+                 [--at K] [--seed N]
 
 Of each command on a tiny scenario each allocation (kind "alloc") and each call that reads, writes,
 lists, locks or starts something (kind "io") is refused once: libraries and children included, see
@@ -11,20 +11,41 @@ faults.c. Accepted are but two outcomes:
   * a non-zero exit code, a message on stderr, no result on the disk that says "ok" though it is not
     what it would be without; and the same command, once more, repairs everything.
 
-Nothing may crash or hang, and what was there before stays as it was.
+Nothing may crash or hang, and what was there before stays as it was. Callbacks of SUNDIALS are
+failed by unit/test_seams.c, for each integrator and each linear solver.
 
-By default calls are failed of different places in the program (by their back-traces): the first and
-the last call of each, N of them in an order that --seed gives, as far as S seconds allow; --all fails
-every single call. --at K fails the K-th call of
-one case and says what happened.
+Which calls. A site is a call with its eight innermost callers. By default the last call of each
+site is failed (first of those that no command before has), then the first call, then one amid, then
+others at random, until S seconds are over; what was reached is printed. --all fails every single
+call, however long it takes. --at K fails the K-th call of one case and says what happened.
+
+How it is quick. The program runs once for many trials, and forks before each call that is to fail
+(faults.c). An outcome that was judged before is not judged again: what repairs a folder depends on
+nothing but the folder. Of a process that a study has started only how it ends and what it leaves
+can matter to the study, so that one trial of the whole study stands for all failures in the process
+that agree in this.
+
+Crashes. A library of someone else's may not bear a refused allocation: no caller can help it, it
+differs from version to version, and a crash leaves no wrong answer behind. A process that is ended
+by a signal inside a library (the innermost frame that is not the C library's lies there) is
+therefore excused from this one complaint, and listed, by function; the folder is judged all the
+same. A crash in a function of corot's own is a failure.
 """
-import argparse, collections, json, mmap, multiprocessing, os, random, re, shutil, signal, struct
-import subprocess, sys, time
+import argparse, collections, functools, hashlib, json, mmap, multiprocessing, os, random, re
+import select, shutil, signal, struct, subprocess, sys, tempfile, threading, time
 
 KINDS = {"alloc": 1, "io": 2}
-MOST_SITES, WHERE = 1 << 17, 8192
-STATE_SIZE = 4 * 8 + WHERE + 8 * MOST_SITES  # as in faults.c
-TIME_LIMIT = 60  # for what hangs: a trial takes less than a second
+OFF, RECORD, FAIL, SERVE = range(4)
+MOST_CALLS, WHERE = 1 << 17, 8192  # as in faults.c
+NUMBERS = struct.Struct("7q")      # mode, kind, at, count, fired, root, trial
+AT_WHERE = NUMBERS.size
+AT_CRASH = AT_WHERE + WHERE
+AT_SITE = AT_CRASH + WHERE
+AT_PROCESS = AT_SITE + 8 * MOST_CALLS
+AT_WANTED = AT_PROCESS + 4 * MOST_CALLS
+TO_DRIVER, FROM_DRIVER = 900, 901
+TIME_LIMIT = 30  # for what hangs: a trial takes less than a second
+CHUNK = 150      # trials of one server
 
 MODEL = """\
 title: a block under a shear load
@@ -73,108 +94,152 @@ CASES = {
     "budget-again": Case("budget", "budget model.yaml -o out/budget -j 1 --skip space", True),
 }
 
-# Libraries that crash where memory fails, and corot cannot help it: a pattern in the back-trace of
-# the refused call, and why. Only a crash is excused, never a wrong answer.
-KNOWN_CRASHES = [
-    (r"libfyaml\S* fy_parse_input_append",
-     "libfyaml 0.7.12 uses an input it could not allocate (fy_parse_input_append)"),
-    (r"libsundials\S* ARKodeButcherTable_Load",
-     "SUNDIALS 6.4 fills a table it could not allocate (ARKodeButcherTable_LoadDIRK)"),
-    (r"libsundials\S* SUNLogger_Create",
-     "SUNDIALS 6.4 uses a logger it could not allocate (SUNLogger_Create)"),
-    (r"libsundials\S* N_VClone",
-     "SUNDIALS 6.4 uses the clone of a vector it could not allocate (N_VClone)"),
-]
+# Crashes of libraries that corot cannot help: the innermost function of the library that has a
+# name. They are excused as any crash in a library is, but not news; what is never seen in a whole
+# run is reported, so that it can go. SUNDIALS 6.4 and libfyaml 0.7.12, of Debian 12.
+KNOWN_CRASHES = {
+    "fy_parse_input_append": "uses an input that it could not allocate",
+    "N_VClone": "uses the clone of a vector that it could not allocate",
+    "arkAllocVec": "uses the clone of a vector that it could not allocate",
+    "ARKodeButcherTable_LoadDIRK": "fills a table that it could not allocate",
+    "SUNLogger_Create": "uses a logger that it could not allocate",
+    "SUNLogger_Destroy": "releases a map of a logger that it could not allocate",
+}
 
-Outcome = collections.namedtuple("Outcome", "code out err fired where tree")
+Outcome = collections.namedtuple("Outcome", "code out err tree")
 
 
-class Place:
-    """A folder of one worker, in which trials take place one after the other."""
+class State:
+    """What is shared with the processes of a trial: struct state of faults.c."""
 
-    def __init__(self, corot, library, folder):
-        self.corot, self.library, self.root = corot, library, folder
-        self.work = os.path.join(folder, "work")
-        self.fixture = {}  # case: (the folder before it, its tree, the outcome without a failure)
-        shutil.rmtree(folder, ignore_errors=True)
-        os.makedirs(folder)
-        with open(os.path.join(folder, "state"), "wb") as f:
-            f.truncate(STATE_SIZE)
-        self.file = open(os.path.join(folder, "state"), "r+b")
-        self.state = mmap.mmap(self.file.fileno(), STATE_SIZE)
+    def __init__(self, path):
+        self.path = path
+        with open(path, "wb") as f:
+            f.truncate(AT_WANTED + MOST_CALLS)
+        with open(path, "r+b") as f:
+            self.map = mmap.mmap(f.fileno(), 0)
 
-    def run(self, command, kind, at, folder=None):
-        self.state[: 32 + WHERE] = struct.pack("4q", KINDS.get(kind, 0), at, 0, 0) + bytes(WHERE)
-        environment = {name: value for name, value in os.environ.items() if "OMP" not in name}
-        environment.update(LD_PRELOAD=self.library, FAULTS_STATE=os.path.join(self.root, "state"),
-                           OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", LC_ALL="C")
-        process = subprocess.Popen([self.corot] + command.split(), cwd=folder or self.work, env=environment,
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, start_new_session=True)
-        try:
-            out, err = process.communicate(timeout=TIME_LIMIT)
-            code = process.returncode
-        except subprocess.TimeoutExpired:
-            code = "hangs"
-        finally:
-            try:
-                os.killpg(process.pid, signal.SIGKILL)  # children that outlive it, too
-            except ProcessLookupError:
-                pass
-        if code == "hangs":
-            out, err = process.communicate()
-        fired = struct.unpack_from("q", self.state, 24)[0]
-        where = bytes(self.state[32 : 32 + WHERE]).split(b"\0")[0].decode("utf-8", "replace")
-        return Outcome(code, out, err, fired, where, read_tree(folder or self.work))
+    def reset(self, mode, kind=None, at=0, wanted=()):
+        NUMBERS.pack_into(self.map, 0, mode, KINDS.get(kind, 0), at, 0, 0, 0, 0)
+        self.map[AT_WHERE], self.map[AT_CRASH] = 0, 0
+        self.map[AT_WANTED:] = bytes(MOST_CALLS)
+        for k in wanted:
+            self.map[AT_WANTED + k - 1] = 1
 
-    def sites(self):
-        count = struct.unpack_from("q", self.state, 16)[0]
-        assert count <= MOST_SITES, count
-        return struct.unpack_from("%dQ" % count, self.state, 32 + WHERE)
+    def number(self, name):
+        return NUMBERS.unpack_from(self.map, 0)[
+            ("mode", "kind", "at", "count", "fired", "root", "trial").index(name)]
 
-    def prepare(self, name):
-        """What a case begins with, and what comes of it where nothing fails."""
-        if name in self.fixture:
-            return self.fixture[name]
-        case = CASES[name]
-        before = os.path.join(self.root, "before-" + name)
-        self.renew(before, None)
-        if case.before:
-            self.prepare(case.before)
-            self.renew(self.work, self.fixture[case.before][0])
-            self.run(CASES[case.before].command, None, 0)
-            self.renew(before, self.work)
-        else:
-            for file, text in ("model.yaml", MODEL), ("study.yaml", STUDY), ("theirs.txt", "keep\n"), \
-                    ("out/report.html", "keep\n"), ("out/result.json", "keep\n"):
-                path = os.path.join(before, file)
-                os.makedirs(os.path.dirname(path), exist_ok=True)
-                open(path, "w").write(text)
-        self.renew(self.work, before)
-        plain = self.run(case.command, None, 0)
-        assert plain.code == 0, (name, plain.code, plain.err)
-        self.fixture[name] = before, read_tree(before), plain
-        return self.fixture[name]
+    def text(self, at):
+        return self.map[at : self.map.find(b"\0", at)].decode("utf-8", "replace")
 
-    @staticmethod
-    def renew(folder, source):
-        shutil.rmtree(folder, ignore_errors=True)
-        shutil.copytree(source, folder) if source else os.makedirs(folder)
+    where = property(lambda self: self.text(AT_WHERE))
+    crash = property(lambda self: self.text(AT_CRASH))
+
+    def calls(self):
+        """Of each call its site, and whether a process that the first one started made it."""
+        count, root = self.number("count"), self.number("root")
+        assert count <= MOST_CALLS, count
+        return (struct.unpack_from("%dQ" % count, self.map, AT_SITE),
+                [p != root for p in struct.unpack_from("%di" % count, self.map, AT_PROCESS)])
+
+
+# --- Processes and their folders ---
+
+def environment(state, home):
+    kept = {name: value for name, value in os.environ.items() if "OMP" not in name}
+    return dict(kept, LD_PRELOAD=setting.library, FAULTS_STATE=state.path, FAULTS_HOME=home,
+                OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", LC_ALL="C")
+
+
+def start(command, folder, state, **more):
+    """In folder/work, with stdout and stderr in folder."""
+    with open(folder + "/stdout", "wb") as out, open(folder + "/stderr", "wb") as err:
+        return subprocess.Popen([setting.corot] + command.split(), cwd=folder + "/work",
+                                env=environment(state, setting.home), stdin=subprocess.DEVNULL,
+                                stdout=out, stderr=err, start_new_session=True, **more)
+
+
+def end_group(pid):
+    try:
+        os.killpg(pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
+def whole(command, folder, state):
+    """The outcome of one process, from its start."""
+    process, hung = start(command, folder, state), []
+    limit = threading.Timer(TIME_LIMIT, lambda: (hung.append(True), end_group(process.pid)))
+    limit.start()
+    code = process.wait()
+    limit.cancel()
+    end_group(process.pid)  # children that outlive it, too
+    return read_outcome(folder, "hangs" if hung else code)
+
+
+def read(path):
+    with open(path, "rb") as f:
+        return f.read()
+
+
+def read_outcome(folder, code):
+    return Outcome(code, read(folder + "/stdout"), read(folder + "/stderr"),
+                   read_tree(folder + "/work"))
 
 
 def read_tree(folder):
-    tree = {}
+    tree, beyond = {}, len(folder) + 1
     for where, _, files in os.walk(folder):
         for file in files:
-            path = os.path.join(where, file)
-            tree[os.path.relpath(path, folder)] = open(path, "rb").read()
+            path = where + "/" + file
+            tree[path[beyond:]] = read(path)
     return tree
 
 
+def renew(folder, tree):
+    """A folder with what `tree` says in folder/work."""
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder + "/work")
+    for name, text in tree.items():
+        path = folder + "/work/" + name
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "wb") as f:
+            f.write(text)
+
+
+# --- What a case is without a failure ---
+
+Fixture = collections.namedtuple("Fixture", "before plain")
+
+
+def first_tree():
+    texts = {"model.yaml": MODEL, "study.yaml": STUDY, "theirs.txt": "keep\n",
+             "out/report.html": "keep\n", "out/result.json": "keep\n"}
+    return {name: text.encode() for name, text in texts.items()}
+
+
+@functools.lru_cache(None)
+def fixture(name):
+    case = CASES[name]
+    before = fixture(case.before).plain.tree if case.before else first_tree()
+    renew(setting.folder + "/again", before)
+    state = State(setting.folder + "/state")
+    state.reset(OFF)
+    plain = whole(case.command, setting.folder + "/again", state)
+    assert plain.code == 0, (name, plain.code, plain.err)
+    return Fixture(before, plain)
+
+
+# --- Judgement ---
+
+def is_result(name):
+    """What a run said, which may stay, and the lock of one that crashed are none."""
+    return os.path.basename(name) not in ("messages.txt", ".lock-run", ".lock")
+
+
 def differences(a, b):
-    """Of results: what a run said, which may stay in messages.txt, is not one."""
-    return sorted(name for name in a.keys() | b.keys() if a.get(name) != b.get(name)
-                  and os.path.basename(name) != "messages.txt")
+    return sorted(n for n in a.keys() | b.keys() if a.get(n) != b.get(n) and is_result(n))
 
 
 def is_ok(text):
@@ -184,41 +249,72 @@ def is_ok(text):
         return False
 
 
-def judge_failure(case, before, plain, o):
-    """Of what ended with a message: what is wrong with what it left."""
+def judge_failure(case, kind, before, plain, o):
+    """Of what ended with a message: what is wrong with it and with what it left."""
     wrong = []
     if not o.err.strip():
         wrong.append("exit code %s without a message" % o.code)
-    if o.code not in (1, 2, 3, 4, 5):
+    # 5: the system refused; 1: some of several runs failed; 3: a scenario cannot be read
+    if o.code not in (5,) + (1,) * case.several + (3,) * (kind == "io"):
         wrong.append("exit code %s" % o.code)
+    return wrong + judge_rest(case, before, plain, o)
+
+
+def judge_rest(case, before, plain, o):
+    """What says "ok" though it should not."""
+    wrong = []
     for name, text in o.tree.items():
         if os.path.basename(name) != "result.json" or not is_ok(text) or before.get(name) == text:
             continue
         folder = os.path.dirname(name) + "/"
         part = {n for n in plain.tree if n.startswith(folder) and "timed/" not in n[len(folder):]
-                and os.path.basename(n) != "messages.txt"}
-        different = [n for n in part if n in o.tree and o.tree[n] != plain.tree[n] or n not in o.tree
-                     and os.path.basename(n) not in ("timings.json", "report.html")]
+                and is_result(n)}
+        may_lack = ("timings.json", "report.html")
+        different = [n for n in part if n in o.tree and o.tree[n] != plain.tree[n]
+                     or n not in o.tree and os.path.basename(n) not in may_lack]
         if not case.several and b"standard output" in o.err:
             if differences(o.tree, plain.tree):  # it was complete before that failed
                 wrong.append("standard output failed, and other files")
-        elif not case.several:
+        elif not case.several and o.code > 0:
             wrong.append("exit code %s beside ok in %s" % (o.code, name))
         elif different:
             wrong.append("ok in %s beside other files: %s" % (name, ", ".join(different)))
     return wrong
 
 
-def judge(place, name, o):
-    """What is wrong with an outcome: a list of sentences."""
+def essence(tree):
+    """A digest of what can matter to another process: why a run failed is but a text to it."""
+    kept = {name: text for name, text in tree.items() if is_result(name)}
+    for name, text in kept.items():
+        if os.path.basename(name) in ("result.json", "failure.json"):
+            if b'"status": "ok"' not in text:
+                kept[name] = re.sub(rb'"reason": ".*"', b"", text)
+    return digest(kept)
+
+
+def judge_repair(case, plain, o):
+    key = case.command, essence(o.tree)
+    if key not in setting.repaired:
+        renew(setting.folder + "/again", o.tree)
+        setting.again.reset(OFF)
+        again = whole(case.command, setting.folder + "/again", setting.again)
+        wrong = []
+        if again.code != 0:
+            wrong = ["not repaired: exit code %s: %s" % (again.code, again.err[:200])]
+        elif differences(again.tree, plain.tree):
+            wrong = ["not repaired: " + ", ".join(differences(again.tree, plain.tree))]
+        setting.repaired[key] = wrong
+    return setting.repaired[key]
+
+
+def judge(name, kind, o, crash):
+    """What is wrong with an outcome: a list of sentences. Whether a crash is excused: see above."""
     case = CASES[name]
-    before, tree, plain = place.prepare(name)
-    wrong = ["%s was changed" % n for n in tree if n.startswith(("model", "study", "theirs", "out/re"))
-             and o.tree.get(n) != tree[n]]
+    before, plain = fixture(name)
+    wrong = ["%s was changed" % n for n in before
+             if n.startswith(("model", "study", "theirs", "out/re")) and o.tree.get(n) != before[n]]
     if o.code == "hangs":
         return wrong + ["it hangs"]
-    if o.code < 0:
-        return wrong + ["killed by signal %d" % -o.code]
     if o.code == 0:
         different = differences(o.tree, plain.tree)
         if different:
@@ -226,139 +322,329 @@ def judge(place, name, o):
         if o.out != plain.out:
             wrong.append("exit code 0, and another stdout")
         return wrong
-    wrong += judge_failure(case, tree, plain, o)
-    again = place.run(case.command, None, 0)
-    if again.code != 0:
-        wrong.append("not repaired: exit code %s: %s" % (again.code, again.err[:200]))
-    elif differences(again.tree, plain.tree):
-        wrong.append("not repaired: " + ", ".join(differences(again.tree, plain.tree)))
-    return wrong
+    excused = is_foreign(crash)
+    if o.code < 0:
+        wrong += [] if excused else ["killed by signal %d" % -o.code]
+        wrong += judge_rest(case, before, plain, o)
+    else:
+        wrong += judge_failure(case, kind, before, plain, o)
+    # A crash in one of several runs is booked as the run's failure, which is not tried again.
+    if excused and case.several and b"killed by signal" in o.err:
+        return wrong
+    return wrong + judge_repair(case, plain, o)
 
 
-def known(name, o, wrong):
-    """A crash in one of several runs is booked as that run's failure, which is not tried again."""
-    where, booked = o.where, CASES[name].several and o.code == 1 and b"killed by signal 11" in o.err
-    if not booked and any(not w.startswith("killed by signal") for w in wrong):
-        return None
-    return next((why for pattern, why in KNOWN_CRASHES if re.search(pattern, where)), None)
+def blamed(crash):
+    """The innermost frame of a crash that is not the C library's, nor of what fails the calls."""
+    for frame in crash.strip().split("\n")[1:]:
+        if not re.match(r"libc\.so|libc-|ld-|libpthread|libfaults|linux-vdso|libgcc_s|\?", frame):
+            return frame
+    return ""
 
 
-def try_one(task):
+def culprit(crash):
+    """The innermost function of a library that crashed, and the library."""
+    frames = crash.strip().split("\n")[1:]
+    inner = blamed(crash)
+    library = inner.split("+")[0]
+    for frame in frames[frames.index(inner):]:
+        module, _, function = re.match(r"([^+]*)(\+0x[0-9a-f]+)? ?(.*)", frame).groups()
+        if module != library or function:
+            return function if module == library else "?", library
+    return "?", library
+
+
+def is_foreign(crash):
+    frame = blamed(crash)
+    return bool(frame) and not frame.startswith("corot+")
+
+
+def digest(tree):
+    h = hashlib.blake2b()
+    for name in sorted(tree):
+        h.update(b"%d %s %d " % (len(name), name.encode(), len(tree[name])))
+        h.update(tree[name])
+    return h.digest()
+
+
+# --- Trials ---
+
+Trial = collections.namedtuple("Trial", "name kind k code err where crash wrong")
+
+
+def key_of(o, crash, inner):
+    """Outcomes of one key are judged alike."""
+    words = [word in o.err for word in (b"standard output", b"killed by signal")]
+    where = crash and blamed(crash) if inner else is_foreign(crash)
+    said = digest({"": o.out}), bool(o.err.strip()), tuple(words)
+    return inner, o.code, said, essence(o.tree), where
+
+
+def judge_once(name, kind, k, o, crash, inner):
+    key = (name, kind) + key_of(o, crash, inner)
+    if key in setting.judged:
+        return o, crash, setting.judged[key]
+    if inner:
+        o, crash = whole_trial(name, kind, k)
+    setting.judged[key] = judge(name, kind, o, crash)
+    return o, crash, setting.judged[key]
+
+
+def whole_trial(name, kind, k):
+    """The K-th call fails in a program that begins anew."""
+    folder = setting.folder + "/again"
+    renew(folder, fixture(name).before)
+    setting.again.reset(FAIL, kind, k)
+    o = whole(CASES[name].command, folder, setting.again)
+    return o, setting.again.crash
+
+
+def try_whole(task):
     name, kind, k = task
-    before = place.prepare(name)[0]
-    place.renew(place.work, before)
-    o = place.run(CASES[name].command, kind, k)
-    wrong = judge(place, name, o)
-    if o.fired == 0:
-        wrong.append("the call was never made") if o.code != 0 else None
-    return task, o._replace(tree=None), wrong
+    o, crash = whole_trial(name, kind, k)
+    where, fired = setting.again.where, setting.again.number("fired")
+    wrong = judge(name, kind, o, crash)
+    if not fired:
+        wrong = wrong + ["the call was never made"]
+    return [Trial(name, kind, k, o.code, o.err, where, crash, wrong)]
 
 
-def list_sites(task):
+def next_report(process, reports):
+    """What the server says of a trial, or None when it is over; what hangs is ended."""
+    hung, state = False, setting.state
+    while not select.select([reports], [], [], TIME_LIMIT)[0]:
+        hung = True
+        end_group(state.number("trial") or process.pid)
+    report = os.read(reports, 24)
+    if not report:
+        return None
+    k, ended, inner = struct.unpack("3q", report)
+    code = -os.WTERMSIG(ended) if os.WIFSIGNALED(ended) else os.WEXITSTATUS(ended)
+    return k, "hangs" if hung else code, inner
+
+
+def serve(task):
+    """The trials of one server."""
+    name, kind, ks = task
+    folder, state, trials = setting.folder, setting.state, []
+    renew(folder + "/main", fixture(name).before)
+    shutil.rmtree(folder + "/trial", ignore_errors=True)
+    state.reset(SERVE, kind, 0, ks)
+    reports, to_driver = os.pipe()
+    from_driver, answers = os.pipe()
+    os.dup2(to_driver, TO_DRIVER)
+    os.dup2(from_driver, FROM_DRIVER)
+    process = start(CASES[name].command, folder + "/main", state, pass_fds=(TO_DRIVER, FROM_DRIVER))
+    for fd in (to_driver, from_driver, TO_DRIVER, FROM_DRIVER):
+        os.close(fd)
+    for k, code, inner in iter(lambda: next_report(process, reports), None):
+        where, crash = state.where, state.crash
+        o = read_outcome(folder + "/trial", code)
+        shutil.rmtree(folder + "/trial")
+        o, crash, wrong = judge_once(name, kind, k, o, crash, bool(inner))
+        trials.append(Trial(name, kind, k, o.code, o.err, where, crash, wrong))
+        os.write(answers, bytes(8))
+    process.wait()
+    os.close(reports)
+    os.close(answers)
+    o, plain = read_outcome(folder + "/main", process.returncode), fixture(name).plain
+    different = differences(o.tree, plain.tree)
+    if (o.code, o.out, len(trials)) != (0, plain.out, len(ks)) or different:
+        wrong = ["the server was disturbed: code %s, %d of %d trials, %s: %s" % (
+            o.code, len(trials), len(ks), different, o.err[:300])]
+        trials.append(Trial(name, kind, 0, o.code, o.err, "", "", wrong))
+    return trials
+
+
+def list_calls(task):
     name, kind = task
-    before, _, plain = place.prepare(name)
-    place.renew(place.work, before)
-    o = place.run(CASES[name].command, kind, 0)
-    sites = place.sites()
-    steady = o.code == 0 and not differences(o.tree, plain.tree) and o.out == plain.out
-    return name, kind, sites, steady, differences(o.tree, plain.tree)
+    renew(setting.folder + "/again", fixture(name).before)
+    setting.again.reset(RECORD, kind)
+    o = whole(CASES[name].command, setting.folder + "/again", setting.again)
+    plain = fixture(name).plain
+    assert o.code == 0 and o.out == plain.out and not differences(o.tree, plain.tree), \
+        "%s: the same command twice differs: %s" % (name, differences(o.tree, plain.tree))
+    sites, inner = setting.again.calls()
+    return name, kind, sites, sum(inner)
 
 
-def start(corot, library, folder):
-    global place
+setting = argparse.Namespace()
+
+
+def begin(folder):
+    """Of each worker."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    place = Place(corot, library, os.path.join(folder, "w%d" % os.getpid()))
+    setting.folder = "%s/w%d" % (folder, os.getpid())
+    os.makedirs(setting.folder)
+    setting.state = State(setting.folder + "/state")
+    setting.again = State(setting.folder + "/state-again")
 
 
-def symbols(corot, where):
-    """The back-trace with the names of corot's own functions."""
+def choose(listed, seed):
+    """Rounds of trials, as they are worth: (round, part of it, name, kind, calls)."""
+    chunks, known = [], set()
+    for name, kind, sites, _ in listed:
+        of = collections.defaultdict(list)
+        for k, site in enumerate(sites, 1):
+            of[site].append(k)
+        others = list(range(1, len(sites) + 1))
+        random.Random("%s %s %s" % (seed, name, kind)).shuffle(others)
+        rounds = [[ks[-1] for site, ks in of.items() if site not in known],
+                  [ks[-1] for ks in of.values()], [ks[0] for ks in of.values()],
+                  [ks[len(ks) // 2] for ks in of.values()], others]
+        known.update(of)
+        done = set()
+        for i, ks in enumerate(rounds):
+            ks = [k for k in ks if k not in done]
+            done.update(ks)
+            parts = -(-len(ks) // CHUNK)
+            for part in range(parts):
+                chunks.append((i, part / parts, name, kind, sorted(ks[part::parts])))
+    return sorted(chunks)
+
+
+def symbols(where):
+    """A back-trace with the names of corot's own functions."""
     lines = where.strip().split("\n")
     addresses = [m.group(1) for m in (re.match(r"corot\+(0x[0-9a-f]+)", l) for l in lines) if m]
     if not addresses or not shutil.which("addr2line"):
         return lines
-    names = iter(subprocess.run(["addr2line", "-f", "-e", corot] + ["0x%x" % (int(a, 16) - 1) for a in addresses],
-                                capture_output=True, text=True).stdout.split("\n")[::2])
+    before = ["0x%x" % (int(a, 16) - 1) for a in addresses]
+    said = subprocess.run(["addr2line", "-f", "-e", setting.corot] + before, capture_output=True,
+                          text=True).stdout
+    names = iter(said.split("\n")[::2])
     return [next(names, "?") if l.startswith("corot+") else l for l in lines]
 
 
-def choose(listed, seed, everything):
-    """Of each place the first call and the last, in a random order that gives each case its part."""
-    chosen = []
-    for name, kind, sites, _, _ in listed:
-        if everything:
-            ks = list(range(1, len(sites) + 1))
-        else:
-            first, last = {}, {}
-            for k, site in enumerate(sites, 1):
-                first.setdefault(site, k)
-                last[site] = k
-            ks = sorted(set(first.values()) | set(last.values()))
-        random.Random("%s %s %s" % (seed, name, kind)).shuffle(ks)
-        chosen += [(i / len(ks), (name, kind, k)) for i, k in enumerate(ks)]
-    return [task for _, task in sorted(chosen)]
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def read_options():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     for word in ("corot", "library", "folder"):
         parser.add_argument(word)
     parser.add_argument("--all", action="store_true")
-    parser.add_argument("--trials", type=int, default=800)
-    parser.add_argument("--seconds", type=float, default=100)
-    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--seconds", type=float, default=85)
+    parser.add_argument("--jobs", type=int, default=min(2, len(os.sched_getaffinity(0))))
     parser.add_argument("--only", action="append", choices=list(CASES))
     parser.add_argument("--kind", choices=list(KINDS))
     parser.add_argument("--at", type=int)
     parser.add_argument("--seed", default="1")
-    a = parser.parse_args()
-    folder, began = os.path.abspath(a.folder), time.monotonic()
-    corot, library = os.path.abspath(a.corot), os.path.abspath(a.library)
+    return parser.parse_args()
+
+
+def choose_folder(folder):
+    """In memory where there is room: a trial makes and removes dozens of files and folders. What a
+    run that was killed has left is removed by the next."""
+    memory = "/dev/shm"
+    try:
+        room = os.statvfs(memory)
+        if room.f_bavail * room.f_frsize > 40e6:
+            mark = hashlib.blake2b(folder.encode(), digest_size=6).hexdigest()
+            quick = "%s/corot-faults-%d-%s" % (memory, os.getuid(), mark)
+            shutil.rmtree(quick, ignore_errors=True)
+            os.mkdir(quick, 0o700)
+            return quick
+    except OSError:
+        pass
     shutil.rmtree(folder, ignore_errors=True)
-    kinds = [a.kind] if a.kind else list(KINDS)
-    cases = a.only or list(CASES)
-    failed, excused, tried = collections.OrderedDict(), collections.Counter(), collections.Counter()
-    outcomes = collections.Counter()
-    with multiprocessing.Pool(a.jobs, start, (corot, library, folder)) as pool:
-        listed = pool.map(list_sites, [(name, kind) for name in cases for kind in kinds], 1)
-        for name, kind, sites, steady, different in listed:
-            if not steady:
-                failed["%s: the same command twice differs: %s" % (name, different)] = []
-        tasks = choose(listed, a.seed, a.all)
-        possible = len(tasks)
-        tasks = tasks if a.all else tasks[: a.trials]
-        if a.at:
-            tasks = [(name, kind, a.at) for name in cases for kind in kinds]
-        # A batch at a time, so that it can end when its time is over.
-        for i in range(0, len(tasks), 16 * a.jobs):
-            if not a.all and time.monotonic() - began > a.seconds:
-                break
-            for (name, kind, k), o, wrong in pool.imap_unordered(try_one, tasks[i : i + 16 * a.jobs]):
-                tried[name, kind] += 1
-                outcomes["equal bytes" if o.code == 0 else "a message"] += not wrong
-                if a.at:
-                    print(o.code, o.err.decode(), *symbols(corot, o.where), sep="\n")
-                why = wrong and known(name, o, wrong)
-                if why:
-                    excused[why] += 1
-                elif wrong:
-                    trace = symbols(corot, o.where)
-                    failed.setdefault("%s: %s" % (name, "; ".join(wrong)), []).append(
-                        (kind, k, o.code, o.err.decode("utf-8", "replace"), trace))
-    for name, kind, sites, _, _ in listed:
-        print("%-13s %-5s %6d calls, %5d places, %5d tried" %
-              (name, kind, len(sites), len(set(sites)), tried[name, kind]))
-    print("%d of %d possible trials: %s" % (sum(tried.values()), possible,
-                                   ", ".join("%d %s" % (n, what) for what, n in outcomes.items())))
-    for why, n in excused.items():
-        print("known, not corot's: %d crashes: %s" % (n, why))
-    for what, trials in failed.items():
-        print("FAILED (%d times) %s" % (len(trials), what))
-        for kind, k, code, err, trace in trials[:2]:
-            print("  --kind %s --at %d: code %s, stderr: %s" % (kind, k, code, err[:300].strip()))
-            print("    " + "\n    ".join(trace[:14]))
-    for name in os.listdir(folder):
-        shutil.rmtree(os.path.join(folder, name))
-    return 1 if failed else 0
+    os.makedirs(folder)
+    return folder
+
+
+class Report:
+    def __init__(self):
+        self.failed, self.tried = collections.OrderedDict(), collections.defaultdict(set)
+        self.outcomes, self.crashes = collections.Counter(), collections.Counter()
+
+    def add(self, t):
+        self.tried[t.name, t.kind].add(t.k)
+        if t.wrong:
+            self.failed.setdefault("%s: %s" % (t.name, "; ".join(t.wrong)), []).append(t)
+        what = "equal bytes" if t.code == 0 else "a message"
+        if is_foreign(t.crash):
+            what = "a crash in a library"
+        self.outcomes["FAILED" if t.wrong else what] += 1
+        if is_foreign(t.crash):
+            self.crashes[culprit(t.crash)] += 1
+
+    def show(self, listed, complete):
+        everything, reached = set(), set()
+        for name, kind, sites, inner in listed:
+            tried = self.tried[name, kind]
+            covered = {sites[k - 1] for k in tried if k}
+            everything.update(sites)
+            reached.update(covered)
+            complete = complete and len(covered) == len(set(sites))
+            print("%-13s %-5s %6d calls, %5d of them of children, of %4d sites; "
+                  "tried %6d calls of %4d sites" %
+                  (name, kind, len(sites), inner, len(set(sites)), len(tried), len(covered)))
+        print("%d trials at %d of %d sites (a site may occur in several commands): %s" % (
+            sum(self.outcomes.values()), len(reached), len(everything),
+            ", ".join("%d %s" % (n, what) for what, n in self.outcomes.items())))
+        for (function, library), n in self.crashes.most_common():
+            print("%d crashes in %s of %s, %s" % (n, function, library, KNOWN_CRASHES.get(
+                function, "which is NEW: add it to KNOWN_CRASHES")))
+        for function, why in KNOWN_CRASHES.items():
+            if complete and function not in {f for f, _ in self.crashes}:
+                print("never seen: the crash in %s, which %s" % (function, why))
+        for what, trials in self.failed.items():
+            print("FAILED (%d times) %s" % (len(trials), what))
+            for t in trials[:2]:
+                print("  --only %s --kind %s --at %d: code %s, stderr: %s" % (
+                    t.name, t.kind, t.k, t.code, t.err.decode("utf-8", "replace")[:300].strip()))
+                print("    " + "\n    ".join(symbols(t.where)[:14]))
+                if t.crash:
+                    print("   crash:\n    " + "\n    ".join(symbols(t.crash)[:8]))
+
+
+def main():
+    a, began = read_options(), time.monotonic()
+    setting.corot, setting.library = os.path.abspath(a.corot), os.path.abspath(a.library)
+    folder = choose_folder(os.path.abspath(a.folder))
+    try:
+        report = try_all(a, folder, began)
+    finally:
+        shutil.rmtree(folder)
+    print("%.0f s" % (time.monotonic() - began))
+    return 1 if report.failed else 0
+
+
+def try_all(a, folder, began):
+    setting.folder, setting.home = folder + "/first", folder + "/home"
+    os.makedirs(setting.folder)
+    renew(setting.home, first_tree())
+    tasks = [(name, kind) for name in a.only or CASES for kind in ([a.kind] if a.kind else KINDS)]
+    for name, _ in tasks:
+        fixture(name)  # before the workers begin, which share it
+    report, fork = Report(), multiprocessing.get_context("fork")
+    with fork.Manager() as manager:
+        setting.repaired, setting.judged = manager.dict(), manager.dict()
+        with fork.Pool(a.jobs, begin, (folder,)) as pool:
+            listed = pool.map(list_calls, tasks, 1)
+            if a.at:
+                results = pool.imap(try_whole, [task + (a.at,) for task in tasks])
+            else:
+                results = serve_all(pool, choose(listed, a.seed), a, began)
+            for trials in results:
+                for t in trials:
+                    report.add(t)
+                    if a.at:
+                        print("code %s: %s" % (t.code, t.err.decode("utf-8", "replace")))
+                        print(*symbols(t.where), "crash:", *symbols(t.crash), sep="\n")
+    report.show(listed, not (a.only or a.kind or a.at))
+    return report
+
+
+def serve_all(pool, chunks, a, began):
+    """Results of a few servers at a time, so that it can end when its time is over."""
+    waiting = collections.deque()
+    for _, _, name, kind, ks in chunks:
+        if not a.all and time.monotonic() - began > a.seconds:
+            break
+        waiting.append(pool.apply_async(serve, ((name, kind, ks),)))
+        if len(waiting) > a.jobs:
+            yield waiting.popleft().get()
+    while waiting:
+        yield waiting.popleft().get()
 
 
 if __name__ == "__main__":
