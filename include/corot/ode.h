@@ -153,6 +153,7 @@ typedef struct corot_energies {
                               gradient is f_int) [J] */
   double power_dissipated; /* by the viscous forces and the mass damping [W] */
   double power_external;   /* of the loads and the moving supports [W] */
+  double power_supports;   /* of the moving supports alone [W] */
   double momentum[3];         /* sum m v over free components [kg m/s] */
   double angular_momentum[3]; /* about the origin [kg m^2/s] */
 } corot_energies;

@@ -140,6 +140,9 @@ typedef struct load_clock {
 void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
                        double *f);
 
+/* Whether that depends on u. */
+bool corot_loads_follow(const corot_model *m);
+
 /* f += its change in the direction du. */
 void corot_loads_derivative(const corot_model *m, const load_clock *now, const double (*u)[4],
                             const double (*du)[4], double *f);

@@ -3,6 +3,7 @@
 
 #include "core/kernel.h"
 #include "core/levels.h"
+#include "core/load_force.h"
 #include "core/trial.h"
 
 /* Adds to s->r the element forces of nodes first to last - 1, each node's own in the order of the
@@ -60,6 +61,13 @@ static load_clock loads_now(const corot_state *s, double t) {
 static void external_force(const corot_model *m, const corot_state *s, double t, double *f) {
   load_clock now = loads_now(s, t);
   corot_loads_force(m, &now, (const double(*)[4])s->u, f);
+}
+
+void corot_force_of_loads(const corot_model *m, corot_state *s, double t, const double *u,
+                          double *f) {
+  if (corot_loads_follow(m)) corot_state_displace(m, s, t, u);
+  external_force(m, s, t, f);
+  for (int i = m->body_ndof; i < m->ndof; i++) f[i] = 0;
 }
 
 /* f += their change in the direction s->du. */
@@ -229,9 +237,9 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
     COROT_TRY(corot_levels_energy(m, s, t, m->damped, &e.elastic, viscous));
   else
     COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, viscous)));
-  if (m->nmotion) COROT_TRY(support_power(m, s, t, &e.power_external));
+  if (m->nmotion) COROT_TRY(support_power(m, s, t, &e.power_supports));
   external_force(m, s, t, s->r);
-  e.power_external += dot(m->body_ndof, s->r, v);
+  e.power_external = e.power_supports + dot(m->body_ndof, s->r, v);
   if (m->mass_damped) {
     memset(s->r, 0, m->ndof * sizeof *s->r);
     corot_mass_damp(m, v, s->r);

@@ -17,8 +17,6 @@ static const multistep_api api = {.stopped = CV_TSTOP_RETURN,
                                   .set_stop_time = CVodeSetStopTime,
                                   .set_first_step = CVodeSetInitStep,
                                   .interpolate = CVodeGetDky,
-                                  .work = CVodeGetQuad,
-                                  .interpolate_work = CVodeGetQuadDky,
                                   .restart_work = CVodeQuadReInit,
                                   .last_order = CVodeGetLastOrder,
                                   .last_step = CVodeGetLastStep,
@@ -62,8 +60,7 @@ static corot_status create(corot_integrator *self, const double *u, const double
   driver *d = &c->driver;
   c->memory = CVodeCreate(CV_BDF, d->ctx);
   if (!c->memory) return corot_fail(COROT_ENOMEM, "no memory for cvode");
-  if (SUN_CATCH_ERRORS(CVodeSetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error,
-                       d->message))
+  if (SUN_CATCH_ERRORS(CVodeSetErrHandlerFn, c->memory, d->ctx, corot_driver_on_error, d->message))
     return corot_driver_refuse(d, "set-up");
   if (CVodeInit(c->memory, corot_driver_rhs, self->t, d->y)) {
     c->memory = NULL; /* lost: without memory CVodeInit frees what CVodeFree would free again */
