@@ -8,4 +8,8 @@
 void corot_force_of_loads(const corot_model *model, corot_state *state, double t, const double *u,
                           double *f);
 
+/* corot_energies.carried alone, at the cost of no tet. */
+double corot_carried(const corot_model *model, corot_state *state, double t, const double *u,
+                     const double *v);
+
 #endif

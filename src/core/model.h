@@ -151,4 +151,12 @@ void corot_loads_derivative(const corot_model *m, const load_clock *now, const d
 corot_status corot_motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]);
 void corot_motions_destroy(corot_model *m);
 
+/* A rigid motion at a constant rate. */
+typedef struct rigid_motion {
+  double velocity[3], spin[3], center[3]; /* [m/s], [rad/s], [m] */
+} rigid_motion;
+
+/* Whether all that is held moves by one of these, just after `phase` (NaN: just after t). */
+bool corot_motions_carry(const corot_model *m, double phase, double t, rigid_motion *all);
+
 #endif

@@ -148,7 +148,7 @@ static corot_status find_power(multistep *m, double t, bool at_start, multistep_
   corot_status status = corot_energy(self->model, self->state, t, u, rate, &e);
   if (sun_is_fatal(status)) return status;
   if (status) e = self->energies;
-  *power = (multistep_power){t, e.power_dissipated, e.power_supports};
+  *power = (multistep_power){t, e.power_dissipated, e.power_carried};
   return COROT_OK;
 }
 
@@ -171,7 +171,7 @@ static void add_end(multistep *m) {
   const corot_energies *e = &m->driver.self->energies;
   if (l->npower == LOBATTO_MOST) l->npower--;
   memmove(l->power + 1, l->power, l->npower * sizeof *l->power);
-  l->power[0] = (multistep_power){m->t_last, e->power_dissipated, e->power_supports};
+  l->power[0] = (multistep_power){m->t_last, e->power_dissipated, e->power_carried};
   l->npower++;
 }
 
@@ -185,6 +185,17 @@ static void add_powers(const multistep *m, double t, double work[NWORK]) {
     work[DISSIPATED] += part * l->inside[k].dissipated;
     work[EXTERNAL] += part * l->inside[k].supports;
   }
+}
+
+/* What the end of the path to t, where y is, has above its start of what the supports carry: with
+   the powers, their work. */
+static double carried_on(const multistep *m, double t, N_Vector y) {
+  const corot_integrator *self = m->driver.self;
+  const multistep_ledger *l = &m->ledger;
+  const double *u0 = N_VGetArrayPointer(l->start), *u1 = N_VGetArrayPointer(y);
+  int n = corot_model_ndof(self->model);
+  return corot_carried(self->model, self->state, t, u1, u1 + n) -
+         corot_carried(self->model, self->state, l->t_start, u0, u0 + n);
 }
 
 /* --- A step ---------------------------------------------------------------------------------- */
@@ -219,7 +230,7 @@ corot_status corot_multistep_measure_work(multistep *m, int order) {
   }
   COROT_TRY(work_of_loads(m, m->t_last, order, l->load_end, &loads));
   add_powers(m, m->t_last, work);
-  work[EXTERNAL] += loads;
+  work[EXTERNAL] += loads + carried_on(m, m->t_last, l->end);
   memcpy(l->work_end, work, sizeof work);
   l->broken = false;
   self->work_s += clock_wall() - started;
@@ -236,7 +247,9 @@ corot_status corot_multistep_work(corot_integrator *self, double t, double *diss
     memcpy(work, l->work_start, sizeof work);
     COROT_TRY(work_of_loads(m, t, self->qlast, load, &loads));
     add_powers(m, t, work);
-    work[EXTERNAL] += loads;
+    if (m->api->interpolate(m->memory, t, 0, m->error))
+      return corot_driver_refuse(&m->driver, "interpolant");
+    work[EXTERNAL] += loads + carried_on(m, t, m->error);
   }
   *dissipated = work[DISSIPATED];
   *external = work[EXTERNAL];

@@ -16,6 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/load_force.h"
+
 corot_status corot_rk_open(runge_kutta *m, corot_integrator *self, const rk_api *api, int order,
                            const double *u, const double *v) {
   m->api = api;
@@ -251,6 +253,21 @@ static corot_status add_stages(runge_kutta *m, double *work) {
   return COROT_OK;
 }
 
+/* How much more the supports carry in the state (u, v) at t than at the start of the step: with the
+   powers, their work. */
+static double carried_on(const runge_kutta *m, double t, const double *u, const double *v) {
+  const corot_integrator *self = m->driver.self;
+  const double *u0 = N_VGetArrayPointer(m->start.y);
+  int n = corot_model_ndof(self->model);
+  return corot_carried(self->model, self->state, t, u, v) -
+         corot_carried(self->model, self->state, m->start.t, u0, u0 + n);
+}
+
+static double carried_in_step(const runge_kutta *m) {
+  const double *u1 = N_VGetArrayPointer(m->end.y);
+  return carried_on(m, m->end.t, u1, u1 + corot_model_ndof(m->driver.self->model));
+}
+
 /* Where the step resolves all that moves, the work is that along the interpolant, by Lobatto's
    rule, whose order is the method's or above; else that of the stages. */
 static corot_status measure_work(runge_kutta *m) {
@@ -267,6 +284,7 @@ static corot_status measure_work(runge_kutta *m) {
   } else {
     COROT_TRY(add_stages(m, work));
   }
+  work[1] += carried_in_step(m);
   if (rates) N_VScale(1, corot_rk_stage(&m->stages, m->stages.n - 1), m->stages.start);
   memcpy(m->work_start, m->work_end, sizeof work);
   memcpy(m->work_end, work, sizeof work);
@@ -288,12 +306,16 @@ corot_status corot_rk_at(corot_integrator *self, double t, double *u, double *v)
 }
 
 /* The work along the interpolant; what it lacks at the end of the step is spread over it. */
-static void work_inside(const runge_kutta *m, double part, double *work) {
+static void work_inside(runge_kutta *m, double part, double *work) {
   const lobatto_point *rule = corot_lobatto(m->npoint);
-  double h = m->end.t - m->start.t, x[LOBATTO_MOST];
+  double h = m->end.t - m->start.t, x[LOBATTO_MOST], *u = N_VGetArrayPointer(m->error);
+  double *v = u + corot_model_ndof(m->driver.self->model);
   for (int k = 0; k < m->npoint; k++) x[k] = rule[k].x;
+  corot_rk_interpolate(m, part, u, v);
+  double carried[2][2] = {{0, carried_on(m, m->start.t + part * h, u, v)}, /* there, at the end */
+                          {0, carried_in_step(m)}};
   for (int c = 0; c < 2; c++) {
-    double all = 0, sum = 0;
+    double all = carried[1][c], sum = carried[0][c];
     for (int k = 0; k < m->npoint; k++) {
       all += h * rule[k].weight * m->powers[k][c];
       sum += h * corot_lagrange_integral(m->npoint, x, k, 0, part) * m->powers[k][c];
