@@ -156,7 +156,8 @@ typedef struct rigid_motion {
   double velocity[3], spin[3], center[3]; /* [m/s], [rad/s], [m] */
 } rigid_motion;
 
-/* Whether all that is held moves by one of these, just after `phase` (NaN: just after t). */
+/* Whether all that is held moves by one of these, just after `phase`. Not where that is NaN: then
+   the supports may stop between two times. */
 bool corot_motions_carry(const corot_model *m, double phase, double t, rigid_motion *all);
 
 #endif

@@ -234,6 +234,7 @@ void corot_model_velocity(const corot_model *m, double phase, double t, const do
 bool corot_motions_carry(const corot_model *m, double phase, double t, rigid_motion *all) {
   const motion *moving = NULL;
   progress p = {0}, of_it = {0};
+  if (isnan(phase)) return false;
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
     p = progress_at(a, phase, t);

@@ -265,6 +265,8 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
     COROT_TRY(corot_levels_energy(m, s, t, m->damped, &e.elastic, viscous));
   else
     COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, viscous)));
+
+  /* the supports and the loads; support_power leaves the forces of all nodes in s->du */
   if (m->nmotion) COROT_TRY(support_power(m, s, t, &e.power_supports));
   external_force(m, s, t, s->r);
   e.power_external = e.power_supports + dot(m->body_ndof, s->r, v);
@@ -276,6 +278,8 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
     e.power_dissipated -= dot(m->body_ndof, s->r, v);
     if (carried) e.power_carried -= along(m, s, &g, NULL, s->r);
   }
+
+  /* add_inertia leaves M v in s->r */
   add_inertia(m, s, v, &e);
   if (carried) e.carried = along(m, s, &g, NULL, s->r);
   *energies = e;

@@ -1,5 +1,5 @@
-/* CVODE's variable-order BDF, through the CVODES library (which has the work integrals as
-   quadratures; one program must never link both). */
+/* CVODE's variable-order BDF, through the CVODES library (whose quadratures ask for the
+   powers at the end of each step; one program must never link both). */
 #include <cvodes/cvodes.h>
 #include <stdlib.h>
 

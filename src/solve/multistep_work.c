@@ -16,7 +16,10 @@
    resolves the motion, such that the velocities at its ends tell how far it went, the powers there
    are enough: the polynomial through the latest of them, as many as the order, is integrated
    (Adams and Moulton's rule). Where they do not tell, or r has jumped, or at order 1, the powers
-   are evaluated along the path, at Lobatto's points with the velocities of the path itself. */
+   are evaluated along the path, at Lobatto's points with the velocities of the path itself.
+
+   The forces on a support have in them what Newton's iteration left of u, times the stiffness. Of
+   supports that move as one their work is therefore the change of the momentum they carry. */
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <string.h>
