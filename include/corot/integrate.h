@@ -113,8 +113,11 @@ corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, 
 corot_status corot_integrator_at(corot_integrator *integrator, double t, double *u, double *v);
 
 /* Work integrals from the start to t, t within the last step: dissipated and external work [J].
-   cvode and ida: integrated with the solution. arkode and erk: by Lobatto's rule along the
-   interpolant, or where it is not all resolved by the table's own sum over the stages. */
+   cvode and ida: of the loads by Lobatto's rule along the interpolant; what dissipates from the
+   powers at the ends of the steps, or where these do not tell it, along the interpolant, too. arkode
+   and erk: by Lobatto's rule along the interpolant, or where it is not all resolved by the table's
+   own sum over the stages. Where all supports turn or translate as one, their work is what changes
+   in the momentum they carry (corot_energies.carried), which no force at their nodes blurs. */
 corot_status corot_integrator_work(corot_integrator *integrator, double t, double *dissipated,
                                    double *external);
 

@@ -153,6 +153,11 @@ typedef struct corot_energies {
                               gradient is f_int) [J] */
   double power_dissipated; /* by the viscous forces and the mass damping [W] */
   double power_external;   /* of the loads and the moving supports [W] */
+  double power_supports;   /* of the moving supports alone [W] */
+  double power_carried;    /* of these, what is no change of: */
+  double carried;          /* M v along the velocity of the supports' rigid motion, continued through
+                              the body [J]; 0 where an amplitude or more than one motion moves
+                              supports, others stand still, or no phase was entered */
   double momentum[3];         /* sum m v over free components [kg m/s] */
   double angular_momentum[3]; /* about the origin [kg m^2/s] */
 } corot_energies;

@@ -25,17 +25,8 @@ static const char *energy_remedy(const scenario *s) {
   return "lower integrator.rtol";
 }
 
-/* Whether the body moves so slowly that the error is no vibration's: it is the work's, which is
-   summed over steps that are long for what the loads do. */
+/* Whether the body moves so slowly that the error is no vibration's. */
 static bool is_slow(const history_facts *h, double error) { return h->kinetic < 0.1 * error; }
-
-static const char *ledger_remedy(const scenario *s, const history_facts *h, double error) {
-  if (s->integrator.step > 0) return "take shorter steps";
-  if (is_slow(h, error))
-    return "the body moves slowly, and the work is summed over steps that are long for the loads: "
-           "displacements need not be off; integrator.max_step shortens them";
-  return energy_remedy(s);
-}
 
 /* A loss that is still there in the end is damping by the method. A gain, or an error that comes
    and goes, is not, nor is one of a body that hardly swings. */
@@ -56,7 +47,7 @@ static corot_status find_energy(const scenario *s, const history_facts *h, warni
                       "%.2g %% of the largest energy, %.3g J (%.2g %% would pass); %s",
                       gain > loss ? h->balance_max.t : h->balance_min.t, worst,
                       gain > loss ? "many" : "few", 100 * worst / h->energy, h->energy, 100 * share,
-                      ledger_remedy(s, h, worst));
+                      s->integrator.step > 0 ? "take shorter steps" : energy_remedy(s));
 }
 
 /* --- Strains --- */

@@ -178,6 +178,12 @@ void corot_loads_force(const corot_model *m, const load_clock *now, const double
   }
 }
 
+bool corot_loads_follow(const corot_model *m) {
+  for (int k = 0; k < m->nload; k++)
+    if (m->load[k].ntri > 0) return true;
+  return false;
+}
+
 static void add_to_node(double (*f)[3], int node, const double value[3], double factor) {
   for (int c = 0; c < 3; c++) f[node][c] += factor * value[c];
 }

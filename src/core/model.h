@@ -140,6 +140,9 @@ typedef struct load_clock {
 void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
                        double *f);
 
+/* Whether that depends on u. */
+bool corot_loads_follow(const corot_model *m);
+
 /* f += its change in the direction du. */
 void corot_loads_derivative(const corot_model *m, const load_clock *now, const double (*u)[4],
                             const double (*du)[4], double *f);
@@ -147,5 +150,14 @@ void corot_loads_derivative(const corot_model *m, const load_clock *now, const d
 /* m->motion from the definition; marks the nodes' components in `held`. */
 corot_status corot_motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]);
 void corot_motions_destroy(corot_model *m);
+
+/* A rigid motion at a constant rate. */
+typedef struct rigid_motion {
+  double velocity[3], spin[3], center[3]; /* [m/s], [rad/s], [m] */
+} rigid_motion;
+
+/* Whether all that is held moves by one of these, just after `phase`. Not where that is NaN: then
+   the supports may stop between two times. */
+bool corot_motions_carry(const corot_model *m, double phase, double t, rigid_motion *all);
 
 #endif

@@ -230,3 +230,23 @@ void corot_model_velocity(const corot_model *m, double phase, double t, const do
     }
   }
 }
+
+bool corot_motions_carry(const corot_model *m, double phase, double t, rigid_motion *all) {
+  const motion *moving = NULL;
+  progress p = {0}, of_it = {0};
+  if (isnan(phase)) return false;
+  for (int k = 0; k < m->nmotion; k++) {
+    const motion *a = &m->motion[k];
+    p = progress_at(a, phase, t);
+    if (p.rate == 0 && p.velocity[0] == 0 && p.velocity[1] == 0 && p.velocity[2] == 0) continue;
+    if (moving || a->nlaw > 0) return false;
+    moving = a, of_it = p;
+  }
+  if (!moving || m->body_nnode * 3 - m->body_ndof != 3 * moving->nnode) return false;
+  for (int c = 0; c < 3; c++) {
+    all->velocity[c] = moving->turns ? 0 : of_it.velocity[c];
+    all->spin[c] = moving->turns ? of_it.rate * moving->axis[c] : 0;
+    all->center[c] = moving->center[c];
+  }
+  return true;
+}

@@ -3,6 +3,7 @@
 
 #include "core/kernel.h"
 #include "core/levels.h"
+#include "core/load_force.h"
 #include "core/trial.h"
 
 /* Adds to s->r the element forces of nodes first to last - 1, each node's own in the order of the
@@ -60,6 +61,13 @@ static load_clock loads_now(const corot_state *s, double t) {
 static void external_force(const corot_model *m, const corot_state *s, double t, double *f) {
   load_clock now = loads_now(s, t);
   corot_loads_force(m, &now, (const double(*)[4])s->u, f);
+}
+
+void corot_force_of_loads(const corot_model *m, corot_state *s, double t, const double *u,
+                          double *f) {
+  if (corot_loads_follow(m)) corot_state_displace(m, s, t, u);
+  external_force(m, s, t, f);
+  for (int i = m->body_ndof; i < m->ndof; i++) f[i] = 0;
 }
 
 /* f += their change in the direction s->du. */
@@ -218,9 +226,37 @@ static corot_status support_power(const corot_model *m, corot_state *s, double t
   return COROT_OK;
 }
 
+/* Of a field of nodes (or NULL) and of the forces r [ndof], on what is free, along a rigid motion:
+   a force where the body is now, s->u. */
+static double along(const corot_model *m, const corot_state *s, const rigid_motion *g,
+                    const double (*f)[4], const double *r) {
+  double sum = 0;
+  for (int n = 0; n < m->body_nnode; n++) {
+    double arm[3], w[3] = {g->velocity[0], g->velocity[1], g->velocity[2]};
+    for (int c = 0; c < 3; c++) arm[c] = m->mesh->x[n][c] + s->u[n][c] - g->center[c];
+    add_cross(w, g->spin, arm);
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      if (i >= 0) sum += w[c] * (r[i] + (f ? f[n][c] : 0));
+    }
+  }
+  return sum;
+}
+
+double corot_carried(const corot_model *m, corot_state *s, double t, const double *u,
+                     const double *v) {
+  rigid_motion g;
+  if (!corot_motions_carry(m, s->phase, t, &g)) return 0;
+  corot_state_displace(m, s, t, u);
+  corot_mass_multiply(m, v, s->r);
+  return along(m, s, &g, NULL, s->r);
+}
+
 corot_status corot_energy(const corot_model *m, corot_state *s, double t, const double *u,
                           const double *v, corot_energies *energies) {
   corot_energies e = {0};
+  rigid_motion g;
+  bool carried = m->nmotion > 0 && corot_motions_carry(m, s->phase, t, &g);
   corot_state_displace(m, s, t, u);
   corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
   corot_kernel_dilatation(m, s);
@@ -229,15 +265,23 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
     COROT_TRY(corot_levels_energy(m, s, t, m->damped, &e.elastic, viscous));
   else
     COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, viscous)));
-  if (m->nmotion) COROT_TRY(support_power(m, s, t, &e.power_external));
+
+  /* the supports and the loads; support_power leaves the forces of all nodes in s->du */
+  if (m->nmotion) COROT_TRY(support_power(m, s, t, &e.power_supports));
   external_force(m, s, t, s->r);
-  e.power_external += dot(m->body_ndof, s->r, v);
+  e.power_external = e.power_supports + dot(m->body_ndof, s->r, v);
+  e.power_carried = e.power_supports;
+  if (carried) e.power_carried -= along(m, s, &g, (const double(*)[4])s->du, s->r);
   if (m->mass_damped) {
     memset(s->r, 0, m->ndof * sizeof *s->r);
     corot_mass_damp(m, v, s->r);
     e.power_dissipated -= dot(m->body_ndof, s->r, v);
+    if (carried) e.power_carried -= along(m, s, &g, NULL, s->r);
   }
+
+  /* add_inertia leaves M v in s->r */
   add_inertia(m, s, v, &e);
+  if (carried) e.carried = along(m, s, &g, NULL, s->r);
   *energies = e;
   return COROT_OK;
 }

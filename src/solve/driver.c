@@ -91,7 +91,7 @@ int corot_driver_work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_
   self->t_energies = status ? NAN : t;
   if (!status) {
     N_VGetArrayPointer(rate)[0] = e->power_dissipated;
-    N_VGetArrayPointer(rate)[1] = e->power_external;
+    N_VGetArrayPointer(rate)[1] = e->power_external - e->power_supports + e->power_carried;
   }
   self->work_s += clock_wall() - start;
   return corot_driver_answer(d, status);

@@ -55,7 +55,8 @@ int corot_driver_solve_dae(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector
    neither do the steps. */
 int corot_driver_weights(N_Vector y, N_Vector weight, void *user_data);
 
-/* rate = dissipated and external power [2]. */
+/* rate = dissipated and external power [2]; of what the supports put in, the change of what they
+   carry (corot_energies.carried) is left out. */
 int corot_driver_work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_data);
 
 /* An error handler: keeps SUNDIALS' words, on one line. `data`: char [SUN_MESSAGE]. */

@@ -1,5 +1,5 @@
-/* CVODE's variable-order BDF, through the CVODES library (which has the work integrals as
-   quadratures; one program must never link both). */
+/* CVODE's variable-order BDF, through the CVODES library (whose quadratures ask for the
+   powers at the end of each step; one program must never link both). */
 #include <cvodes/cvodes.h>
 #include <stdlib.h>
 
@@ -17,8 +17,6 @@ static const multistep_api api = {.stopped = CV_TSTOP_RETURN,
                                   .set_stop_time = CVodeSetStopTime,
                                   .set_first_step = CVodeSetInitStep,
                                   .interpolate = CVodeGetDky,
-                                  .work = CVodeGetQuad,
-                                  .interpolate_work = CVodeGetQuadDky,
                                   .restart_work = CVodeQuadReInit,
                                   .last_order = CVodeGetLastOrder,
                                   .last_step = CVodeGetLastStep,

@@ -1,6 +1,6 @@
-/* IDA's variable-order BDF with fixed leading coefficient, through the IDAS library (which has the
-   work integrals as quadratures). The residual needs no M^-1, except that the start and a restart
-   ask for an acceleration that is consistent: M v' = r.
+/* IDA's variable-order BDF with fixed leading coefficient, through the IDAS library (whose
+   quadratures ask for the powers at the end of each step). The residual needs no M^-1, except that
+   the start and a restart ask for an acceleration that is consistent: M v' = r.
 
    IDA asks for a Jacobian at every set-up of the linear solver; here K and D are kept, and only
    combined anew, until `reassembly` steps are past or Newton's iteration has failed since. */
@@ -60,8 +60,6 @@ static const multistep_api api = {.stopped = IDA_TSTOP_RETURN,
                                   .set_stop_time = IDASetStopTime,
                                   .set_first_step = IDASetInitStep,
                                   .interpolate = IDAGetDky,
-                                  .work = IDAGetQuad,
-                                  .interpolate_work = IDAGetQuadDky,
                                   .restart_work = IDAQuadReInit,
                                   .last_order = IDAGetLastOrder,
                                   .last_step = IDAGetLastStep,

@@ -25,13 +25,14 @@ corot_status corot_multistep_open(multistep *m, corot_integrator *self, const mu
     return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->kind.name,
                       2 * corot_model_ndof(self->model));
   N_VConst(0, m->work);
-  return COROT_OK;
+  return corot_multistep_open_ledger(m);
 }
 
 void corot_multistep_close(multistep *m) {
   N_Vector const vectors[] = {m->rate, m->error, m->weight, m->scratch, m->work};
   for (int k = 0; k < 5; k++)
     if (vectors[k]) N_VDestroy(vectors[k]);
+  corot_multistep_close_ledger(&m->ledger);
   corot_driver_close(&m->driver);
   free(m);
 }
@@ -57,6 +58,7 @@ static corot_status begin_again(multistep *m, double h) {
   corot_integrator *self = m->driver.self;
   if (!add_counts(m, &m->before)) return corot_driver_refuse(&m->driver, "statistics");
   m->nni = 0;
+  m->ledger.broken = true;
   m->t_stop = NAN;
   m->t_last = self->t;
   m->driver.collapsed = false;
@@ -104,16 +106,17 @@ static corot_status advance(multistep *m, double t_stop, double *t) {
 corot_status corot_multistep_step(corot_integrator *self, double t_stop, corot_step *step) {
   multistep *m = self->method;
   const multistep_api *api = m->api;
-  double t, t_work;
+  double t;
   long nni = 0;
   COROT_TRY(corot_driver_check(&m->driver));
   COROT_TRY(advance(m, t_stop, &t));
-  if (api->work(m->memory, &t_work, m->work) || api->nni(m->memory, &nni) ||
-      api->last_order(m->memory, &step->order) || api->local_errors(m->memory, m->error) ||
-      api->error_weights(m->memory, m->weight))
+  if (api->nni(m->memory, &nni) || api->last_order(m->memory, &step->order) ||
+      api->local_errors(m->memory, m->error) || api->error_weights(m->memory, m->weight))
     return corot_driver_refuse(&m->driver, "statistics");
-  step->t = m->t_last = t;
   step->error = N_VWrmsNorm(m->error, m->weight);
+  m->ledger.t_start = m->t_last;
+  step->t = m->t_last = t;
+  COROT_TRY(corot_multistep_measure_work(m, step->order));
   step->newton = (int)(nni - m->nni);
   m->nni = nni;
   return COROT_OK;
@@ -130,23 +133,6 @@ corot_status corot_multistep_at(corot_integrator *self, double t, double *u, dou
   }
   if (u) memcpy(u, N_VGetArrayPointer(y), n * sizeof *u);
   if (v) memcpy(v, N_VGetArrayPointer(y) + n, n * sizeof *v);
-  return COROT_OK;
-}
-
-corot_status corot_multistep_work(corot_integrator *self, double t, double *dissipated,
-                                  double *external) {
-  multistep *m = self->method;
-  const double *work = N_VGetArrayPointer(m->work);
-  double at[2] = {work[0], work[1]};
-  if (t < m->t_last) { /* m->work lends its room */
-    bool bad = m->api->interpolate_work(m->memory, t, 0, m->work);
-    double inside[2] = {work[0], work[1]};
-    memcpy(N_VGetArrayPointer(m->work), at, sizeof at);
-    if (bad) return corot_driver_refuse(&m->driver, "interpolant");
-    memcpy(at, inside, sizeof inside);
-  }
-  *dissipated = at[0];
-  *external = at[1];
   return COROT_OK;
 }
 
@@ -204,6 +190,7 @@ corot_status corot_multistep_changed(corot_integrator *self, corot_history histo
   double h = self->def.first_step;
   bool felt = true;
   if (history == COROT_HISTORY_KEEP) return COROT_OK;
+  m->ledger.broken = true;
   if (self->before == self->t) return begin_again(m, h);
   if (history == COROT_HISTORY_AUTO) COROT_TRY(is_felt(m, &felt, &h));
   if (!felt) return COROT_OK;

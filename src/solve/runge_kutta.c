@@ -16,11 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/load_force.h"
+
 corot_status corot_rk_open(runge_kutta *m, corot_integrator *self, const rk_api *api, int order,
                            const double *u, const double *v) {
   m->api = api;
   m->order = order;
-  m->npoint = order <= 2 ? 2 : order <= 4 ? 3 : order <= 6 ? 4 : RK_MOST_POINTS;
+  m->npoint = corot_lobatto_points(order);
   m->t_stop = NAN;
   m->fresh = true;
   driver *d = &m->driver;
@@ -181,19 +183,6 @@ void corot_rk_interpolate(const runge_kutta *m, double s, double *u, double *v) 
     v[i] = dp * (u1[i] - u0[i]) / h + dq0 * v0[i] + dq1 * v1[i] + h * (dk0 * a0[i] + dk1 * a1[i]);
 }
 
-/* Lobatto's points and weights on (0, 1), of 2 points and more: order 2 n - 2. The ends are among
-   them, and what is known there serves two steps. */
-static const double lobatto[RK_MOST_POINTS - 1][RK_MOST_POINTS][2] = {
-    {{0, 1. / 2}, {1, 1. / 2}},
-    {{0, 1. / 6}, {0.5, 2. / 3}, {1, 1. / 6}},
-    {{0, 1. / 12}, {0.2763932022500210, 5. / 12}, {0.7236067977499790, 5. / 12}, {1, 1. / 12}},
-    {{0, 1. / 20},
-     {0.1726731646460115, 49. / 180},
-     {0.5, 16. / 45},
-     {0.8273268353539885, 49. / 180},
-     {1, 1. / 20}},
-};
-
 /* The slopes at both ends as they stand, and whether they will do. */
 static corot_status find_slopes(runge_kutta *m) {
   size_t n = corot_model_ndof(m->driver.self->model);
@@ -229,7 +218,7 @@ static corot_status find_power_at(runge_kutta *m, rk_end *e, double *power) {
    slopes its ends are those of the step. */
 static corot_status look_inside(runge_kutta *m) {
   double *u = N_VGetArrayPointer(m->error), h = m->end.t - m->start.t;
-  const double(*rule)[2] = lobatto[m->npoint - 2];
+  const lobatto_point *rule = corot_lobatto(m->npoint);
   if (!m->resolved) COROT_TRY(corot_rk_clear_slopes(m));
   for (int k = 0; k < m->npoint; k++) {
     bool at_end = k == 0 || k == m->npoint - 1;
@@ -237,8 +226,8 @@ static corot_status look_inside(runge_kutta *m) {
       COROT_TRY(find_power_at(m, k ? &m->end : &m->start, m->powers[k]));
       continue;
     }
-    corot_rk_interpolate(m, rule[k][0], u, u + corot_model_ndof(m->driver.self->model));
-    COROT_TRY(find_power(m, m->start.t + rule[k][0] * h, m->error, m->powers[k]));
+    corot_rk_interpolate(m, rule[k].x, u, u + corot_model_ndof(m->driver.self->model));
+    COROT_TRY(find_power(m, m->start.t + rule[k].x * h, m->error, m->powers[k]));
   }
   m->inside_known = true;
   return COROT_OK;
@@ -264,6 +253,21 @@ static corot_status add_stages(runge_kutta *m, double *work) {
   return COROT_OK;
 }
 
+/* How much more the supports carry in the state (u, v) at t than at the start of the step: with the
+   powers, their work. */
+static double carried_on(const runge_kutta *m, double t, const double *u, const double *v) {
+  const corot_integrator *self = m->driver.self;
+  const double *u0 = N_VGetArrayPointer(m->start.y);
+  int n = corot_model_ndof(self->model);
+  return corot_carried(self->model, self->state, t, u, v) -
+         corot_carried(self->model, self->state, m->start.t, u0, u0 + n);
+}
+
+static double carried_in_step(const runge_kutta *m) {
+  const double *u1 = N_VGetArrayPointer(m->end.y);
+  return carried_on(m, m->end.t, u1, u1 + corot_model_ndof(m->driver.self->model));
+}
+
 /* Where the step resolves all that moves, the work is that along the interpolant, by Lobatto's
    rule, whose order is the method's or above; else that of the stages. */
 static corot_status measure_work(runge_kutta *m) {
@@ -275,10 +279,12 @@ static corot_status measure_work(runge_kutta *m) {
   if (m->resolved) {
     COROT_TRY(look_inside(m));
     for (int k = 0; k < m->npoint; k++)
-      for (int c = 0; c < 2; c++) work[c] += lobatto[m->npoint - 2][k][1] * h * m->powers[k][c];
+      for (int c = 0; c < 2; c++)
+        work[c] += corot_lobatto(m->npoint)[k].weight * h * m->powers[k][c];
   } else {
     COROT_TRY(add_stages(m, work));
   }
+  work[1] += carried_in_step(m);
   if (rates) N_VScale(1, corot_rk_stage(&m->stages, m->stages.n - 1), m->stages.start);
   memcpy(m->work_start, m->work_end, sizeof work);
   memcpy(m->work_end, work, sizeof work);
@@ -299,28 +305,20 @@ corot_status corot_rk_at(corot_integrator *self, double t, double *u, double *v)
   return COROT_OK;
 }
 
-/* The integral from 0 to s of the polynomial that is 1 at Lobatto's point k and 0 at the others,
-   by Lobatto's own rule. */
-static double part_of_weight(const double (*rule)[2], int npoint, int k, double s) {
-  double sum = 0;
-  for (int j = 0; j < npoint; j++) {
-    double value = 1;
-    for (int i = 0; i < npoint; i++)
-      if (i != k) value *= (s * rule[j][0] - rule[i][0]) / (rule[k][0] - rule[i][0]);
-    sum += s * rule[j][1] * value;
-  }
-  return sum;
-}
-
 /* The work along the interpolant; what it lacks at the end of the step is spread over it. */
-static void work_inside(const runge_kutta *m, double part, double *work) {
-  const double(*rule)[2] = lobatto[m->npoint - 2];
-  double h = m->end.t - m->start.t;
+static void work_inside(runge_kutta *m, double part, double *work) {
+  const lobatto_point *rule = corot_lobatto(m->npoint);
+  double h = m->end.t - m->start.t, x[LOBATTO_MOST], *u = N_VGetArrayPointer(m->error);
+  double *v = u + corot_model_ndof(m->driver.self->model);
+  for (int k = 0; k < m->npoint; k++) x[k] = rule[k].x;
+  corot_rk_interpolate(m, part, u, v);
+  double carried[2][2] = {{0, carried_on(m, m->start.t + part * h, u, v)}, /* there, at the end */
+                          {0, carried_in_step(m)}};
   for (int c = 0; c < 2; c++) {
-    double all = 0, sum = 0;
+    double all = carried[1][c], sum = carried[0][c];
     for (int k = 0; k < m->npoint; k++) {
-      all += h * rule[k][1] * m->powers[k][c];
-      sum += h * part_of_weight(rule, m->npoint, k, part) * m->powers[k][c];
+      all += h * rule[k].weight * m->powers[k][c];
+      sum += h * corot_lagrange_integral(m->npoint, x, k, 0, part) * m->powers[k][c];
     }
     work[c] = m->work_start[c] + sum + part * (m->work_end[c] - m->work_start[c] - all);
   }

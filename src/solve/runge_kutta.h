@@ -10,6 +10,7 @@
 
 #include "solve/driver.h"
 #include "solve/explicit_limit.h"
+#include "solve/lobatto.h"
 
 /* A Butcher table by SUNDIALS' name. */
 typedef struct rk_table {
@@ -37,7 +38,7 @@ typedef struct rk_api {
   rk_count *nsetups, *nni, *ncfn;
 } rk_api;
 
-enum { RK_MOST_POINTS = 5, RK_MOST_STAGES = 8, RK_MOST_NODES = 4 };
+enum { RK_MOST_STAGES = 8, RK_MOST_NODES = 4 };
 
 /* One end of a step. */
 typedef struct rk_end {
@@ -81,7 +82,7 @@ typedef struct runge_kutta {
   N_Vector error, weight;            /* [2n] */
   N_Vector power;                    /* [2] dissipated, external */
   int npoint;                        /* of Lobatto's rule in each step */
-  double powers[RK_MOST_POINTS][2];  /* at its points in the last step */
+  double powers[LOBATTO_MOST][2];    /* at its points in the last step */
   double work_start[2], work_end[2]; /* dissipated, external [J] */
   double t_stop;                     /* armed; NaN: none */
   bool stale;                        /* r has jumped since the last step */

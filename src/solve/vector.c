@@ -37,6 +37,10 @@ COROT_CLONES static void loop_scale(long n, double a, const double *x, double *z
   for (long i = 0; i < n; i++) z[i] = a * x[i];
 }
 
+COROT_CLONES static void loop_set(long n, double a, double *z) {
+  for (long i = 0; i < n; i++) z[i] = a;
+}
+
 /* Sum of (x w)^2, in a fixed order: eight lanes, twice. */
 COROT_CLONES static double loop_square(long n, const double *x, const double *w) {
   vd even = vd_all(0), odd = vd_all(0);
@@ -64,6 +68,8 @@ static void scale(sunrealtype a, N_Vector x, N_Vector z) {
   loop_scale(length(x), a, data(x), data(z));
 }
 
+static void set_all(sunrealtype a, N_Vector z) { loop_set(length(z), a, data(z)); }
+
 static sunrealtype wrms_norm(N_Vector x, N_Vector w) {
   return sqrt(loop_square(length(x), data(x), data(w)) / (double)length(x));
 }
@@ -89,6 +95,7 @@ static sun_status scale_add_multi(int count, sunrealtype *a, N_Vector x, N_Vecto
 void corot_vector_quicken(N_Vector x) {
   x->ops->nvlinearsum = linear_sum;
   x->ops->nvscale = scale;
+  x->ops->nvconst = set_all;
   x->ops->nvwrmsnorm = wrms_norm;
   x->ops->nvlinearcombination = linear_combination;
   x->ops->nvscaleaddmulti = scale_add_multi;

@@ -169,13 +169,14 @@ lacks numerical-dissipation $(run swing.yaml) --set "$(constant newmark 0.15)" \
 lacks ledger $(run swing.yaml) --set "$(constant newmark 0.02)" --set 'loads.0.traction=[100,0,0]' \
   --set time.end=10
 
-# A bar of steel, loaded slowly: no vibration dies away, but the work is summed over long steps.
+# A bar of steel, loaded slowly in few long steps: nothing is lost, and the work is that of the load.
 sed 's/^material.*/material: {E: 2.1e11, nu: 0.3, density: 7850, damping: {lambda: 2.0e6, mu: 2.0e6}}/
      s/1.0e3\], amplitude: .*/1.0e6], amplitude: [[0, 0], [1, 1]]}]/
      s/^time.*/time: {end: 10.0, output: 0.5}/' pull.yaml >steel.yaml
-lacks numerical-dissipation $(run steel.yaml)
-has ledger $(run steel.yaml); json 'any("moves slowly" in w["text"] for w in d["warnings"])'
-lacks ledger $(run steel.yaml) --set integrator.max_step=0.005
+for method in cvode ida arkode; do
+  lacks numerical-dissipation $(run steel.yaml) --set integrator.method=$method
+  lacks ledger $(run steel.yaml) --set integrator.method=$method
+done
 
 # Strains.
 for command in run static; do

@@ -175,36 +175,44 @@ static finding look_inside(const problem *p, const corot_integrator_def *def) {
   return found;
 }
 
+/* The part of the largest energy that the ledger may be off by. A vibration that a support excites
+   by setting out at once loses up to 14 tolerances to methods of order 2 in the time looked at. */
+static double most_off(const problem *p, const corot_integrator_def *def) {
+  return p->cause == TURN ? fmax(1e-3, 20 * def->rtol) : 1e-3;
+}
+
 /* Ten tolerances apart at most. The strains of a stiff body that turns are differences of
    displacements far below the tolerance: its energies mean nothing. Nor does the balance where the
-   absolute tolerance is as large as the motion. The work of a multistep method is no part of its
-   error control, and it stops elsewhere by beginning at order 1: there the balance alone is
-   looked at. */
+   absolute tolerance is as large as the motion. */
 static void check(const problem *p, const corot_integrator_def *def) {
   finding c = look_inside(p, def);
   bool stiff = p->stiffer > 1, rigid = stiff && p->cause == TURN;
-  bool multistep = strcmp(def->method, "cvode") == 0 || strcmp(def->method, "ida") == 0;
-  if (!(c.u < 10 && c.v < 10 && (c.energy < 10 || rigid) && (c.work < 10 || rigid || multistep)))
+  bool below = stiff && p->cause == GRAVITY && def->atol_displacement == 0;
+  if (!(c.u < 10 && c.v < 10 && (c.energy < 10 || rigid) && (c.work < 10 || rigid)))
     fail_msg(
         "%s %d %s, rtol %g, stiffer by %g, %s: u %.2g, v %.2g, energies %.2g, works %.2g "
         "tolerances off",
         def->method, def->order, def->table ? def->table : "", def->rtol, p->stiffer,
         cause_name[p->cause], c.u, c.v, c.energy, c.work);
-  if (def->rtol <= 1e-5 && !(stiff && p->cause != RAMP) && !(c.balance < 1e-3))
-    fail_msg("%s %d, rtol %g, stiffer by %g, %s: the ledger is off by %.2g", def->method,
-             def->order, def->rtol, p->stiffer, cause_name[p->cause], c.balance);
+  double tight = def->table ? 1e-5 : 1e-4; /* some tables know their error badly */
+  if (def->rtol <= tight && !rigid && !below && !(c.balance < most_off(p, def)))
+    fail_msg("%s %d %s, rtol %g, stiffer by %g, %s: the ledger is off by %.2g", def->method,
+             def->order, def->table ? def->table : "", def->rtol, p->stiffer, cause_name[p->cause],
+             c.balance);
   assert_int_equal(c.outputs, NOUTPUT);
 }
 
+static const struct {
+  const char *method;
+  int order;
+} methods[] = {{"cvode", 0},  {"ida", 0},    {"arkode", 2}, {"arkode", 3},
+               {"arkode", 4}, {"arkode", 5}, {"erk", 4},    {"erk", 5}};
+enum { NMETHOD = sizeof methods / sizeof *methods };
+
 static void all_methods_know_the_inside_of_their_steps(void **state) {
   (void)state;
-  static const struct {
-    const char *method;
-    int order;
-  } methods[] = {{"cvode", 0},  {"ida", 0},    {"arkode", 2}, {"arkode", 3},
-                 {"arkode", 4}, {"arkode", 5}, {"erk", 4},    {"erk", 5}};
-  static const double rtols[] = {1e-3, 1e-5, 1e-7};
-  for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+  static const double rtols[] = {1e-3, 1e-4, 1e-5, 1e-7};
+  for (int k = 0; k < NMETHOD; k++)
     for (cause c = 0; c < NCAUSE; c++)
       for (int stiff = 0; stiff < 2; stiff++)
         for (size_t r = 0; r < sizeof rtols / sizeof *rtols; r++) {
@@ -213,6 +221,19 @@ static void all_methods_know_the_inside_of_their_steps(void **state) {
           def.method = methods[k].method, def.order = methods[k].order, def.rtol = rtols[r];
           if (!(stiff && strcmp(def.method, "erk") == 0)) check(&p, &def);
         }
+}
+
+/* Let go under its weight a stiff body moves 3e-6 m: with an absolute tolerance far below that its
+   vibration is followed, and so is where the energy goes. */
+static void a_body_that_hardly_moves_has_its_ledger(void **state) {
+  (void)state;
+  problem p = make(GRAVITY, true);
+  for (int k = 0; k < NMETHOD; k++) {
+    corot_integrator_def def = corot_integrator_defaults();
+    def.method = methods[k].method, def.order = methods[k].order;
+    def.atol_displacement = 0.01 * def.rtol * 3e-6;
+    if (strcmp(def.method, "erk") != 0) check(&p, &def);
+  }
 }
 
 /* But for Cash's, of which one stage stands before the start of the step: after a kink it sees what
@@ -235,6 +256,7 @@ static void so_do_all_tables(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(all_methods_know_the_inside_of_their_steps),
+      cmocka_unit_test(a_body_that_hardly_moves_has_its_ledger),
       cmocka_unit_test(so_do_all_tables),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -183,6 +183,41 @@ static void an_amplitude_that_cannot_move_is_refused(void **state) {
   corot_mesh_destroy(mesh);
 }
 
+/* What a support that turns or translates puts in is what changes in the momentum it carries, and a
+   part that hangs on no force at its nodes: dG/dt along a motion with M v' = r. */
+static void supports_put_in_the_momentum_they_carry(void **state) {
+  (void)state;
+  corot_motion away = turn;
+  away.kind = COROT_TRANSLATE;
+  away.velocity[0] = 0.3, away.velocity[2] = -0.2;
+  const corot_motion *motions[] = {&turn, &away};
+  for (int k = 0; k < 2; k++) {
+    body b = moved_body(bar_mesh(), "polar", 1, motions[k]);
+    double *y = calloc(6 * b.n, sizeof *y), *rate = y + 2 * b.n, *near = y + 4 * b.n;
+    const double t = 0.52, dt = 1e-6;
+    double carried[2];
+    uint64_t seed = 5;
+    corot_energies e, there;
+    for (int i = 0; i < 2 * b.n; i++) y[i] = (i < b.n ? 1e-3 : 0.1) * noise(&seed);
+    assert_ok(corot_energy(b.model, b.state, t, y, y + b.n, &e));
+    assert_true(e.carried == 0 && e.power_carried == e.power_supports);
+    corot_state_enter(b.state, 0.5); /* now a step may not pass the support's stop */
+    assert_ok(corot_energy(b.model, b.state, t, y, y + b.n, &e));
+    assert_ok(corot_rhs(b.model, b.state, t, y, rate));
+    for (int side = 0; side < 2; side++) {
+      double h = side ? dt : -dt;
+      for (int i = 0; i < 2 * b.n; i++) near[i] = y[i] + h * rate[i];
+      assert_ok(corot_energy(b.model, b.state, t + h, near, near + b.n, &there));
+      carried[side] = there.carried;
+    }
+    assert_above(fabs(e.carried), 1e-3);
+    assert_above(fabs(e.power_supports - e.power_carried), 1e-2);
+    assert_close(e.power_carried + (carried[1] - carried[0]) / (2 * dt), e.power_supports, 1e-6,
+                 1e-6);
+    free(y), drop_body(&b);
+  }
+}
+
 /* At a kink the velocity has two values. Only the viscous force feels it, of a body at rest. */
 static void the_state_knows_which_side_of_a_kink_is_meant(void **state) {
   (void)state;
@@ -344,6 +379,7 @@ int main(void) {
       cmocka_unit_test(amplitudes_move_supports),
       cmocka_unit_test(a_path_of_pieces_has_two_velocities_at_a_kink),
       cmocka_unit_test(an_amplitude_that_cannot_move_is_refused),
+      cmocka_unit_test(supports_put_in_the_momentum_they_carry),
       cmocka_unit_test(the_state_knows_which_side_of_a_kink_is_meant),
       cmocka_unit_test(what_is_held_twice_is_refused),
       cmocka_unit_test(a_turned_boundary_makes_stress_in_cauchy_only),

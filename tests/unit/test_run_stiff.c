@@ -47,7 +47,7 @@ static void every_row_after_a_ramp_is_the_equilibrium(void **state) {
       double off = worst_after(dir, 1, bent) / bent, rtol = pow(10, -digits);
       if (!(off < fmax(rtol, 3e-5))) fail_msg("%s: off by %.2g", method, off);
       double balance = worst_balance(dir);
-      if (k == 2 && !(balance < 1e-3)) fail_msg("%s: the ledger is off by %.2g", method, balance);
+      if (!(balance < 1e-3)) fail_msg("%s: the ledger is off by %.2g", method, balance);
     }
   remove_folder(dir);
 }
@@ -95,6 +95,34 @@ static void a_turning_support_inverts_nothing(void **state) {
   remove_folder(dir);
 }
 
+/* A body that turns carries twice its kinetic energy in momentum along its turn, and that is what
+   its support has put in: since it set out, and when it has stopped again. What is left of
+   vibrations is within a hundredth. */
+static void a_turning_support_puts_in_the_momentum(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  for (int k = 0; k < NMETHOD; k++)
+    for (int digits = 5; digits <= 7; digits++) {
+      char method[64];
+      double time[MOST_ROWS], kinetic[MOST_ROWS], work[MOST_ROWS], turning = 0;
+      snprintf(method, sizeof method, "integrator={method: %s, rtol: 1.0e-%d}", methods[k], digits);
+      run_ok(dir, SET(STEEL, "loads=[]", "time={end: 10, output: 0.05}", "output={fields: none}",
+                      "boundary=[{group: base, rotate: {axis: [0, 1, 0], center: [0, 0, 0], "
+                      "rate: 0.5, from: 0.5, to: 5}}]",
+                      method));
+      int nrow = column(dir, "energy.csv", 0, MOST_ROWS, time);
+      column(dir, "energy.csv", 1, MOST_ROWS, kinetic);
+      column(dir, "energy.csv", 4, MOST_ROWS, work);
+      for (int i = 0; i < nrow; i++) {
+        if (time[i] > 1 && time[i] < 5) turning = 2 * kinetic[i];
+        if (time[i] > 1 && !(fabs(work[i] - turning) < 0.03 * turning))
+          fail_msg("%s: at t = %g the support has put in %g J of %g J", method, time[i], work[i],
+                   turning);
+      }
+    }
+  remove_folder(dir);
+}
+
 /* Let go within 1e-12 s after a minute and more: nothing is left a second later. */
 static void a_jump_after_a_long_hold_is_felt(void **state) {
   (void)state;
@@ -115,6 +143,7 @@ int main(void) {
       cmocka_unit_test(every_row_after_a_ramp_is_the_equilibrium),
       cmocka_unit_test(at_rest_every_row_is_the_start),
       cmocka_unit_test(a_turning_support_inverts_nothing),
+      cmocka_unit_test(a_turning_support_puts_in_the_momentum),
       cmocka_unit_test(a_jump_after_a_long_hold_is_felt),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,6 +69,17 @@ static void mean_the_same(void **state) {
   }
 }
 
+static void all_entries_are_set(void **state) {
+  (void)state;
+  for (long n = 1; n < 40; n++) {
+    pair p = pair_create(n);
+    N_VConst(-0.3, p.quick[1]);
+    N_VConst(-0.3, p.own[1]);
+    compare(&p);
+    pair_destroy(&p);
+  }
+}
+
 static void huge_factors_leave_differences_alone(void **state) {
   (void)state;
   pair p = pair_create(40);
@@ -82,6 +93,7 @@ static void huge_factors_leave_differences_alone(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(mean_the_same),
+      cmocka_unit_test(all_entries_are_set),
       cmocka_unit_test(huge_factors_leave_differences_alone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
