@@ -68,6 +68,8 @@ corot_status folder_files(const char *dir, json_t **list) {
 
 /* --- Whether they are what they were --- */
 
+static bool is_absent(int why) { return why == ENOENT || why == ENOTDIR; }
+
 /* That its contents are those of an entry. */
 static corot_status check_contents(const char *path, const json_t *file) {
   const char *listed = json_string_value(json_object_get(file, "sha256"));
@@ -94,7 +96,9 @@ static corot_status check_one(const char *dir, const json_t *file, bool contents
   struct stat info;
   corot_status status = COROT_OK;
   *there = stat(path, &info) == 0;
-  if (!*there)
+  if (!*there && !is_absent(errno))
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+  else if (!*there)
     status = corot_fail(COROT_EFORMAT, "%s: result.json lists it, and it is not there", path);
   else if (info.st_size != (off_t)size)
     status = corot_fail(COROT_EFORMAT, "%s: has %lld bytes where result.json says %lld", path,
@@ -139,10 +143,11 @@ corot_status folder_verify_file(const char *dir, const json_t *result, const cha
   }
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
-  bool stray = access(path, F_OK) == 0;
-  corot_status status =
-      stray ? corot_fail(COROT_EFORMAT, "%s: is not among the files that result.json lists", path)
-            : COROT_OK;
+  corot_status status = COROT_OK;
+  if (access(path, F_OK) == 0)
+    status = corot_fail(COROT_EFORMAT, "%s: is not among the files that result.json lists", path);
+  else if (!is_absent(errno))
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   free(path);
   return status;
 }

@@ -68,7 +68,11 @@ corot_status folder_permit_name(const char *dir, const char *name, const char *w
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
   struct stat info;
-  corot_status status = lstat(path, &info) == 0 ? refuse(path, writer) : COROT_OK;
+  corot_status status = COROT_OK;
+  if (lstat(path, &info) == 0)
+    status = refuse(path, writer);
+  else if (errno != ENOENT && errno != ENOTDIR)
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   free(path);
   return status;
 }

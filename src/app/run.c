@@ -335,8 +335,8 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
     code = conclude(&r, integrate(&r));
   }
+  folder_leave(&r.lock); /* its files are closed, even if a library crashes below */
   release(&r);
-  folder_leave(&r.lock);
   return code;
 }
 

@@ -271,8 +271,8 @@ static int search(const scenario *s, const run_options *options) {
   if (status == COROT_OK) status = open_outputs(&r);
   int code = status == COROT_OK ? conclude(&r, find_equilibrium(&r))
                                 : run_end_early(s, options, &r.lock, &r.warnings, status);
+  folder_leave(&r.lock); /* its files are closed, even if a library crashes below */
   release(&r);
-  folder_leave(&r.lock);
   return code;
 }
 

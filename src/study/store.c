@@ -76,8 +76,8 @@ static corot_status look_at_files(const char *dir, const study_run *run, json_t 
   if (status == COROT_OK) {
     record->state = RUN_DONE;
     record->result = json_incref(result);
-  } else if (status == COROT_EIO || status == COROT_EFORMAT) {
-    record->damaged = status == COROT_EFORMAT;
+  } else if (status == COROT_EFORMAT) {
+    record->damaged = true;
     record->reason = strdup(corot_error());
     status = record->reason ? COROT_OK : no_memory();
   }
