@@ -15,6 +15,8 @@
 #include "inventory.h"
 #include "json_text.h"
 
+static bool is_absent(int why) { return why == ENOENT || why == ENOTDIR; }
+
 /* Its entry for an open file; NULL: no memory. */
 static corot_status describe(int fd, const char *path, const char *name, json_t **entry) {
   char digest[HASH_SIZE];
@@ -33,7 +35,10 @@ static corot_status add(const char *dir, const char *name, json_t *list, bool *f
   struct stat info;
   json_t *entry = NULL;
   corot_status status = COROT_OK;
-  *found = lstat(path, &info) == 0 && S_ISREG(info.st_mode);
+  bool there = lstat(path, &info) == 0;
+  if (!there && !is_absent(errno))
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
+  *found = there && S_ISREG(info.st_mode);
   int fd = *found ? open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC) : -1;
   if (*found && fd < 0)
     status = corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
@@ -67,8 +72,6 @@ corot_status folder_files(const char *dir, json_t **list) {
 }
 
 /* --- Whether they are what they were --- */
-
-static bool is_absent(int why) { return why == ENOENT || why == ENOTDIR; }
 
 /* That its contents are those of an entry. */
 static corot_status check_contents(const char *path, const json_t *file) {
