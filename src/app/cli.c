@@ -1,3 +1,4 @@
+/* Finds the command of a line, and takes apart what its arguments share. */
 #include "cli.h"
 
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* `corot check`: what a scenario amounts to, and what is doubtful about it, without a run. */
 #include <stdio.h>
 #include <stdlib.h>
 

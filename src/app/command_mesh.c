@@ -1,3 +1,4 @@
+/* `corot mesh box` and `corot mesh info`. */
 #include <corot/mesh.h>
 #include <solve/rigid.h>
 #include <stdio.h>

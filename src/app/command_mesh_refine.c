@@ -1,3 +1,4 @@
+/* `corot mesh refine`: octasection from file to file. */
 #include <corot/mesh.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* `corot run`: options, then run_scenario(). */
 #include "cli.h"
 #include "command_scenario.h"
 

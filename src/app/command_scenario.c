@@ -1,3 +1,4 @@
+/* The options of `corot run` and `corot static`, taken from the command line. */
 #include "command_scenario.h"
 
 #include <stdio.h>

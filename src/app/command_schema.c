@@ -1,3 +1,4 @@
+/* `corot schema`: the table of keys as text, JSON Schema or an example. */
 #include <stdio.h>
 
 #include "cli.h"

@@ -1,3 +1,4 @@
+/* `corot static`: options, then the search for an equilibrium. */
 #include "cli.h"
 #include "command_scenario.h"
 #include "static.h"

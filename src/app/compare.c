@@ -1,3 +1,4 @@
+/* One row of forces a moment: every measure evaluated on the state of the run. */
 #include "compare.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* The tree itself: nodes, look-up, and the sentence that shows a place in the file. */
 #include "config.h"
 
 #include <stdarg.h>

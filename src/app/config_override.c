@@ -1,3 +1,4 @@
+/* KEY=VALUE of the command line, set into a tree as if it stood in the file. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Reads the table line by line; what is wrong is told with the line. */
 #include "curve_file.h"
 
 #include <stdio.h>

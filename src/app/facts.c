@@ -1,3 +1,4 @@
+/* Gathers the facts, then shows them as text or as JSON. */
 #include "facts.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* From a status to the words of "failure". */
 #include "failure.h"
 
 json_t *run_failure_json(run_failure failure) {

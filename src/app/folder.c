@@ -1,3 +1,4 @@
+/* Folders, and files written beside their place, synced, and moved there. */
 #include "folder.h"
 
 #include <dirent.h>
@@ -47,9 +48,11 @@ char *folder_path(const char *dir, const char *name) {
   return path;
 }
 
+bool folder_says_absent(int why) { return why == ENOENT || why == ENOTDIR; }
+
 corot_status folder_look(const char *path, bool *there) {
   *there = access(path, F_OK) == 0;
-  if (*there || errno == ENOENT || errno == ENOTDIR) return COROT_OK;
+  if (*there || folder_says_absent(errno)) return COROT_OK;
   return corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
 }
 

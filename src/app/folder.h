@@ -16,6 +16,9 @@ corot_status folder_clean(const char *dir);
 /* "DIR/NAME", the caller's to free; NULL where memory ran out (the message is set). */
 char *folder_path(const char *dir, const char *name);
 
+/* Whether an errno says that nothing of that name is there. */
+bool folder_says_absent(int why);
+
 /* Whether something of that name is there: COROT_EIO where the system does not say. */
 corot_status folder_look(const char *path, bool *there);
 

@@ -34,7 +34,7 @@ static corot_status add(const char *dir, const char *name, json_t *list, bool *f
   json_t *entry = NULL;
   corot_status status = COROT_OK;
   bool there = lstat(path, &info) == 0;
-  if (!there && errno != ENOENT && errno != ENOTDIR)
+  if (!there && !folder_says_absent(errno))
     status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   *found = there && S_ISREG(info.st_mode);
   int fd = *found ? open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC) : -1;
@@ -97,7 +97,7 @@ static corot_status check_one(const char *dir, const json_t *file, bool contents
   struct stat info;
   corot_status status = COROT_OK;
   *there = stat(path, &info) == 0;
-  if (!*there && errno != ENOENT && errno != ENOTDIR)
+  if (!*there && !folder_says_absent(errno))
     status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   else if (!*there)
     status = corot_fail(COROT_EFORMAT, "%s: result.json lists it, and it is not there", path);
@@ -144,10 +144,11 @@ corot_status folder_verify_file(const char *dir, const json_t *result, const cha
   }
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
-  bool stray = access(path, F_OK) == 0;
-  corot_status status =
-      stray ? corot_fail(COROT_EFORMAT, "%s: is not among the files that result.json lists", path)
-            : COROT_OK;
+  corot_status status = COROT_OK;
+  if (access(path, F_OK) == 0)
+    status = corot_fail(COROT_EFORMAT, "%s: is not among the files that result.json lists", path);
+  else if (!folder_says_absent(errno))
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   free(path);
   return status;
 }

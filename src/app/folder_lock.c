@@ -56,7 +56,7 @@ int folder_lock_try(const char *path) {
 static corot_status look(const char *path, char owner[OWNER]) {
   owner[0] = '\0';
   int fd = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (fd < 0 && (errno == ENOENT || errno == ENOTDIR)) return COROT_OK;
+  if (fd < 0 && folder_says_absent(errno)) return COROT_OK;
   if (fd < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
   read_owner(fd, owner);
   close(fd);

@@ -68,7 +68,11 @@ corot_status folder_permit_name(const char *dir, const char *name, const char *w
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
   struct stat info;
-  corot_status status = lstat(path, &info) == 0 ? refuse(path, writer) : COROT_OK;
+  corot_status status = COROT_OK;
+  if (lstat(path, &info) == 0)
+    status = refuse(path, writer);
+  else if (!folder_says_absent(errno))
+    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   free(path);
   return status;
 }
@@ -78,7 +82,7 @@ static corot_status permit_frames(const char *dir) {
   if (!fields) return COROT_ENOMEM;
   DIR *d = opendir(fields);
   corot_status status = COROT_OK;
-  if (!d && errno != ENOENT && errno != ENOTDIR)
+  if (!d && !folder_says_absent(errno))
     status = corot_fail(COROT_EIO, "%s: cannot list it: %s", fields, strerror(errno));
   for (struct dirent *entry; d && status == COROT_OK && (entry = readdir(d));)
     if (inventory_is_frame(entry->d_name))

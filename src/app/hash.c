@@ -1,3 +1,4 @@
+/* Feeds meshes, files and texts to SHA-256 (libmd). */
 #include "hash.h"
 
 #include <errno.h>

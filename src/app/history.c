@@ -1,3 +1,4 @@
+/* Writes each step as it comes, and keeps the extremes. */
 #include "history.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* A writer and a reader around jansson that know when memory ran out. */
 #include "json_text.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Opens the files that a scenario asks for, and gives each moment to those it concerns. */
 #include "outputs.h"
 
 #include <math.h>

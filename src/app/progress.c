@@ -1,3 +1,4 @@
+/* One line, written over itself, where standard error is a terminal. */
 #include "progress.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* A file is loaded whole, counted, and cut into cells in place. */
 #include "read_csv.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Counts what the refined mesh would take before it is made. */
 #include "refine.h"
 
 #include <math.h>

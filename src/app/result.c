@@ -1,3 +1,4 @@
+/* Puts the document together, part by part, and writes it as the last file of a run. */
 #include "result.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* The short document, from what is known without a run. */
 #include "result_brief.h"
 
 #include "json_text.h"

@@ -1,3 +1,4 @@
+/* Load steps, residuals and stability as JSON. */
 #include "result_statics.h"
 
 #include <math.h>

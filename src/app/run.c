@@ -1,3 +1,4 @@
+/* The loop of a run: next event, advance, handle; then the books are closed. */
 #include "run.h"
 
 #include <math.h>
@@ -335,8 +336,8 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
     code = conclude(&r, integrate(&r));
   }
+  folder_leave(&r.lock); /* its files are closed, even if a library crashes below */
   release(&r);
-  folder_leave(&r.lock);
   return code;
 }
 

@@ -1,3 +1,4 @@
+/* Exit codes, early ends, warnings and the result, as runs and equilibria share them. */
 #include "run_common.h"
 
 #include <locale.h>
@@ -89,8 +90,8 @@ static bool may_enter(const run_options *options, int code) {
 /* If it cannot, all is said. */
 static void leave_failure(const char *path, const scenario *s, const run_options *options,
                           folder_lock *lock, const brief_result *what) {
-  if (!lock->path && (!may_enter(options, what->exit_code) ||
-                      run_enter(path, options, lock) != COROT_OK))
+  if (!lock->path &&
+      (!may_enter(options, what->exit_code) || run_enter(path, options, lock) != COROT_OK))
     return;
   leave_brief(s, what, options->dir);
 }
@@ -133,8 +134,8 @@ int run_end_early(const scenario *s, const run_options *options, folder_lock *lo
 
 static const char head[] = "warning: ";
 
-corot_status run_warn_before(const scenario *s, const corot_model *model,
-                             bool statics, const run_options *options, warnings *w) {
+corot_status run_warn_before(const scenario *s, const corot_model *model, bool statics,
+                             const run_options *options, warnings *w) {
   corot_status status = warnings_before(s, model, statics, w);
   if (!options->quiet) warnings_print(w, 0, head, stderr);
   return status;

@@ -1,3 +1,4 @@
+/* Reads the tree of a file, which the schema has checked, into a scenario. */
 #include "scenario.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Outputs and kinks, merged as they come. */
 #include "schedule.h"
 
 #include <float.h>

@@ -1,3 +1,4 @@
+/* The table of all keys of a scenario, and how to find one. */
 #include "schema.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* The header, then one record an output time; read back in one piece. */
 #include "states.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Load step by load step to the full loads; then the books are closed. */
 #include "static.h"
 
 #include <math.h>
@@ -271,8 +272,8 @@ static int search(const scenario *s, const run_options *options) {
   if (status == COROT_OK) status = open_outputs(&r);
   int code = status == COROT_OK ? conclude(&r, find_equilibrium(&r))
                                 : run_end_early(s, options, &r.lock, &r.warnings, status);
+  folder_leave(&r.lock); /* its files are closed, even if a library crashes below */
   release(&r);
-  folder_leave(&r.lock);
   return code;
 }
 

@@ -1,3 +1,4 @@
+/* Edit distance by rows, as in Wagner & Fischer, with swaps of neighbours. */
 #include "suggest.h"
 
 #include <ctype.h>

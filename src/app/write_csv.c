@@ -1,3 +1,4 @@
+/* One function opens each table with its header, another adds a row. */
 #include "write_csv.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* XML around binary arrays, whose places in the file are known beforehand. */
 #include "write_vtu.h"
 
 #include <stdarg.h>

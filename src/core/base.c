@@ -1,3 +1,4 @@
+/* The message of the last failure, a text for each thread. */
 #include <corot/base.h>
 
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* Builds the maps as sparse rows, and applies them and their transposes. */
 #include "core/coarsening.h"
 
 #include <string.h>

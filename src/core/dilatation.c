@@ -1,3 +1,4 @@
+/* Which nodes share an average, and who contributes to it. */
 #include "core/dilatation.h"
 
 #include <limits.h>

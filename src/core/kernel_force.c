@@ -1,3 +1,4 @@
+/* Stress, energy and frames of the tets, eight at a time. */
 #include <stdlib.h>
 
 #include "core/kernel.h"

@@ -1,3 +1,4 @@
+/* Element matrices, and the product of the tangent with a direction. */
 #include "core/kernel.h"
 
 /* The block [9] of each lane is added to the matrix: eight entries as a vector, the ninth alone. */

@@ -1,3 +1,4 @@
+/* A mesh that owns copies of all arrays. */
 #include <corot/mesh.h>
 #include <stdbool.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Rows of a draft as they are read, tags turned into indices, and the mesh out of it. */
 #include "core/mesh_draft.h"
 
 #include <limits.h>

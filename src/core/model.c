@@ -1,3 +1,4 @@
+/* From a definition to a model: each part checked, then made. */
 #include "core/levels.h"
 #include "core/names.h"
 

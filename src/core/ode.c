@@ -1,3 +1,4 @@
+/* The functions of the ODE: nodal fields, kernels over the tets, loads. */
 #include <corot/ode.h>
 #include <string.h>
 

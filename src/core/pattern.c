@@ -1,3 +1,4 @@
+/* Counts neighbours, sorts them, and numbers the blocks. */
 #include "core/pattern.h"
 
 #include <limits.h>

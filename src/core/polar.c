@@ -1,3 +1,4 @@
+/* The polar factor of a single matrix, for callers that have no lanes. */
 #include "core/polar.h"
 
 corot_status corot_polar(const double F[9], double R[9]) {

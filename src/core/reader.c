@@ -1,3 +1,4 @@
+/* The cursor over a file in memory. */
 #include "core/reader.h"
 
 #include <errno.h>

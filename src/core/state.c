@@ -1,3 +1,4 @@
+/* Memory of a state, and what enters it: frames, displacement, velocity. */
 #include "core/state.h"
 #include "core/levels.h"
 

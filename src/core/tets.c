@@ -1,3 +1,4 @@
+/* Sorts the tets into blocks of one material and computes their gradients. */
 #include "core/tets.h"
 
 #include <limits.h>

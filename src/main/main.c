@@ -1,3 +1,4 @@
+/* The program: the table of its commands. */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>

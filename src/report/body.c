@@ -1,3 +1,4 @@
+/* Surface, moments and fields, each cut down to what a page can carry. */
 #include "body.h"
 
 #include <corot/model.h>

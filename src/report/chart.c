@@ -1,3 +1,4 @@
+/* Lays out axes, series and legend, and writes them as SVG. */
 #include "chart.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* `corot plot`: the diagram of a study, and scripts that draw it. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>

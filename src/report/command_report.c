@@ -1,3 +1,4 @@
+/* `corot report`: the page of a folder. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Escapes for text within a script, and base64 for arrays. */
 #include "encode.h"
 
 #include <app/escape.h>

@@ -1,3 +1,4 @@
+/* Finds the frames by the list in fields.pvd, and reads their arrays. */
 #include "fields.h"
 
 #include <stdint.h>

@@ -1,3 +1,4 @@
+/* A figure as JSON, with the points that a screen can show. */
 #include "figure.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Takes a path apart at its points. */
 #include "lookup.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Lengths of texts, and texts cut to a length. */
 #include "markup.h"
 
 #include <app/escape.h>

@@ -1,3 +1,4 @@
+/* Head, style and scripts, which are compiled into the program, around the sections. */
 #include "page.h"
 
 #include <app/folder_owner.h>

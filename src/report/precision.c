@@ -1,3 +1,4 @@
+/* One curve a series, error against cost, and the hull of the best. */
 #include "precision.h"
 
 #include <app/escape.h>

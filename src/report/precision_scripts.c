@@ -1,3 +1,4 @@
+/* The scripts as text, with names escaped for each language. */
 #include "precision_scripts.h"
 
 #include <app/escape.h>

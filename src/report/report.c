@@ -1,3 +1,4 @@
+/* Looks what kind of folder it is, and hands it on. */
 #include "report.h"
 
 #include <stdbool.h>

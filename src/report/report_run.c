@@ -1,3 +1,4 @@
+/* The sections of the page of a run, in their order. */
 #include "report_run.h"
 
 #include "body.h"

@@ -1,3 +1,4 @@
+/* The sections of the page of a study, in their order. */
 #include "report_study.h"
 
 #include "page.h"

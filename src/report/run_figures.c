@@ -1,3 +1,4 @@
+/* Columns of the tables of a run, made into figures. */
 #include "run_figures.h"
 
 #include <stdbool.h>

@@ -1,3 +1,4 @@
+/* Reads result.json and the tables that are there. */
 #include "run_folder.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Sentences first, then the tables of facts. */
 #include "run_summary.h"
 
 #include <math.h>

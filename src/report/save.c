@@ -1,3 +1,4 @@
+/* A stream in memory, written to its file when it is complete. */
 #include "save.h"
 
 #include <stdlib.h>

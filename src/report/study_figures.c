@@ -1,3 +1,4 @@
+/* Work-precision, and error against tolerance, as figures. */
 #include "study_figures.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Sentences first, then the table of cells. */
 #include "study_summary.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Reads the document once, and keeps pointers into it. */
 #include "study_table.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Sorts the faces of all tets; those that come once are the surface. */
 #include "surface.h"
 
 #include <stdbool.h>

@@ -1,3 +1,4 @@
+/* Steps of 1, 2 and 5 on linear axes, decades on logarithmic ones. */
 #include "ticks.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Takes the XML header apart, and finds the arrays behind it. */
 #include "vtu.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Asks how much room is left, and how much the BLAS would take, before its first call. */
 #define _GNU_SOURCE /* RTLD_DEFAULT, MAP_ANONYMOUS */
 #include "solve/blas_room.h"
 

@@ -1,3 +1,4 @@
+/* SUNDIALS' callbacks on a model, and the words of a failure. */
 #include "solve/driver.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* The largest eigenvalue by power iteration, followed from step to step. */
 #include "solve/explicit_limit.h"
 
 #include <complex.h>

@@ -1,3 +1,4 @@
+/* Creates a solver as the choice says. */
 #include "solve/linsol.h"
 
 #include <stdlib.h>

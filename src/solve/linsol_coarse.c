@@ -1,3 +1,4 @@
+/* The matrix of level 0 in columns, factorised by the direct solver that is there. */
 #include "solve/linsol_coarse.h"
 
 #include <stdlib.h>

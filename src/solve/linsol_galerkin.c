@@ -1,3 +1,4 @@
+/* The pattern of P'AP level by level, found once; then sums. */
 #include "solve/linsol_galerkin.h"
 
 #include <stdlib.h>

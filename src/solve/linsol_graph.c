@@ -1,3 +1,4 @@
+/* The graph from the pattern of the matrix, and what a factor would cost in an order of it. */
 #include "solve/linsol_graph.h"
 
 #include <stdlib.h>

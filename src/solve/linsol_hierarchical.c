@@ -1,3 +1,4 @@
+/* Preconditioner in the hierarchical basis: block Jacobi above, a direct solve on level 0. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Preconditioner by one V-cycle, with a direct solve on level 0. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* The table of the multilevel preconditioners. */
 #include "solve/linsol_multilevel.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Products, sweeps and factors by blocks. */
 #include "solve/linsol_nodes.h"
 
 #include <float.h>

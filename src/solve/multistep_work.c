@@ -36,7 +36,8 @@ corot_status corot_multistep_open_ledger(multistep *m) {
   l->end = N_VClone(m->driver.y);
   l->loads = N_VClone(m->driver.y);
   if (!l->start || !l->end || !l->loads)
-    return corot_fail(COROT_ENOMEM, "no memory for the ledger of %s", m->driver.self->ops->name);
+    return corot_fail(COROT_ENOMEM, "no memory for the ledger of %s",
+                      m->driver.self->ops->kind.name);
   N_VScale(1, m->driver.y, l->end);
   l->load_start = N_VGetArrayPointer(l->loads);
   l->load_end = l->load_start + corot_model_ndof(m->driver.self->model);

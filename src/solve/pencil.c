@@ -1,3 +1,4 @@
+/* Assembles K and D, combines them with M, and factors the sum when it has to. */
 #include "solve/pencil.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Splits a vector by the factor of the step. */
 #include "solve/slow.h"
 
 corot_status corot_slow_part(const corot_integrator *self, const double *x, double *y) {

@@ -1,3 +1,4 @@
+/* Equilibria by KINSOL: load steps, Newton iterations, held frames by fixed point. */
 #include <corot/statics.h>
 
 #include <math.h>

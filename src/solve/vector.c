@@ -1,3 +1,4 @@
+/* Replaces the operations of SUNDIALS' serial vector one by one. */
 #include "solve/vector.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Gathers the builds from the results, and the sentence about them. */
 #include "builds.h"
 
 #include <app/json_text.h>

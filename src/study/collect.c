@@ -1,3 +1,4 @@
+/* Reads the runs, measures them, and writes the tables. */
 #include "collect.h"
 
 #include <app/escape.h>

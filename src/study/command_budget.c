@@ -1,3 +1,4 @@
+/* `corot budget`: options, runs, text and page. */
 #include <stdio.h>
 #include <string.h>
 

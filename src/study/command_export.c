@@ -1,3 +1,4 @@
+/* `corot study export`: the format by its name. */
 #define _XOPEN_SOURCE 700 /* realpath */
 #include <app/cli.h>
 #include <app/folder.h>

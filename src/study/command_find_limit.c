@@ -1,3 +1,4 @@
+/* `corot find-limit`: options, then the bisection. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

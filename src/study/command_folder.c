@@ -1,3 +1,4 @@
+/* `corot study status`, `collect`, `table`, `csv` and `schema`. */
 #include "command_folder.h"
 
 #include <app/cli.h>

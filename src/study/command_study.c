@@ -1,3 +1,4 @@
+/* `corot study`: options, then plan, runs, tables and page. */
 #include "command_study.h"
 
 #include <app/cli.h>

@@ -1,3 +1,4 @@
+/* Norms of differences, sample by sample. */
 #include "errors.h"
 
 #include <corot/ode.h>

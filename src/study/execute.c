@@ -1,3 +1,4 @@
+/* Starts what is missing, several at a time, and books what becomes of it. */
 #include "execute.h"
 
 #include <app/clock.h>

@@ -1,3 +1,4 @@
+/* One writer a format; every text is escaped for it. */
 #include "export.h"
 
 #include <app/escape.h>

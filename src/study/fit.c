@@ -1,3 +1,4 @@
+/* A line through logarithms, and whether it is worth its name. */
 #include "fit.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Names of columns, and a value for each cell. */
 #include "flat.h"
 
 #include <stdbool.h>

@@ -1,3 +1,4 @@
+/* Reading and writing of whole documents. */
 #include "json_file.h"
 
 #include <app/folder.h>

@@ -1,3 +1,4 @@
+/* A scan side by side, then bisection of logarithms between the stable and the unstable. */
 #include "limit.h"
 
 #include <math.h>

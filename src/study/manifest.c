@@ -1,3 +1,4 @@
+/* A study to JSON and back. */
 #include "manifest.h"
 
 #include <app/folder.h>

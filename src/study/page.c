@@ -1,3 +1,4 @@
+/* report.html beside what it shows. */
 #include "page.h"
 
 #include <app/folder.h>

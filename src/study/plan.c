@@ -1,6 +1,8 @@
+/* Every combination of the axes, then the references. */
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "plan.h"
 
+#include <app/folder.h>
 #include <app/hash.h>
 #include <app/json_text.h>
 #include <app/no_memory.h>
@@ -300,8 +302,7 @@ static corot_status identify(const study *s, char digest[HASH_SIZE]) {
 static corot_status find_base(const study *s, char **base) {
   *base = realpath(s->base, NULL);
   if (*base) return COROT_OK;
-  if (errno == ENOENT || errno == ENOTDIR)
-    return config_fail(s->base_node, "%s: cannot be found", s->base);
+  if (folder_says_absent(errno)) return config_fail(s->base_node, "%s: cannot be found", s->base);
   if (errno == ENOMEM) return no_memory();
   return corot_fail(COROT_EIO, "%s: cannot be looked at: %s", s->base, strerror(errno));
 }

@@ -1,3 +1,4 @@
+/* fork, exec and wait, with signals handed on. */
 #include "pool.h"
 
 #include <app/stop.h>

@@ -1,3 +1,4 @@
+/* Looks what has become of a run, and books failures and timings. */
 #include "store.h"
 
 #include <app/cli.h>

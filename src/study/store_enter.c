@@ -83,7 +83,10 @@ static corot_status read_owner(const char *dir, bool force, manifest **owner) {
   if (status == COROT_OK && there) status = manifest_read(dir, owner);
   if (status != COROT_OK && status != COROT_EFORMAT) return status;
   if (!*owner && !force) COROT_TRY(permit_files(dir));
-  return force ? COROT_OK : folder_permit_page(dir);
+  status = force ? COROT_OK : folder_permit_page(dir);
+  if (status == COROT_OK) return COROT_OK;
+  manifest_destroy(*owner);
+  return status;
 }
 
 /* Writes study.json if it is new, or says more than it did. */

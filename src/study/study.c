@@ -1,3 +1,4 @@
+/* Reads the tree of a file, which the schema has checked, into a study. */
 #include "study.h"
 
 #include <app/cli.h>

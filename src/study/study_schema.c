@@ -1,3 +1,4 @@
+/* The table of all keys of a study file. */
 #include "study.h"
 
 #define MAP SCHEMA_MAP

@@ -1,3 +1,4 @@
+/* The flat table as comma-separated values. */
 #include <app/escape.h>
 #include <app/folder.h>
 #include <app/json_text.h>

@@ -1,3 +1,4 @@
+/* The flat table in a database, written beside its place and moved there. */
 #include <app/escape.h>
 #include <app/folder.h>
 #include <app/json_text.h>

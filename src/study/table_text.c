@@ -1,3 +1,4 @@
+/* Columns as wide as their contents; units once. */
 #include "table_text.h"
 
 #include <app/escape.h>

@@ -1,3 +1,4 @@
+/* Settings made into a study of their own, then carried out as one. */
 #include "variants.h"
 
 #include <app/no_memory.h>

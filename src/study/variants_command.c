@@ -1,3 +1,4 @@
+/* Options, and the message of an interruption. */
 #include "variants_command.h"
 
 #include <app/cli.h>

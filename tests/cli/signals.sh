@@ -9,9 +9,11 @@ until_true() {
   until "$@" || [ $tries = 600 ]; do sleep 0.05; tries=$((tries + 1)); done
 }
 has() { [ -s "$1" ]; }
+# Whether a process catches SIGALRM, the last of those it begins to heed.
 heeds() {
   [ "$(readlink "/proc/$1/exe")" != "$(readlink /proc/$$/exe)" ] &&
-    grep -q '^SigCgt:.*[1-9a-f]' "/proc/$1/status"
+    caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status") &&
+    [ $((0x${caught:-0} & 0x2000)) != 0 ]
 }
 
 # said DIR NUMBER: result.json there is whole, and is that of a run that this signal ended.
