@@ -4,9 +4,14 @@
 expect 0 run model.yaml -o run --quiet
 
 cat >lengthen.py <<'PY'
-import sys
+import json, sys
 
 n = int(sys.argv[1])
+with open("run/result.json") as file:
+    result = json.load(file)
+result.pop("files", None)  # what it lists is not what stands there then
+with open("run/result.json", "w") as file:
+    json.dump(result, file)
 for table in ("history", "steps", "energy", "probes"):
     with open(f"run/{table}.csv") as file:
         head = file.readline()
