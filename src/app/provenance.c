@@ -10,6 +10,7 @@
 
 #include "core/simd.h"
 #include "json_text.h"
+#include "no_memory.h"
 
 #if defined(__clang__)
 #define COMPILER "clang " __clang_version__
@@ -71,17 +72,18 @@ static json_t *blas_json(const corot_libraries *l) {
                    l->blas_threads > 0 ? json_integer(l->blas_threads) : json_null());
 }
 
-json_t *provenance_json(void) {
+corot_status provenance_make(json_t **out) {
   corot_libraries l;
   char build[2 * ID_BYTES + 1] = "";
-  corot_libraries_find(&l);
+  COROT_TRY(corot_libraries_find(&l));
   dl_iterate_phdr(look_at_program, build);
-  return json_pack("{s:o, s:o, s:s, s:s, s:{s:o, s:o, s:o}, s:o, s:s, s:s}", "commit",
+  *out = json_pack("{s:o, s:o, s:s, s:s, s:{s:o, s:o, s:o}, s:o, s:s, s:s}", "commit",
                    known(provenance_commit), "build", known(build), "corot", corot_version(),
                    "sundials", corot_sundials_version(), "suitesparse", "version",
                    known(l.suitesparse), "klu", known(l.klu), "cholmod", known(l.cholmod), "blas",
                    blas_json(&l), "compiler", provenance_compiler, "processor",
                    simd_instruction_set());
+  return *out ? COROT_OK : no_memory();
 }
 
 /* --- Comparison --- */

@@ -161,6 +161,8 @@ json_t *result_versions(void) {
 corot_status result_make(const scenario *s, const outputs *o, const run_summary *run,
                          json_t **out) {
   const hashes *h = &run->hashes;
+  json_t *provenance;
+  COROT_TRY(provenance_make(&provenance));
   json_t *result = json_pack(
       "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
       "s:o, s:o,"
@@ -175,7 +177,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
       timings_part(run), "memory", memory_part(run), "probes", probes_part(o), "energy",
       energy_part(o), "extremes", extremes_part(o), "observed", observed_part(run), "versions",
-      result_versions(), "provenance", provenance_json(), "hashes", "scenario", h->scenario, "mesh",
+      result_versions(), "provenance", provenance, "hashes", "scenario", h->scenario, "mesh",
       h->mesh, "run", h->run, "scenario", s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;

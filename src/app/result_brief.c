@@ -9,7 +9,9 @@
 /* `t_reached` is taken over. What can be found in it stands first. */
 static corot_status make_text(const scenario *s, const brief_result *what, json_t *t_reached,
                               char **text) {
-  json_t *result = json_object();
+  json_t *result = json_object(), *provenance;
+  if (provenance_make(&provenance) != COROT_OK)
+    provenance = json_null(); /* the reason matters more */
   result = json_text_with(result, "status", json_string(what->status));
   result = json_text_with(result, "reason", json_text_string(what->reason));
   result = json_text_with(result, "exit_code", json_integer(what->exit_code));
@@ -21,7 +23,7 @@ static corot_status make_text(const scenario *s, const brief_result *what, json_
                           what->warnings ? warnings_json(what->warnings) : json_array());
   result = json_text_with(result, "strain", s ? json_string(s->strain) : json_null());
   result = json_text_with(result, "versions", result_versions());
-  result = json_text_with(result, "provenance", provenance_json());
+  result = json_text_with(result, "provenance", provenance);
   result = json_text_with(result, "scenario", s ? json_incref(s->resolved) : json_null());
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   corot_status status = result_text(result, text);

@@ -3,6 +3,7 @@
 #include "solve/libraries.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <limits.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -48,23 +49,28 @@ static void ask_text(const char *function, size_t size, char *text) {
   for (size_t n = strlen(text); n > 0 && text[n - 1] == ' ';) text[--n] = '\0';
 }
 
-/* Debian's libblas.so.3 is a link of its alternatives. */
-static void find_file(const char *function, size_t size, char *text) {
+/* Debian's libblas.so.3 is a link of its alternatives. A file that has been replaced since is known
+   by the name it had. */
+static corot_status find_file(const char *function, size_t size, char *text) {
   Dl_info info;
   found f = find(function);
-  if (!f.object || !dladdr(f.object, &info) || !info.dli_fname) return;
+  if (!f.object || !dladdr(f.object, &info) || !info.dli_fname) return COROT_OK;
   char path[PATH_MAX];
-  snprintf(text, size, "%s", realpath(info.dli_fname, path) ? path : info.dli_fname);
+  const char *real = realpath(info.dli_fname, path);
+  if (!real && errno != ENOENT && errno != ENOTDIR)
+    return corot_fail(COROT_EIO, "%s: cannot be looked at: %s", info.dli_fname, strerror(errno));
+  snprintf(text, size, "%s", real ? real : info.dli_fname);
+  return COROT_OK;
 }
 
-void corot_libraries_find(corot_libraries *libraries) {
+corot_status corot_libraries_find(corot_libraries *libraries) {
   corot_libraries l = {.blas_threads = 0};
   ask_version("SuiteSparse_version", sizeof l.suitesparse, l.suitesparse);
   ask_klu(sizeof l.klu, l.klu);
 #ifdef COROT_HAVE_CHOLMOD
   ask_version("cholmod_version", sizeof l.cholmod, l.cholmod);
 #endif
-  find_file("dgemm_", sizeof l.blas, l.blas);
+  COROT_TRY(find_file("dgemm_", sizeof l.blas, l.blas));
   if (*l.blas) {
     ask_text("openblas_get_config", sizeof l.blas_config, l.blas_config);
     ask_text("openblas_get_corename", sizeof l.blas_core, l.blas_core);
@@ -72,4 +78,5 @@ void corot_libraries_find(corot_libraries *libraries) {
     if (threads.object) l.blas_threads = threads.number();
   }
   *libraries = l;
+  return COROT_OK;
 }

@@ -2,6 +2,8 @@
 #ifndef COROT_SOLVE_LIBRARIES_H
 #define COROT_SOLVE_LIBRARIES_H
 
+#include <corot/base.h>
+
 /* Versions as "MAJOR.MINOR.PATCH"; "" and 0: not known, or none. */
 typedef struct corot_libraries {
   char suitesparse[32], klu[32], cholmod[32];
@@ -10,6 +12,7 @@ typedef struct corot_libraries {
   int blas_threads;                     /* processor that it takes its kernels for */
 } corot_libraries;
 
-void corot_libraries_find(corot_libraries *libraries);
+/* COROT_EIO: the system does not say where a file lies. */
+corot_status corot_libraries_find(corot_libraries *libraries);
 
 #endif

@@ -160,11 +160,9 @@ static void write_others(const json_t *list, const json_t *own, FILE *out) {
 }
 
 corot_status builds_tell(const char *dir, const json_t *list) {
-  json_t *own = provenance_json();
-  if (!list || !own) {
-    json_decref(own);
-    return no_memory();
-  }
+  json_t *own;
+  if (!list) return no_memory();
+  COROT_TRY(provenance_make(&own));
   size_t count = count_others(list, own);
   const char *text = "";
   told t = {0};
