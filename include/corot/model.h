@@ -301,6 +301,9 @@ double corot_model_length(const corot_model *model);
 double corot_model_frequency(const corot_model *model);
 double corot_model_damping_time(const corot_model *model);
 
+/* Whether supports move. */
+bool corot_model_moves(const corot_model *model);
+
 /* Bytes held by the model. */
 size_t corot_model_bytes(const corot_model *model);
 

@@ -381,6 +381,8 @@ double corot_model_length(const corot_model *m) { return m->length; }
 double corot_model_frequency(const corot_model *m) { return m->frequency; }
 double corot_model_damping_time(const corot_model *m) { return m->damping_time; }
 
+bool corot_model_moves(const corot_model *m) { return m->nmotion > 0; }
+
 static size_t mesh_bytes(const corot_mesh *mesh) {
   size_t bytes = sizeof *mesh + mesh->nnode * sizeof *mesh->x + mesh->ntet * sizeof *mesh->tet;
   for (int k = 0; k < mesh->ngroup; k++) {
