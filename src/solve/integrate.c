@@ -131,8 +131,8 @@ static int choose_max_order(const corot_integrator_def *d, const corot_model *mo
    may put energy into the body, unless it ends at a small fraction of the tolerance: at a tenth of
    it (SUNDIALS' own choice) an elastic bar gains 11 % in 20 s, at 0.003 nothing. Supports that turn
    take the body away from an old matrix, and what the iteration leaves shakes it: of the paper's
-   turning bar, at rtol 1e-4, the ledger is off by 3.4 % with a matrix of a hundred steps and 0.03, by
-   0.1 % with one of thirty and 0.01, for a tenth more time; its cube takes half the steps. */
+   turning bar, at rtol 1e-4, the ledger is off by 3.1 % with a matrix of a hundred steps and 0.03,
+   by 0.1 % with one of thirty and 0.01, for a tenth more time; its cube takes half the steps. */
 void corot_integrator_choose_bdf(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
   if (d->max_order == 0) d->max_order = choose_max_order(d, self->model);
