@@ -89,6 +89,7 @@ int command_check(int argc, char **argv) {
     else
       code = option_error("corot check", answer, argv, options);
   }
+  /* no code so far: there is a scenario to look at */
   if (code < 0 && argc - optind != 1)
     code = usage_error("corot check", "expected one scenario, found %d", argc - optind);
   if (code < 0) code = check(argv[optind], noverride, override, kind);

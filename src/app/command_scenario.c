@@ -64,6 +64,7 @@ int command_scenario(const char *program, const char *suffix, const char *help, 
     else
       code = option_error(program, answer, argv, options);
   }
+  /* no code so far: there is a scenario to carry out */
   if (code < 0 && argc - optind != 1)
     code = usage_error(program, "expected one scenario, found %d", argc - optind);
   if (code < 0 && o.dir && !*o.dir) code = usage_error(program, "--output: the name is empty");

@@ -284,6 +284,7 @@ corot_status config_parse(config *tree, const config_source *source, bool json,
   COROT_TRY(check_text(source));
   reader r = {.tree = tree, .source = source};
   corot_status status = COROT_ENOMEM;
+  /* libfyaml is to keep its complaints for us instead of printing them */
   struct fy_diag_cfg quiet;
   fy_diag_cfg_default(&quiet);
   quiet.fp = NULL;

@@ -33,6 +33,7 @@ static corot_status add(const char *dir, const char *name, json_t *list, bool *f
   struct stat info;
   json_t *entry = NULL;
   corot_status status = COROT_OK;
+  /* links are not followed: only what the run itself has written counts */
   bool there = lstat(path, &info) == 0;
   if (!there && !folder_says_absent(errno))
     status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
@@ -96,6 +97,7 @@ static corot_status check_one(const char *dir, const json_t *file, bool contents
   if (!path) return COROT_ENOMEM;
   struct stat info;
   corot_status status = COROT_OK;
+  /* from what costs least to what reads the file */
   *there = stat(path, &info) == 0;
   if (!*there && !folder_says_absent(errno))
     status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
@@ -142,13 +144,12 @@ corot_status folder_verify_file(const char *dir, const json_t *result, const cha
     *lost = status == COROT_EFORMAT && !there;
     return *lost ? COROT_OK : status;
   }
+  /* what is not listed must not be there */
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
-  corot_status status = COROT_OK;
-  if (access(path, F_OK) == 0)
+  corot_status status = folder_look(path, &there);
+  if (status == COROT_OK && there)
     status = corot_fail(COROT_EFORMAT, "%s: is not among the files that result.json lists", path);
-  else if (!folder_says_absent(errno))
-    status = corot_fail(COROT_EIO, "%s: cannot be looked at: %s", path, strerror(errno));
   free(path);
   return status;
 }

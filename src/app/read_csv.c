@@ -73,6 +73,7 @@ static corot_status parse(csv *t, const char *path) {
   if (commas + lines > MOST_CELLS)
     return corot_fail(COROT_EFORMAT, "%s: %zu cells, more than %d, the limit of a table", path,
                       commas + lines, MOST_CELLS);
+  /* room for all, were every comma in the header, or none */
   bool cut = false;
   t->name = malloc((commas + 1) * sizeof *t->name);
   t->cell = malloc((commas + lines + 1) * sizeof *t->cell);
@@ -80,6 +81,7 @@ static corot_status parse(csv *t, const char *path) {
   t->ncolumn = -1;
   take_row(&at, &t->ncolumn, (int)commas + 1, t->name, &cut);
   if (cut) return corot_fail(COROT_EFORMAT, "%s: its header is cut short", path);
+  /* a row that is cut is the last one of a run that was killed */
   while (*at) {
     char **row = t->cell + (size_t)t->nrow * (size_t)t->ncolumn;
     size_t left = commas + lines + 1 - (size_t)(row - t->cell);

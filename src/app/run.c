@@ -218,6 +218,7 @@ static corot_status integrate(run *r) {
   while (!schedule_over(r->schedule, r->t) && !stop_signal()) {
     corot_step step;
     double stop = schedule_stop(r->schedule, corot_frame_clock_stop(r->clock));
+    /* on to the next event, or less */
     prepare_step(r);
     COROT_TRY(corot_integrator_step(r->integrator, stop, &step));
     r->before = r->t;
@@ -226,6 +227,7 @@ static corot_status integrate(run *r) {
     COROT_TRY(write_outputs(r, step.t));
     stop_reached(r->t);
 
+    /* whatever is due here; the step is written in any case */
     step_row row = {
         .t = step.t, .h = step.h, .order = step.order, .error = step.error, .newton = step.newton};
     corot_status handled = handle_events(r, &row);

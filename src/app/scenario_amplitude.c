@@ -63,6 +63,7 @@ corot_status scenario_read_amplitude(scenario *s, config_node *node, bool jumps,
   config_node *sine = map ? config_find(node, "sine") : NULL;
   config_node *smooth = map ? config_find(node, "smooth") : NULL, *points = smooth ? smooth : node;
   config_node *sum = map ? config_find(node, "sha256") : NULL;
+  /* what one form of amplitude allows and another does not */
   if (sum && (sine || smooth)) return config_fail_key(sum, "is for a file");
   if (points->kind == CONFIG_LIST && smooth)
     COROT_TRY(refuse_jumps(points, "a smooth amplitude has no jumps"));
@@ -74,6 +75,7 @@ corot_status scenario_read_amplitude(scenario *s, config_node *node, bool jumps,
     COROT_TRY(read_points(s, points, jumps && !smooth, a));
   if (smooth) a->curve = COROT_CURVE_SMOOTH;
 
+  /* made once, for what only the core can refuse */
   amplitude made;
   corot_status status = corot_amplitude_create(a, "", &made);
   if (status == COROT_EINVAL) return config_fail(points, "%s", corot_error());
@@ -109,6 +111,7 @@ void scenario_describe_amplitude(const corot_amplitude *a, size_t size, char *te
     return;
   }
   if (a->n == 0 || corot_amplitude_create(a, "", &made)) return;
+  /* points: how many, jumps, and their extent */
   bool smooth = a->curve == COROT_CURVE_SMOOTH;
   int used = snprintf(text, size, "%s%d point%s", smooth ? "smooth through " : "", a->n,
                       a->n == 1 ? "" : "s");

@@ -107,6 +107,7 @@ static corot_status find_group(config_node *map, const corot_mesh *mesh,
 static corot_status check_group(config_node *map, const corot_mesh *mesh) {
   const corot_group *group;
   COROT_TRY(find_group(map, mesh, &group));
+  /* nodes for supports, forces and starts; faces for tractions; tets for materials */
   const config_node *node = config_find(map, "group");
   if (config_find(map, "fix") && group->nnode == 0)
     return config_fail(node, "%s has no nodes to fix", node->text);
@@ -152,6 +153,7 @@ static corot_status check_holder(config_node *entry, const corot_mesh *mesh, hol
     holder *h = &held[group->node[i]];
     bool moved = h->entry && !config_find(h->entry, "fix");
     bool follows = moved && !fix && strcmp(group_of(h->entry), group_of(entry)) == 0;
+    /* who moves a node must be the only one that holds it, but for other moves of one group */
     if (h->entry && (moved || !fix) && !follows) {
       char path[64];
       config_path(h->entry, sizeof path, path);

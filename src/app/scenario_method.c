@@ -20,6 +20,7 @@ static corot_status read_frames(scenario *s) {
   const config_node *angle = config_find(frames, "max_angle"), *given = interval ? interval : angle;
   int p = 0;
   while (strcmp(policies[p].name, policy->text) != 0) p++;
+  /* a condition is given where the policy has one, and only there */
   if (policies[p].conditions && !given)
     return config_fail(policy, "%s needs frames.interval or frames.max_angle", policy->text);
   if (policies[p].every_step && given)
@@ -82,6 +83,7 @@ static corot_status read_stages(config_node *node, corot_integrator_def *def) {
   def->table = table ? table->text : NULL;
   if (!text_is(node, "predictor", "auto")) def->predictor = (int)number_at(node, "predictor");
   const config_node *predictor = config_find(node, "predictor");
+  /* settings that are another method's */
   if (!stages && def->order > 0)
     return config_fail_key(order, "%s has none: see integrator.max_order", def->method);
   if (!stages && table) return config_fail_key(table, "%s has none", def->method);
@@ -91,6 +93,7 @@ static corot_status read_stages(config_node *node, corot_integrator_def *def) {
     return config_fail_key(max_order, "%s has one order: see integrator.order", def->method);
   if (stages && def->order > 0 && table)
     return config_fail_key(table, "has an order of its own: give order or table");
+  /* and values that this one cannot take */
   if (kind->gamma_change_below > 0 && def->gamma_change >= kind->gamma_change_below)
     return config_fail(config_find(node, "jacobian.gamma_change"), "must be < %g for %s, found %g",
                        kind->gamma_change_below, def->method, def->gamma_change);

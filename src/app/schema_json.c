@@ -60,24 +60,9 @@ static json_t *list_schema(json_t *items, int least, int most) {
   return most ? json_text_with(s, "maxItems", json_integer(most)) : s;
 }
 
-static json_t *value_schema(const schema_key *key) {
-  char inside[128];
-  schema_inside(key, sizeof inside, inside);
+/* Numbers, texts and lists of them; NULL: another type. */
+static json_t *plain_schema(const schema_key *key) {
   switch (key->type) {
-    case SCHEMA_MAP:
-      return map_schema(inside);
-    case SCHEMA_NAMED:
-      return json_text_with(
-          json_text_with(of_type("object"), "additionalProperties", map_schema(inside)),
-          "maxProperties", json_integer(CONFIG_MOST_KEYS));
-    case SCHEMA_LIST:
-      return list_schema(map_schema(inside), 0, 0);
-    case SCHEMA_MAPS:
-      return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
-                       list_schema(map_schema(inside), 1, 0));
-    case SCHEMA_SHORT:
-      return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
-                       value_schema(schema_child(&scenario_schema, inside, NULL)));
     case SCHEMA_TEXT:
       return of_type("string");
     case SCHEMA_CHOICE:
@@ -96,12 +81,6 @@ static json_t *value_schema(const schema_key *key) {
     case SCHEMA_WORDS:
       return json_text_with(list_schema(json_pack("{s:o}", "enum", words_list(key->words)), 1, 0),
                             "uniqueItems", json_true());
-    case SCHEMA_CURVE:
-      return json_pack("{s:[o, o]}", "anyOf",
-                       list_schema(list_schema(of_type("number"), 2, 2), 1, 0), map_schema(inside));
-    case SCHEMA_STATES:
-      return json_pack("{s:[{s:o}, o, o]}", "anyOf", "enum", words_list(key->words),
-                       map_schema(inside), list_schema(map_schema(inside), 1, 0));
     case SCHEMA_TEXTS:
       return json_pack("{s:[o, o]}", "anyOf", of_type("string"),
                        list_schema(of_type("string"), 1, 0));
@@ -111,8 +90,39 @@ static json_t *value_schema(const schema_key *key) {
       return of_type("object");
     case SCHEMA_OPENS:
       return list_schema(of_type("object"), 0, 0);
+    default:
+      return NULL;
   }
-  return NULL;
+}
+
+/* Also maps, and what may stand for one. */
+static json_t *value_schema(const schema_key *key) {
+  char inside[128];
+  schema_inside(key, sizeof inside, inside);
+  switch (key->type) {
+    case SCHEMA_MAP:
+      return map_schema(inside);
+    case SCHEMA_NAMED:
+      return json_text_with(
+          json_text_with(of_type("object"), "additionalProperties", map_schema(inside)),
+          "maxProperties", json_integer(CONFIG_MOST_KEYS));
+    case SCHEMA_LIST:
+      return list_schema(map_schema(inside), 0, 0);
+    case SCHEMA_MAPS:
+      return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
+                       list_schema(map_schema(inside), 1, 0));
+    case SCHEMA_SHORT:
+      return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
+                       value_schema(schema_child(&scenario_schema, inside, NULL)));
+    case SCHEMA_CURVE:
+      return json_pack("{s:[o, o]}", "anyOf",
+                       list_schema(list_schema(of_type("number"), 2, 2), 1, 0), map_schema(inside));
+    case SCHEMA_STATES:
+      return json_pack("{s:[{s:o}, o, o]}", "anyOf", "enum", words_list(key->words),
+                       map_schema(inside), list_schema(map_schema(inside), 1, 0));
+    default:
+      return plain_schema(key);
+  }
 }
 
 /* The default as the table has it: a number, a word, an empty map or list, or a list of zeros. */

@@ -160,6 +160,14 @@ static double factor_of(const load *l, const load_clock *now) {
   return now->scale * corot_amplitude_at(&l->amplitude, now->phase, now->t);
 }
 
+/* The area vector of a face where u has taken it [m^2]. */
+static void find_area(const corot_model *m, const double (*u)[4], const int tri[3],
+                      double area[3]) {
+  double a[3], b[3];
+  edges(m, u, tri, a, b);
+  area_vector(a, b, area);
+}
+
 void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
                        double *f) {
   memset(f, 0, m->ndof * sizeof *f);
@@ -170,9 +178,8 @@ void corot_loads_force(const corot_model *m, const load_clock *now, const double
     if (l->force)
       for (int i = 0; i < m->ndof; i++) f[i] += factor * l->force[i];
     for (int j = 0; j < l->ntri; j++) {
-      double a[3], b[3], area[3];
-      edges(m, u, l->tri[j], a, b);
-      area_vector(a, b, area);
+      double area[3];
+      find_area(m, u, l->tri[j], area);
       for (int i = 0; i < 3; i++) add_force(m, f, l->tri[j][i], area, -factor * l->pressure / 3);
     }
   }
@@ -195,9 +202,8 @@ static void add_nodal_load(const corot_model *m, const load *l, double factor, c
   for (int i = 0; i < l->nheld; i++)
     f[l->held[i].node][l->held[i].component] += factor * l->held[i].force;
   for (int j = 0; j < l->ntri; j++) {
-    double a[3], b[3], area[3];
-    edges(m, u, l->tri[j], a, b);
-    area_vector(a, b, area);
+    double area[3];
+    find_area(m, u, l->tri[j], area);
     for (int i = 0; i < 3; i++) add_to_node(f, l->tri[j][i], area, -factor * l->pressure / 3);
   }
 }
