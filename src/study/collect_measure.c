@@ -53,8 +53,7 @@ static corot_status check_result(const json_t *result) {
   const json_t *hash = json_object_get(json_object_get(result, "hashes"), "mesh");
   if (!json_is_object(json_object_get(result, "scenario")))
     return corot_fail(COROT_EFORMAT, "its result has no scenario");
-  if (!json_is_string(hash))
-    return corot_fail(COROT_EFORMAT, "its result has no hash of the mesh");
+  if (!json_is_string(hash)) return corot_fail(COROT_EFORMAT, "its result has no hash of the mesh");
   return COROT_OK;
 }
 
