@@ -46,10 +46,30 @@ static size_t offset_of(const config_source *source, int line, int column) {
   return at;
 }
 
+/* The head of a block scalar that is to be indented by 0, "|0" or ">-0"; NULL: there is none. */
+static const char *find_flat_block(const config_source *source) {
+  const char *begin = source->text, *end = begin + source->size;
+  for (const char *s = begin; s < end; s++) {
+    if ((*s != '|' && *s != '>') || (s > begin && !strchr(" \t\n", s[-1]))) continue;
+    const char *digit = s + 1;
+    if (digit < end && (*digit == '-' || *digit == '+')) digit++;
+    if (digit < end && *digit == '0') return s;
+  }
+  return NULL;
+}
+
+/* libfyaml has words for everything but such a block, and that memory ran out. */
+static corot_status wordless_error(reader *r) {
+  const char *block = find_flat_block(r->source);
+  if (!block) return no_memory();
+  return config_fail_at(r->source, (size_t)(block - r->source->text),
+                        "the indentation of a block scalar is 1 to 9, not 0");
+}
+
 static corot_status syntax_error(reader *r) {
   void *previous = NULL;
   const struct fy_diag_error *e = fy_diag_errors_iterate(r->diag, &previous);
-  if (!e) return no_memory(); /* libfyaml has words for everything else */
+  if (!e) return wordless_error(r);
   return config_fail_at(r->source, offset_of(r->source, e->line, e->column), "%s", e->msg);
 }
 

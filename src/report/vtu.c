@@ -58,6 +58,9 @@ static corot_status read_header(vtu_file *f) {
   long long ntet = piece ? attribute(piece, " NumberOfCells=\"") : -1;
   if (nnode <= 0 || ntet <= 0 || nnode > INT32_MAX / 4 || ntet > INT32_MAX / 4)
     return foreign(f, "no sizes");
+  /* No more than the file has room for, as memory is asked for by these: three doubles a point and
+     four nodes a cell. */
+  if (nnode > f->size / 24 || ntet > f->size / 16) return foreign(f, "it is cut short");
   f->nnode = (int)nnode;
   f->ntet = (int)ntet;
   return COROT_OK;

@@ -26,15 +26,13 @@ static corot_status check_mesh(const yardstick *y, const json_t *result) {
   char digest[HASH_SIZE];
   hash_mesh(y->mesh, digest);
   const char *was = json_string_value(json_object_get(json_object_get(result, "hashes"), "mesh"));
-  if (was && strcmp(digest, was) == 0) return COROT_OK;
+  if (strcmp(digest, was) == 0) return COROT_OK;
   return corot_fail(COROT_EINVAL, "the mesh has changed since the run");
 }
 
 /* The scenario as the run recorded it; its files are found from the base. */
 static corot_status read_scenario(const manifest *m, const json_t *result, scenario **out) {
-  const json_t *said = json_object_get(result, "scenario");
-  if (!said) return corot_fail(COROT_EFORMAT, "its result has no scenario");
-  char *text = json_text_dump(said, JSON_REAL_PRECISION(17));
+  char *text = json_text_dump(json_object_get(result, "scenario"), JSON_REAL_PRECISION(17));
   if (!text) return no_memory();
   corot_status status = scenario_read_text(m->base, text, strlen(text), 0, NULL, out);
   free(text);
@@ -50,8 +48,18 @@ static void drop_yardstick(measuring *g) {
   g->key = NULL;
 }
 
+/* A result that somebody has edited may lack what its yardstick is found by. */
+static corot_status check_result(const json_t *result) {
+  const json_t *hash = json_object_get(json_object_get(result, "hashes"), "mesh");
+  if (!json_is_object(json_object_get(result, "scenario")))
+    return corot_fail(COROT_EFORMAT, "its result has no scenario");
+  if (!json_is_string(hash)) return corot_fail(COROT_EFORMAT, "its result has no hash of the mesh");
+  return COROT_OK;
+}
+
 /* Finds the yardstick of a run, which often is that of the run before. */
 static corot_status hold_yardstick(measuring *g, const json_t *result) {
+  COROT_TRY(check_result(result));
   char *key = yardstick_key(result);
   if (!key) return no_memory();
   if (g->key && strcmp(g->key, key) == 0) {
