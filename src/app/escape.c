@@ -130,7 +130,18 @@ void escape_python(const char *text, FILE *out) {
   fputc('"', out);
 }
 
-void escape_gnuplot(const char *text, FILE *out) { write_doubled(text, '\'', out); }
+/* Twice within quotes is once, but gnuplot (5.4) does not see that of two in a row: these stand
+   between quotes of the other kind, in which nothing else does. */
+void escape_gnuplot(const char *text, FILE *out) {
+  fputc('\'', out);
+  for (const char *s = text ? text : ""; *s;) {
+    size_t run = strspn(s, "'");
+    if (run == 1) fputs("''", out);
+    if (run > 1) fprintf(out, "'.\"%.*s\".'", (int)run, s);
+    s = run ? s + run : put_in_line(s, out);
+  }
+  fputc('\'', out);
+}
 
 static bool is_number(const char *text) {
   char *end;

@@ -33,7 +33,7 @@ void escape_name(const char *text, FILE *out);
    that Python finds the file of this name. */
 void escape_python(const char *text, FILE *out);
 
-/* A string of gnuplot in single quotes. It cannot hold line breaks: they become spaces. */
+/* A string of gnuplot, or an expression for one. It cannot hold line breaks: they become spaces. */
 void escape_gnuplot(const char *text, FILE *out);
 
 /* A field of a CSV table. It is quoted where it would break the table, and begins with an
