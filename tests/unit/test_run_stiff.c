@@ -104,23 +104,24 @@ static void a_turning_support_inverts_nothing(void **state) {
   run_all(2, 5, SET(TURNED), look_at_turn);
 }
 
+/* Twice the kinetic energy of the rigid bar that turns: the squares of the distances of its masses,
+   a quarter of each tet at each corner, times that of 0.5 rad/s [J]. */
+static const double carried = 2.1411e-3;
+
 static void look_at_work(const char *dir, const char *method, double rtol) {
-  (void)rtol;
-  double time[MOST_ROWS], kinetic[MOST_ROWS], work[MOST_ROWS], turning = 0;
+  double time[MOST_ROWS], work[MOST_ROWS], from = rtol < 5e-6 ? 1 : 5.5;
   int nrow = column(dir, "energy.csv", 0, MOST_ROWS, time);
-  column(dir, "energy.csv", 1, MOST_ROWS, kinetic);
   column(dir, "energy.csv", 4, MOST_ROWS, work);
-  for (int i = 0; i < nrow; i++) {
-    if (time[i] > 1 && time[i] < 5) turning = 2 * kinetic[i];
-    if (time[i] > 1 && !(fabs(work[i] - turning) < 0.03 * turning))
+  for (int i = 0; i < nrow; i++)
+    if (time[i] > from && !(fabs(work[i] / carried - 1) < 0.01))
       fail_msg("%s: at t = %g the support has put in %g J of %g J", method, time[i], work[i],
-               turning);
-  }
+               carried);
 }
 
 /* A body that turns carries twice its kinetic energy in momentum along its turn, and that is what
-   its support has put in: since it set out, and when it has stopped again. What is left of
-   vibrations is within three hundredths. */
+   its support has put in, half of it into a vibration that dies out: since the body set out, and
+   when it has stopped again. At 1e-5 single rows of velocities are off by a tenth while it turns,
+   and the momentum with them. */
 static void a_turning_support_puts_in_the_momentum(void **state) {
   (void)state;
   run_all(5, 7, SET(TURNED), look_at_work);
