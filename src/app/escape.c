@@ -47,16 +47,6 @@ static const char *put_in_line(const char *s, FILE *out) {
   return s + (*s & 0x80 ? 3 : 1);
 }
 
-/* Between quotes, those inside twice, and no line break. */
-static void write_doubled(const char *text, char quote, FILE *out) {
-  fputc(quote, out);
-  for (const char *s = text ? text : ""; *s;) {
-    if (*s == quote) fputc(quote, out);
-    s = put_in_line(s, out);
-  }
-  fputc(quote, out);
-}
-
 void escape_shell(const char *text, FILE *out) {
   fputc('\'', out);
   for (const char *s = text ? text : ""; *s; s++) {
@@ -181,7 +171,14 @@ void escape_markup(const char *text, FILE *out) {
   }
 }
 
-void escape_sql_name(const char *text, FILE *out) { write_doubled(text, '"', out); }
+void escape_sql_name(const char *text, FILE *out) {
+  fputc('"', out);
+  for (const char *s = text ? text : ""; *s;) {
+    if (*s == '"') fputc('"', out);
+    s = put_in_line(s, out);
+  }
+  fputc('"', out);
+}
 
 void escape_terminal(const char *text, FILE *out) {
   for (const char *s = text ? text : ""; *s;) s = put(s, out);

@@ -22,20 +22,20 @@ corot_status run_begin(const scenario *s, const run_options *options);
    and that there is no equilibrium to start from. */
 corot_status run_preparing(corot_status status);
 
-/* Takes the folder for this run, and says so if a process that was killed has left it locked. `path`
-   of the scenario is for that message. COROT_EIO: another process writes there, or it is not a
-   run's (folder_owner.h). */
+/* Takes the folder for this run, and says so if a process that was killed has left it locked.
+   `path` of the scenario is for that message. COROT_EIO: another process writes there, or it is not
+   a run's (folder_owner.h). */
 corot_status run_enter(const char *path, const run_options *options, folder_lock *lock);
 
 /* The end of a run that failed before its first output: says why, and leaves a result.json unless
-   another process writes there, or the folder is not a run's. Where it is the scenario's fault, that
-   is left only in place of another run's. `warned` is what was warned of before. Returns the exit
-   code. */
+   another process writes there, or the folder is not a run's. Where it is the scenario's fault,
+   that is left only in place of another run's. `warned` is what was warned of before. Returns the
+   exit code. */
 int run_end_early(const scenario *s, const run_options *options, folder_lock *lock,
                   const warnings *warned, corot_status status);
 
-/* The same of a scenario that could not be read, of which all is said: a folder that is there, and is
-   a run's, does not go on to say that this run was well. */
+/* The same of a scenario that could not be read, of which all is said: a folder that is there, and
+   is a run's, does not go on to say that this run was well. */
 void run_end_unread(const char *path, const run_options *options, corot_status status, int code);
 
 /* The words and the exit code of a run that heeds a request to stop. */
@@ -43,8 +43,8 @@ int run_interrupted(size_t size, char *reason);
 
 /* The warnings of what there is before the first step, told on stderr unless the options ask for
    quiet. */
-corot_status run_warn_before(const scenario *s, const corot_model *model,
-                             bool statics, const run_options *options, warnings *w);
+corot_status run_warn_before(const scenario *s, const corot_model *model, bool statics,
+                             const run_options *options, warnings *w);
 
 /* The same of what came of it, after the last moment was written; `seen` is what was looked at. */
 corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,

@@ -182,8 +182,7 @@ static const schema_key keys[] = {
 
 const schema scenario_schema = {keys, sizeof keys / sizeof *keys};
 
-const schema_key *schema_child(const schema *table, const char *path,
-                               const schema_key *previous) {
+const schema_key *schema_child(const schema *table, const char *path, const schema_key *previous) {
   size_t length = strlen(path);
   const schema_key *first = previous ? previous + 1 : table->key;
   for (const schema_key *k = first; k < table->key + table->nkey; k++) {

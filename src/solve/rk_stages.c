@@ -122,7 +122,8 @@ corot_status corot_rk_keep_stages(runge_kutta *m, ARKodeButcherTable table) {
   for (int i = 0; i < s->n && !short_of_memory; i++)
     short_of_memory = !(s->z[i] = N_VClone(m->driver.y));
   if (short_of_memory)
-    return corot_fail(COROT_ENOMEM, "no memory for the stages of %s", m->driver.self->ops->kind.name);
+    return corot_fail(COROT_ENOMEM, "no memory for the stages of %s",
+                      m->driver.self->ops->kind.name);
   choose_nodes(s);
   for (int k = 0; k < 4; k++) find_weights(s, 1 + k % 2, k / 2, s->weight[k]);
   find_weights(s, 0, RK_SAMPLE, s->weight[4]);

@@ -131,7 +131,8 @@ static corot_status advance(runge_kutta *m, double t_stop, double *t) {
     N_VScale(1, m->start.y, d->y);
     /* ARKODE allocates its stages in the first step, and says only that its set-up failed. */
     if (flag == ARK_MEM_FAIL)
-      return corot_fail(COROT_ENOMEM, "%s: no memory for the stages of a step", d->self->ops->kind.name);
+      return corot_fail(COROT_ENOMEM, "%s: no memory for the stages of a step",
+                        d->self->ops->kind.name);
     return corot_driver_give_up(d, d->message);
   }
   corot_driver_watch(d, *t - t_now, *t == t_stop);
