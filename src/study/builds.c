@@ -27,18 +27,27 @@ void builds_free(builds *b) {
   *b = (builds){NULL, NULL};
 }
 
+/* What the runs of one build share: not how many threads its BLAS had, which each run's result
+   says. */
+static json_t *shared_part(const json_t *provenance) {
+  if (!provenance) return json_null();
+  json_t *copy = json_deep_copy(provenance);
+  json_t *blas = json_object_get(copy, "blas");
+  if (json_object_get(blas, "threads")) json_object_del(blas, "threads");
+  return copy;
+}
+
 /* Where the entry of a build is, made if there is none. NULL: no memory. */
-static json_t *find_entry(json_t *list, json_t *provenance) {
+static json_t *find_entry(json_t *list, const json_t *provenance) {
   size_t i = 0, n = json_array_size(list);
   while (i < n && !provenance_equal(provenance_at(list, i), provenance)) i++;
   if (i < n) return json_array_get(list, i);
   json_t *entry =
-      json_pack("{s:o, s:[], s:i}", "provenance",
-                provenance ? json_incref(provenance) : json_null(), "runs", "references", 0);
+      json_pack("{s:o, s:[], s:i}", "provenance", shared_part(provenance), "runs", "references", 0);
   return json_array_append_new(list, entry) ? NULL : entry;
 }
 
-static bool enter(builds *b, const char *id, json_t *provenance, bool reference) {
+static bool enter(builds *b, const char *id, const json_t *provenance, bool reference) {
   json_t *entry = find_entry(b->list, provenance);
   if (!entry) return false;
   json_int_t count = json_integer_value(json_object_get(entry, "references")) + reference;

@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A run by itself takes all cores; these share the machine, as those of corot study do. */
+#define ONE_THREAD "env OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 "
+
 /* The beginning of a comment. */
 static void write_title(const manifest *m, FILE *out) {
   char title[200];
@@ -31,6 +34,7 @@ corot_status export_commands(const manifest *m, const export_target *t, FILE *ou
     if (strpbrk(name[i], "\n\r"))
       return refuse(name[i], "a list of one command a line cannot hold a name with a line break");
   for (int i = 0; i < m->nrun; i++) {
+    fputs(ONE_THREAD, out);
     escape_shell(t->program, out);
     fputs(" run ", out);
     escape_shell(m->base, out);
@@ -108,7 +112,8 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
       "rule run:\n"
       "    output: DIR + \"/runs/{id}/result.json\"\n"
       "    params: settings=lambda wildcards: RUNS[wildcards.id]\n"
-      "    shell: \"{PROGRAM:q} run {BASE:q} --quiet --force --output {DIR:q}/runs/{wildcards.id} "
+      "    shell: \"" ONE_THREAD
+      "{PROGRAM:q} run {BASE:q} --quiet --force --output {DIR:q}/runs/{wildcards.id} "
       "{params.settings}\"\n"
       "\n"
       "rule collect:\n"

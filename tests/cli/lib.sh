@@ -5,6 +5,8 @@ rm -rf "$2"
 mkdir -p "$2"
 cd "$2" || exit 1
 failed=0
+# As most users have it: nothing said of threads.
+unset OPENBLAS_NUM_THREADS OMP_NUM_THREADS
 
 complain() {
   echo "FAILED: $*"
