@@ -5,6 +5,7 @@
 
 #include "core/model/load_force.h"
 #include "core/solid/kernel.h"
+#include "core/solid/measures.h"
 #include "core/system/levels.h"
 #include "trial.h"
 
@@ -306,7 +307,7 @@ corot_status corot_internal_force(const corot_model *m, corot_state *s, double t
                                   const char *strain, double lambda_part, double mu_part,
                                   double (*f)[3]) {
   int index;
-  COROT_TRY(corot_model_find_strain(strain, &index));
+  COROT_TRY(corot_strain_index(strain, &index));
   corot_state_displace(m, s, t, u);
   corot_kernel_internal_dilatation(m, s, index);
   const double *force = (const double *)s->force;

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/solid/measures.h"
+
 /* The nodes of the levels must lie where the refinement says: then a field that is linear on the
    tets of level 0 has the same gradient in all their descendants. */
 static corot_status check_middles(const corot_refinement *r, const corot_mesh *mesh) {
@@ -179,7 +181,7 @@ corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_t
                                  corot_model *m) {
   const corot_refinement *r = def->refinement;
   int coarse;
-  COROT_TRY(corot_model_find_strain(def->coarse_strain, &coarse));
+  COROT_TRY(corot_strain_index(def->coarse_strain, &coarse));
   COROT_TRY(check_choices(def, m));
   COROT_TRY(check_materials(r, of_tet));
   levels *l = m->levels = calloc(1, sizeof *l);
