@@ -1,8 +1,10 @@
 /* From a definition to a model: each part checked, then made. */
 #include <stdlib.h>
 
+#include <corot/hierarchy.h>
+
 #include "core/solid/measures.h"
-#include "core/system/levels.h"
+#include "model.h"
 
 corot_model_def corot_model_defaults(void) {
   return (corot_model_def){
@@ -11,6 +13,18 @@ corot_model_def corot_model_defaults(void) {
 
 corot_hierarchy_def corot_hierarchy_defaults(void) {
   return (corot_hierarchy_def){.coarse_strain = "green", .conservative = true};
+}
+
+corot_status corot_model_restrict(const corot_model_def *def, int nnode, double (*nodal)[3]) {
+  const corot_hierarchy_def *h = def->hierarchy;
+  if (!h || h->coupling != COROT_COUPLING_ONE_WAY) return COROT_OK;
+  double(*all)[3] = malloc(nnode * sizeof *all);
+  if (!all) return corot_fail(COROT_ENOMEM, "no memory for the loads of %d nodes", nnode);
+  memcpy(all, nodal, nnode * sizeof *all);
+  corot_hierarchy_apply_transposed(h->refinement, all);
+  memcpy(nodal, all, h->refinement->nnode[0] * sizeof *all);
+  free(all);
+  return COROT_OK;
 }
 
 static corot_status hold_fixed(const corot_model_def *def, const corot_model *m, char (*held)[3]) {
@@ -39,7 +53,8 @@ static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
   free(held);
   COROT_TRY(status);
   if (m->ndof == 0) return corot_fail(COROT_EINVAL, "every node is fixed: nothing can move");
-  m->body_nnode = m->levels ? corot_levels_body(m) : nnode;
+  int level_0 = m->system.term[0].from; /* one way, a body of its own */
+  m->body_nnode = level_0 > 0 ? level_0 : nnode;
   for (int n = 0; n < m->body_nnode; n++)
     for (int c = 0; c < 3; c++) m->body_ndof += m->dof[n][c] >= 0;
   return COROT_OK;
@@ -93,8 +108,9 @@ static corot_status list_kinks(corot_model *m) {
 static double body_length(const corot_model *m) {
   const double(*x)[3] = (const double(*)[3])m->mesh->x;
   double moment[3] = {0, 0, 0}, volume = 0, square = 0;
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
+  const tets *t = &solid_of(m)->tets;
+  for (int b = 0; b < t->nblock; b++) {
+    const tet_block *block = &t->block[b];
     for (int l = 0; l < block->ntet; l++) {
       volume += block->volume[l];
       for (int a = 0; a < 4; a++)
@@ -120,72 +136,71 @@ static void find_scales(corot_model *m) {
   }
 }
 
-/* Averages of the dilatation, if they are wanted and some material has more lambda than is left to
-   the tets. */
-static corot_status average_dilatation(const corot_model_def *def, corot_model *m) {
+/* What of lambda is left to the tets, where dilatations are averaged: no more than so many shear
+   moduli. */
+static corot_status share_lambda(const corot_model_def *def, corot_model *m) {
   if (def->dilatation == COROT_DILATATION_LOCAL) return COROT_OK;
   if (!(def->dilatation_local >= 0) || !isfinite(def->dilatation_local))
     return corot_fail(COROT_EINVAL, "dilatation_local = %g is not a number of shear moduli >= 0",
                       def->dilatation_local);
-  double *averaged = calloc(m->nmaterial + 1, sizeof *averaged), most = 0;
-  if (!averaged) return corot_fail(COROT_ENOMEM, "no memory for %d materials", m->nmaterial);
   for (int k = 0; k < m->nmaterial; k++) {
     material *a = &m->material[k];
     double local = def->dilatation_local * a->mu;
     if (!(a->lambda > local)) continue;
     a->lambda_local = local;
     a->own_share = local / a->lambda;
-    averaged[k] = a->lambda - local;
-    most = fmax(most, averaged[k]);
   }
-  corot_status status = COROT_OK;
-  if (most > 0)
-    status = corot_dilatation_create(m->mesh->nnode, &m->tets, averaged, &m->dilatation);
-  free(averaged);
-  return status;
+  return COROT_OK;
 }
 
-/* The measure of the mesh's own tets: of a hierarchy without finer levels the coarse one. */
-static corot_status choose_strain(const corot_model_def *def, corot_model *m) {
+/* The hierarchy's definition, if it has finer levels. */
+static const corot_hierarchy_def *refined(const corot_model_def *def) {
   const corot_hierarchy_def *h = def->hierarchy;
-  if (h) COROT_TRY(corot_levels_check(h, def->mesh));
-  if (h && h->refinement->nlevel > 0 && def->dilatation != COROT_DILATATION_LOCAL)
+  return h && h->refinement && h->refinement->nlevel > 0 ? h : NULL;
+}
+
+/* The measure of the mesh's own tets, of a hierarchy without finer levels the coarse one; and
+   whether the viscous law is the objective one. */
+static corot_status choose_strain(const corot_model_def *def, system_def *of) {
+  const corot_hierarchy_def *h = def->hierarchy;
+  if (h) COROT_TRY(corot_system_check(h, def->mesh));
+  if (refined(def) && def->dilatation != COROT_DILATATION_LOCAL)
     return corot_fail(COROT_EINVAL,
                       "hierarchy: dilatations averaged at nodes are not provided for");
-  const char *name = h && h->refinement->nlevel == 0 ? h->coarse_strain : def->strain;
-  COROT_TRY(corot_strain_index(name, &m->strain));
-  bool polar = strain_measures[m->strain].frame == FRAME_POLAR;
+  const char *name = h && !refined(def) ? h->coarse_strain : def->strain;
+  COROT_TRY(corot_strain_index(name, &of->strain));
+  bool polar = corot_strain_traits(of->strain)->polar;
   if ((unsigned)def->viscosity > COROT_VISCOSITY_AUTO)
     return corot_fail(COROT_EINVAL, "there is no viscous law %d", (int)def->viscosity);
-  m->objective = def->viscosity == COROT_OBJECTIVE;
-  if (def->viscosity == COROT_VISCOSITY_AUTO) m->objective = polar && !h;
-  if (m->objective && !polar)
+  of->objective = def->viscosity == COROT_OBJECTIVE;
+  if (def->viscosity == COROT_VISCOSITY_AUTO) of->objective = polar && !h;
+  if (of->objective && !polar)
     return corot_fail(COROT_EINVAL, "the objective viscous law needs a polar frame, not strain %s",
                       name);
   return COROT_OK;
 }
 
-static corot_status build(const corot_model_def *def, corot_model *m) {
-  if (!def->mesh) return corot_fail(COROT_EINVAL, "the model has no mesh");
-  COROT_TRY(choose_strain(def, m));
-  COROT_TRY(corot_mesh_copy(def->mesh, &m->mesh));
-
+/* What deforms: measure, materials and the tets. */
+static corot_status make_system(const corot_model_def *def, corot_model *m) {
+  system_def of = {.mesh = m->mesh, .hierarchy = refined(def)};
+  COROT_TRY(choose_strain(def, &of));
   int *of_tet = malloc(m->mesh->ntet * sizeof *of_tet);
   if (!of_tet) return corot_fail(COROT_ENOMEM, "no memory for %d tets", m->mesh->ntet);
-  corot_status status = corot_materials_create(def, m, of_tet);
-  if (!status)
-    status = corot_tets_create(m->mesh, m->nmaterial, of_tet, corot_levels_together(def->hierarchy),
-                               strain_measures[m->strain].frame == FRAME_WARP, &m->tets);
-  if (!status && def->hierarchy && def->hierarchy->refinement->nlevel > 0)
-    status = corot_levels_create(def->hierarchy, of_tet, m);
+  corot_status status = corot_materials_create(def, m, of_tet, &of.damped);
+  if (!status) status = share_lambda(def, m);
+  of.nmaterial = m->nmaterial;
+  of.material = m->material;
+  of.of_tet = of_tet;
+  if (!status) status = corot_system_create(&of, &m->system);
   free(of_tet);
-  COROT_TRY(status);
+  return status;
+}
 
+static corot_status build(const corot_model_def *def, corot_model *m) {
+  if (!def->mesh) return corot_fail(COROT_EINVAL, "the model has no mesh");
+  COROT_TRY(corot_mesh_copy(def->mesh, &m->mesh));
+  COROT_TRY(make_system(def, m));
   COROT_TRY(number_dofs(def, m));
-  COROT_TRY(average_dilatation(def, m));
-  const pattern *coarse = m->levels ? corot_levels_pattern(m) : NULL;
-  COROT_TRY(corot_pattern_create(m->mesh->nnode, &m->tets, &m->dilatation, coarse, &m->pattern));
-  if (coarse) COROT_TRY(corot_levels_place(m));
   COROT_TRY(corot_mass_create(def, m));
   COROT_TRY(corot_loads_create(def, m));
   COROT_TRY(list_kinks(m));

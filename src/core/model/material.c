@@ -23,7 +23,9 @@ static corot_status check_material(const corot_material *m, int k) {
   return COROT_OK;
 }
 
-corot_status corot_materials_create(const corot_model_def *def, corot_model *m, int *of_tet) {
+corot_status corot_materials_create(const corot_model_def *def, corot_model *m, int *of_tet,
+                                    bool *damped) {
+  *damped = false;
   m->nmaterial = def->nmaterial;
   m->material = calloc(def->nmaterial + 1, sizeof *m->material);
   if (!m->material) return corot_fail(COROT_ENOMEM, "no memory for %d materials", def->nmaterial);
@@ -41,7 +43,7 @@ corot_status corot_materials_create(const corot_model_def *def, corot_model *m, 
                                 .density = from->density,
                                 .lambda_local = from->lambda,
                                 .own_share = 1};
-    m->damped |= from->damping_lambda > 0 || from->damping_mu > 0;
+    *damped |= from->damping_lambda > 0 || from->damping_mu > 0;
     m->mass_damped |= from->damping_mass > 0;
     if (!from->group) {
       if (rest >= 0)

@@ -1,7 +1,8 @@
 /* What a model says of itself, and its end. */
 #include <stdlib.h>
 
-#include "core/system/levels.h"
+#include "core/mesh/mesh.h"
+#include "model.h"
 
 corot_status corot_model_find_group(const corot_mesh *mesh, const char *name, const char *user,
                                     const corot_group **group) {
@@ -22,10 +23,7 @@ void corot_model_destroy(corot_model *m) {
   free(m->mass_damping);
   free(m->mass_pair);
   free(m->damping_pair);
-  corot_levels_destroy(m->levels);
-  corot_tets_clear(&m->tets);
-  corot_dilatation_clear(&m->dilatation);
-  corot_pattern_clear(&m->pattern);
+  corot_system_clear(&m->system);
   corot_mesh_destroy(m->mesh);
   free(m);
 }
@@ -58,22 +56,21 @@ double corot_model_horizon(const corot_model *m, double t) {
   return horizon;
 }
 
-bool corot_model_approximate_stiffness(const corot_model *m) { return m->levels != NULL; }
+bool corot_model_approximate_stiffness(const corot_model *m) { return m->system.nterm > 1; }
 
 const corot_mesh *corot_model_mesh(const corot_model *m) { return m->mesh; }
 
-const char *corot_model_strain(const corot_model *m) {
-  return m->levels ? m->levels->name : strain_measures[m->strain].name;
-}
+const char *corot_model_strain(const corot_model *m) { return m->system.name; }
 
 bool corot_model_matrices_by_frames(const corot_model *m) {
-  bool parts_in_them = m->levels && m->levels->place;
-  bool rates_in_them = m->objective && m->damped;
-  return corot_strain_traits(m->strain)->linear_in_frames && !parts_in_them && !rates_in_them;
+  const solid *body = solid_of(m);
+  bool rates_in_them = body->objective && body->damped;
+  return corot_strain_traits(body->strain)->linear_in_frames && !rates_in_them &&
+         !corot_system_adds_matrices(&m->system);
 }
 
 corot_viscosity corot_model_viscosity(const corot_model *m) {
-  return m->objective ? COROT_OBJECTIVE : COROT_COROTATED;
+  return solid_of(m)->objective ? COROT_OBJECTIVE : COROT_COROTATED;
 }
 
 int corot_model_ndof(const corot_model *m) { return m->ndof; }
@@ -85,22 +82,11 @@ double corot_model_damping_time(const corot_model *m) { return m->damping_time; 
 
 bool corot_model_moves(const corot_model *m) { return m->nmotion > 0; }
 
-static size_t mesh_bytes(const corot_mesh *mesh) {
-  size_t bytes = sizeof *mesh + mesh->nnode * sizeof *mesh->x + mesh->ntet * sizeof *mesh->tet;
-  for (int k = 0; k < mesh->ngroup; k++) {
-    const corot_group *g = &mesh->group[k];
-    bytes += sizeof *g + strlen(g->name) + 1 + g->nnode * sizeof *g->node +
-             g->ntri * sizeof *g->tri + g->ntet * sizeof *g->tet;
-  }
-  return bytes;
-}
-
 size_t corot_model_bytes(const corot_model *m) {
-  const tets *t = &m->tets;
-  const pattern *p = &m->pattern;
-  size_t bytes = sizeof *m + mesh_bytes(m->mesh) + m->nmaterial * sizeof *m->material +
-                 m->mesh->nnode * sizeof *m->dof;
-  if (m->mass) bytes += 2 * m->ndof * sizeof *m->mass; /* parts of a hierarchy have none */
+  size_t nblock = (size_t)solid_of(m)->pattern.nblock;
+  size_t bytes = sizeof *m + corot_mesh_bytes(m->mesh) + m->nmaterial * sizeof *m->material +
+                 m->mesh->nnode * sizeof *m->dof + corot_system_bytes(&m->system);
+  bytes += 2 * m->ndof * sizeof *m->mass;
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
     bytes += sizeof *l + corot_amplitude_bytes(&l->amplitude) + l->ntri * sizeof *l->tri;
@@ -114,14 +100,7 @@ size_t corot_model_bytes(const corot_model *m) {
   }
   bytes += m->nkink * sizeof *m->kink;
   if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
-  if (m->mass_pair) bytes += p->nblock * sizeof *m->mass_pair;
-  if (m->damping_pair) bytes += p->nblock * sizeof *m->damping_pair;
-  bytes += t->nblock * (sizeof *t->block + W * sizeof *t->number);
-  bytes += corot_dilatation_bytes(&m->dilatation, t);
-  if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
-  bytes +=
-      (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) * sizeof(int) +
-      t->nblock * sizeof *p->place;
-  if (m->levels) bytes += corot_levels_bytes(m);
+  if (m->mass_pair) bytes += nblock * sizeof *m->mass_pair;
+  if (m->damping_pair) bytes += nblock * sizeof *m->damping_pair;
   return bytes;
 }
