@@ -35,12 +35,8 @@ KNOWN = {
     ("src/core/system/levels.h", "core/model/model.h"),
     ("src/core/system/levels.h", "core/ode/state.h"),
     ("src/core/system/levels_evaluate.c", "core/ode/trial.h"),
-    ("src/report/chart/precision.c", "precision_scripts.h"),
-    ("src/report/page/figure.c", "report/chart/thin.h"),
-    ("src/solve/linsol/iterative/linsol_pcg.c", "solve/pencil/sun_status.h"),
     ("src/study/budget/budget.c", "budget_parts.h"),
     ("src/study/execute/execute.c", "execute_parts.h"),
-    ("src/study/execute/execute.c", "study/measure/builds.h"),
     ("src/study/measure/collect.c", "collect_parts.h"),
 }
 

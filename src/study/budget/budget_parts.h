@@ -3,7 +3,7 @@
 #define COROT_STUDY_BUDGET_BUDGET_PARTS_H
 
 #include "budget.h"
-#include "study/measure/builds.h"
+#include "study/execute/builds.h"
 #include "study/measure/claim.h"
 
 /* Runs: as given; the chain, one more approximation gone in each; each gone alone; the checks;

@@ -10,9 +10,9 @@
 #include "app/run/run_clock.h"
 #include "app/text/no_memory.h"
 #include "app/text/say.h"
+#include "builds.h"
 #include "execute_parts.h"
 #include "pool.h"
-#include "study/measure/builds.h"
 #include "study/plan/json_file.h"
 
 execute_options execute_defaults(void) {

@@ -2,9 +2,9 @@
 #ifndef COROT_STUDY_MEASURE_COLLECT_PARTS_H
 #define COROT_STUDY_MEASURE_COLLECT_PARTS_H
 
-#include "builds.h"
 #include "collect.h"
 #include "errors.h"
+#include "study/execute/builds.h"
 #include "study/execute/store.h"
 
 typedef struct costs {
