@@ -35,9 +35,6 @@ KNOWN = {
     ("src/core/system/levels.h", "core/model/model.h"),
     ("src/core/system/levels.h", "core/ode/state.h"),
     ("src/core/system/levels_evaluate.c", "core/ode/trial.h"),
-    ("src/study/budget/budget.c", "budget_parts.h"),
-    ("src/study/execute/execute.c", "execute_parts.h"),
-    ("src/study/measure/collect.c", "collect_parts.h"),
 }
 
 
