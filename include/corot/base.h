@@ -1,4 +1,6 @@
-/* Status and error message: what every fallible function of corot returns, and why it failed. */
+/* Status and error message: what every fallible function of corot returns, and why it failed.
+
+   A complete program: tests/examples/base.c. */
 #ifndef COROT_BASE_H
 #define COROT_BASE_H
 

@@ -1,5 +1,7 @@
 /* Integration in time with error control, one step at a time, so that the caller can act between
-   steps: output, frame updates, a change of load. */
+   steps: output, frame updates, a change of load.
+
+   A complete program: tests/examples/integrate.c. */
 #ifndef COROT_INTEGRATE_H
 #define COROT_INTEGRATE_H
 

@@ -5,7 +5,9 @@
    right-handed order ((x1-x0) x (x2-x0) . (x3-x0) > 0) with a volume above 1e-12 times the cube of
    their longest edge; no tet twice; at most two tets at a face, on either side of it; every node in
    some tet; 3 nnode and 4 ntet fit an int. Nodes and tets are numbered from 0 in the order of the
-   file. Lengths are in metres. */
+   file. Lengths are in metres.
+
+   A complete program: tests/examples/mesh.c. */
 #ifndef COROT_MESH_H
 #define COROT_MESH_H
 

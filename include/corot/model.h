@@ -1,7 +1,9 @@
 /* The model: a mesh with material, strain measure, supports and loads, made ready for evaluation.
 
    A model is immutable once created and may be shared by any number of states and threads.
-   Units are SI throughout: m, s, kg, Pa. */
+   Units are SI throughout: m, s, kg, Pa.
+
+   A complete program: tests/examples/model.c. */
 #ifndef COROT_MODEL_H
 #define COROT_MODEL_H
 

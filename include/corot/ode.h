@@ -28,7 +28,9 @@
 
    Frames are EXACT, found anew from F in every evaluation, so that r is a smooth function of
    (t, u, v); or HELD, those of the last corot_frames_update (the paper's linear systems); or
-   EXTRAPOLATED, those turned on at the spin they had then, which r sees as a dependence on t. */
+   EXTRAPOLATED, those turned on at the spin they had then, which r sees as a dependence on t.
+
+   A complete program: tests/examples/ode.c. */
 #ifndef COROT_ODE_H
 #define COROT_ODE_H
 

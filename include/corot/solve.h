@@ -5,7 +5,9 @@
      S = a M + b D + c K,   K = -dr/du, D = -dr/dv
 
    with (a, b, c) = (1, g, g^2) for CVODE and ARKODE (g: their gamma). The 2n x 2n system is never
-   formed. Nothing here refers to an integrator: a host links the CVODE (or CVODES) it likes. */
+   formed. Nothing here refers to an integrator: a host links the CVODE (or CVODES) it likes.
+
+   A complete program: tests/examples/solve.c (tests/embed/host_cvode.c: with a CVODE of your own). */
 #ifndef COROT_SOLVE_H
 #define COROT_SOLVE_H
 

@@ -9,7 +9,9 @@
    followed by longer ones.
 
    An equilibrium is stable if the stiffness K is positive definite. (Under a pressure this speaks
-   of the elastic part alone.) Load stepping ends where that is lost, as where a column buckles. */
+   of the elastic part alone.) Load stepping ends where that is lost, as where a column buckles.
+
+   A complete program: tests/examples/statics.c. */
 #ifndef COROT_STATICS_H
 #define COROT_STATICS_H
 
