@@ -252,7 +252,7 @@ const corot_strain_kind *corot_strain_find(const char *name);
 typedef struct corot_model corot_model;
 
 /* COROT_EINVAL names what does not fit: an unknown group or strain, a coefficient out of range,
-   a tet without material, a traction on a group without triangles. */
+   a tet without material, a traction on a group without triangles. COROT_ENOMEM. */
 corot_status corot_model_create(const corot_model_def *def, corot_model **model);
 
 /* Takes NULL. */
