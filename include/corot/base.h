@@ -1,4 +1,10 @@
-/* Status and error message: what every fallible function of corot returns, and why it failed. */
+/* Status and error message: what every fallible function of corot returns, and why it failed.
+
+   The comment of each function that returns a status says which failures there are, and when. All
+   others cannot fail, but for those whose comment says what they return then. A function sets its
+   outputs on success only, unless it says otherwise.
+
+   A complete program: tests/examples/base.c. */
 #ifndef COROT_BASE_H
 #define COROT_BASE_H
 

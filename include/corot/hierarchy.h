@@ -7,7 +7,9 @@
    in short u = T y. Differences of affine fields are zero.
 
    Values are vectors at all nodes of the finest level, [nnode[nlevel]][3]. All four functions work
-   in place, in one sweep over the nodes, and cannot fail. */
+   in place, in one sweep over the nodes. They need no memory, and cannot fail.
+
+   A complete program: tests/examples/hierarchy.c. */
 #ifndef COROT_HIERARCHY_H
 #define COROT_HIERARCHY_H
 

@@ -1,5 +1,7 @@
 /* Integration in time with error control, one step at a time, so that the caller can act between
-   steps: output, frame updates, a change of load. */
+   steps: output, frame updates, a change of load.
+
+   A complete program: tests/examples/integrate.c. */
 #ifndef COROT_INTEGRATE_H
 #define COROT_INTEGRATE_H
 
@@ -81,7 +83,11 @@ bool corot_integrator_controls_error(const char *method);
 
 typedef struct corot_integrator corot_integrator;
 
-/* Starts at (t, u, v). Model and state must outlive the integrator; nothing else is kept. */
+/* Starts at (t, u, v). Model and state must outlive the integrator; nothing else is kept.
+   COROT_EINVAL: there is no method of that name, a setting is out of its range, t, u or v is not
+   finite, or as for corot_pencil_create. COROT_ENOMEM. COROT_EINTEGRATE: SUNDIALS refuses a setting.
+   COROT_RETRY: newmark, hht and generalized-alpha, which need the acceleration at the start, find a
+   tet inverted. */
 corot_status corot_integrator_create(const corot_integrator_def *def, const corot_model *model,
                                      corot_state *state, double t, const double *u, const double *v,
                                      corot_integrator **integrator);
@@ -101,15 +107,18 @@ typedef struct corot_step {
 /* Advances by one step. With error control it does not go past t_stop and lands on it if it comes
    near; where t_stop is t up to rounding it is reached without a step. Nor does it go past
    corot_model_horizon(). A fixed-step method keeps to its own grid, whatever t_stop.
-   COROT_EINTEGRATE: the integrator gave up; the message names its reason and the element, if one
-   was inverted. The state last reached remains readable. */
+   COROT_EINTEGRATE: the integrator gave up, or has taken max_steps; the message names its reason and
+   the element, if one was inverted. COROT_EINVAL: t_stop is not after the time reached. COROT_ENOMEM.
+   Whatever the failure, the state last reached remains readable. */
 corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, corot_step *step);
 
 /* u and v [n] at any t within the last step; NULL skips one. After a restart only the end of that
    step is left. cvode and ida: the method's own interpolant. arkode and erk: Hermite's polynomial of
    degree 5 through u, v and the acceleration at both ends, v its derivative (to order 3, Hermite's
    cubic through v and the acceleration); of arkode, in the modes too fast for the step, by a
-   polynomial through the displacements of the stages, so that it is right for stiff bodies, too. */
+   polynomial through the displacements of the stages, so that it is right for stiff bodies, too.
+   COROT_EINVAL: t is not within the last step. COROT_EINTEGRATE: r cannot be evaluated inside the
+   step, or SUNDIALS refuses. COROT_ENOMEM. */
 corot_status corot_integrator_at(corot_integrator *integrator, double t, double *u, double *v);
 
 /* Work integrals from the start to t, t within the last step: dissipated and external work [J].
@@ -117,13 +126,15 @@ corot_status corot_integrator_at(corot_integrator *integrator, double t, double 
    powers at the ends of the steps, or where these do not tell it, along the interpolant, too. arkode
    and erk: by Lobatto's rule along the interpolant, or where it is not all resolved by the table's
    own sum over the stages. Where all supports turn or translate as one, their work is what changes
-   in the momentum they carry (corot_energies.carried), which no force at their nodes blurs. */
+   in the momentum they carry (corot_energies.carried), which no force at their nodes blurs. Failures
+   as of corot_integrator_at. */
 corot_status corot_integrator_work(corot_integrator *integrator, double t, double *dissipated,
                                    double *external);
 
 /* Energies and powers at the end of the last step, with the frames of that step if it is asked
    before they are updated; `u` and `v` [n] are those of corot_integrator_at there. cvode, ida and the
-   methods of constant step have them from the step; with the others it is one corot_energy. */
+   methods of constant step have them from the step; with the others it is one corot_energy, with its
+   failure, COROT_RETRY. */
 corot_status corot_integrator_energy(corot_integrator *integrator, const double *u, const double *v,
                                      corot_energies *energies);
 
@@ -134,14 +145,16 @@ typedef enum corot_history {
   COROT_HISTORY_RESTART, /* begin again at order 1 */
 } corot_history;
 
-/* To be called after a change of the held frames, at the end of a step. */
+/* Call this after a change of the held frames, at the end of a step. COROT_EINTEGRATE: r cannot be
+   evaluated after the change, or SUNDIALS refuses to begin again. COROT_ENOMEM. */
 corot_status corot_integrator_changed(corot_integrator *integrator, corot_history history);
 
 /* Call this at a kink of a load or motion (corot_model_kinks), at the end of the step that stops
    there and after corot_state_enter: COROT_HISTORY_AUTO, with the matrices kept, which know of
    positions only. A multistep method begins again where r has jumped and the next step feels it; a
    Runge-Kutta method takes the new r, and a shorter step where the kink excites vibrations above
-   the tolerance which that step would not resolve. A method of constant step has nothing to do. */
+   the tolerance which that step would not resolve. A method of constant step has nothing to do.
+   Failures as of corot_integrator_changed. */
 corot_status corot_integrator_kink(corot_integrator *integrator);
 
 /* --- Frames that follow the body between steps ------------------------------------------------ */
@@ -189,7 +202,8 @@ typedef struct corot_frame_clock corot_frame_clock;
 
 /* Puts the state on the policy's frames, found at (t, u, v), where the integrator starts. Model,
    state and integrator must outlive the clock. COROT_EINVAL: an interval or angle is negative, or
-   held frames have no condition to be updated by. */
+   held frames have no condition to be updated by. COROT_RETRY when a tet is inverted at the start.
+   COROT_ENOMEM. */
 corot_status corot_frame_clock_create(const corot_frame_policy *policy, const corot_model *model,
                                       corot_state *state, corot_integrator *integrator, double t,
                                       const double *u, const double *v, corot_frame_clock **clock);
@@ -200,8 +214,9 @@ void corot_frame_clock_destroy(corot_frame_clock *clock);
 /* The next time the integrator must stop for an update; INFINITY: none is fixed. */
 double corot_frame_clock_stop(const corot_frame_clock *clock);
 
-/* To be called at the end of each step, at t: updates the frames if it is time, and tells the
-   integrator. */
+/* Call this at the end of each step, at t: it updates the frames if it is time, and tells the
+   integrator. COROT_RETRY when a tet is inverted, with the frames as they were; else failures as of
+   corot_integrator_at and corot_integrator_changed. */
 corot_status corot_frame_clock_tick(corot_frame_clock *clock, double t, corot_frame_event *event);
 
 /* --- Statistics ------------------------------------------------------------------------------- */

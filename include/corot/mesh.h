@@ -5,7 +5,9 @@
    right-handed order ((x1-x0) x (x2-x0) . (x3-x0) > 0) with a volume above 1e-12 times the cube of
    their longest edge; no tet twice; at most two tets at a face, on either side of it; every node in
    some tet; 3 nnode and 4 ntet fit an int. Nodes and tets are numbered from 0 in the order of the
-   file. Lengths are in metres. */
+   file. Lengths are in metres.
+
+   A complete program: tests/examples/mesh.c. */
 #ifndef COROT_MESH_H
 #define COROT_MESH_H
 
@@ -37,11 +39,11 @@ typedef struct corot_mesh {
 } corot_mesh;
 
 /* Copies `x` [nnode] and `tet` [ntet] into a new mesh without groups.
-   COROT_EINVAL names the first node or tet that is not sound. */
+   COROT_EINVAL names the first node or tet that is not sound. COROT_ENOMEM. */
 corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const int (*tet)[4],
                                corot_mesh **mesh);
 
-/* A copy with all groups. */
+/* A copy with all groups. COROT_ENOMEM. */
 corot_status corot_mesh_copy(const corot_mesh *mesh, corot_mesh **copy);
 
 /* Takes NULL. */
@@ -66,7 +68,8 @@ void corot_mesh_destroy(corot_mesh *mesh);
    all left-handed is turned round, since the format does not say.
 
    Fails with COROT_EIO (cannot be read), COROT_EFORMAT with "FILE:LINE: ..." (text) or
-   "FILE: byte N: ..." (binary); an unsound element is named by its number in the file. */
+   "FILE: byte N: ..." (binary); an unsound element is named by its number in the file.
+   COROT_ENOMEM. */
 corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
 
 /* How the cells of a box are cut into tets. A bent box of KUHN's cells, whose diagonals all point the
@@ -98,12 +101,14 @@ corot_box corot_box_defaults(void);
 /* Neighbouring cells match. Node (i,j,k) has the number i + (nx+1)(j + (ny+1)k), where a count that
    SYMMETRIC has made even is one larger than in `cells`. Octasection along the consistent diagonal
    cuts the halves of each cell as the cell was cut (Bey 1995). The six sides are groups
-   xmin xmax ymin ymax zmin zmax. */
+   xmin xmax ymin ymax zmin zmax. COROT_EINVAL: a size or a count is not positive, the origin is not
+   finite, there is no such split, there would be too many tets, or cells so thin that rounding makes
+   them flat. COROT_ENOMEM. */
 corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
 
 /* Writes gmsh 2.2 ASCII, with all groups as physical groups of points, triangles and tets: reading
    it gives the same mesh to the last bit. Written beside `path` first, so that a failed write
-   (COROT_EIO) leaves what was there. */
+   (COROT_EIO, COROT_ENOMEM) leaves what was there. */
 corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
 
 /* NULL where there is none of that name. */
@@ -111,18 +116,23 @@ const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *nam
 
 /* Add a group by its nodes. The boundary faces and the tets whose nodes are all in the group
    belong to it. COROT_EINVAL: the name is taken, empty, longer than 127 bytes or has quotes or
-   control characters; a node is out of range; no node is selected. */
+   control characters; a node is out of range; no node is selected. COROT_ENOMEM. The mesh is as it
+   was then; this holds for the next two, too. */
 corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnode, const int *node);
 
-/* The nodes with |x[axis] - at| <= tol; tol = 0 stands for 1e-6 of the mesh's diagonal. */
+/* The nodes with |x[axis] - at| <= tol; tol = 0 stands for 1e-6 of the mesh's diagonal.
+   COROT_EINVAL, COROT_ENOMEM as above; COROT_EINVAL, too, if axis is not 0, 1 or 2, if `at` is not a
+   number, or if tol is negative or none. */
 corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name, int axis, double at,
                                     double tol);
 
-/* The nodes with min - tol <= x <= max + tol in each coordinate; tol as above. */
+/* The nodes with min - tol <= x <= max + tol in each coordinate; tol and failures as above, and
+   COROT_EINVAL if min is not at most max. */
 corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
                                   const double max[3], double tol);
 
-/* The faces that belong to one tet only, winding outward. *tri [*ntri] is the caller's to free. */
+/* The faces that belong to one tet only, winding outward. *tri [*ntri] is the caller's to free.
+   COROT_ENOMEM. */
 corot_status corot_mesh_boundary(const corot_mesh *mesh, int *ntri, int (**tri)[3]);
 
 /* The node nearest to a point; the lower number wins a tie. */
@@ -178,8 +188,9 @@ typedef struct corot_refinement {
    but a section of a body so thin that it has no node inside is not filled up either: add such a
    group to the refined mesh.
 
-   `refinement` may be NULL. COROT_EINVAL: there would be too many tets, or ones so flat that they
-   are none. Needs up to 50 bytes a tet of the result while it works. */
+   `refinement` may be NULL. COROT_EINVAL: nlevel is negative, there is no such diagonal, there would
+   be too many tets, or ones so flat that they are none. COROT_ENOMEM. It needs up to 50 bytes a tet of
+   the result while it works. */
 corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel, corot_diagonal diagonal,
                                corot_mesh **fine, corot_refinement **refinement);
 

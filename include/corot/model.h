@@ -1,7 +1,9 @@
 /* The model: a mesh with material, strain measure, supports and loads, made ready for evaluation.
 
    A model is immutable once created and may be shared by any number of states and threads.
-   Units are SI throughout: m, s, kg, Pa. */
+   Units are SI throughout: m, s, kg, Pa.
+
+   A complete program: tests/examples/model.c. */
 #ifndef COROT_MODEL_H
 #define COROT_MODEL_H
 
@@ -250,7 +252,7 @@ const corot_strain_kind *corot_strain_find(const char *name);
 typedef struct corot_model corot_model;
 
 /* COROT_EINVAL names what does not fit: an unknown group or strain, a coefficient out of range,
-   a tet without material, a traction on a group without triangles. */
+   a tet without material, a traction on a group without triangles. COROT_ENOMEM. */
 corot_status corot_model_create(const corot_model_def *def, corot_model **model);
 
 /* Takes NULL. */

@@ -28,7 +28,9 @@
 
    Frames are EXACT, found anew from F in every evaluation, so that r is a smooth function of
    (t, u, v); or HELD, those of the last corot_frames_update (the paper's linear systems); or
-   EXTRAPOLATED, those turned on at the spin they had then, which r sees as a dependence on t. */
+   EXTRAPOLATED, those turned on at the spin they had then, which r sees as a dependence on t.
+
+   A complete program: tests/examples/ode.c. */
 #ifndef COROT_ODE_H
 #define COROT_ODE_H
 
@@ -49,7 +51,7 @@ typedef enum corot_frames {
    to one thread at a time; any number of states share a model. */
 typedef struct corot_state corot_state;
 
-/* Frames exact; the held frames are those of u = 0. The model must outlive the state. */
+/* Frames exact; the held frames are those of u = 0. The model must outlive the state. COROT_ENOMEM. */
 corot_status corot_state_create(const corot_model *model, corot_state **state);
 
 /* Takes NULL. */
@@ -80,8 +82,8 @@ corot_status corot_residual(const corot_model *model, corot_state *state, double
                             const double *v, double *r);
 
 /* The same as a first-order system for y = (u, v) [2n]: ydot = (v, M^-1 r). y and ydot may not
-   overlap. COROT_EINVAL with consistent mass, which takes a factor of M: see corot/solve.h; and
-   when a component of y is not a number. */
+   overlap. COROT_RETRY as for corot_residual. COROT_EINVAL with consistent mass, which takes a factor
+   of M: see corot/solve.h; and when a component of y is not a number. */
 corot_status corot_rhs(const corot_model *model, corot_state *state, double t, const double *y,
                        double *ydot);
 
@@ -108,7 +110,8 @@ typedef enum corot_tangent {
    variation of a warp frame; the turning of a pressure. With a hierarchy the frames handed down are
    held: their variation would couple all nodes below a tet of the frame level. Coupled by nodes,
    `tangent` is for level 0, which couples its nodes; by means, which couple all nodes on the faces
-   of a tet, level 0 is left out; one way, so is its effect on finer nodes. corot_jvp has them. */
+   of a tet, level 0 is left out; one way, so is its effect on finer nodes. corot_jvp has them.
+   COROT_RETRY when a tet is inverted; K and D are without meaning then. */
 corot_status corot_jacobian(const corot_model *model, corot_state *state, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
 
@@ -118,7 +121,7 @@ bool corot_model_approximate_stiffness(const corot_model *model);
 
 /* The derivative of r in the direction (du, dv): jv = dr/du du + dr/dv dv [N], nothing left out.
    With COROT_TANGENT_HELD the frames are constant, with EXACT and with CLAMPED, which is for
-   matrices, they follow F. */
+   matrices, they follow F. COROT_RETRY when a tet is inverted. */
 corot_status corot_jvp(const corot_model *model, corot_state *state, double t, const double *u,
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv);
@@ -131,16 +134,19 @@ typedef struct corot_frames_change {
   double energy;     /* elastic energy with the new frames less that with the old [J] */
 } corot_frames_change;
 
-/* Sets the held frames to those of u. `change` may be NULL. On COROT_RETRY nothing is changed. */
+/* Sets the held frames to those of u. `change` may be NULL. COROT_RETRY when a tet is inverted;
+   nothing is changed then. */
 corot_status corot_frames_update(const corot_model *model, corot_state *state, double t,
                                  const double *u, corot_frames_change *change);
 
-/* The same change, from the frames in use at t to those of u, without making it. */
+/* The same change, from the frames in use at t to those of u, without making it. COROT_RETRY when a
+   tet is inverted. */
 corot_status corot_frames_drift(const corot_model *model, corot_state *state, double t,
                                 const double *u, corot_frames_change *drift);
 
 /* After an update: the spin at which the frames turn on where they are extrapolated, from v; zero
-   until this is called. *spin_max (or NULL): the largest [rad/s]. */
+   until this is called. *spin_max (or NULL): the largest [rad/s]. COROT_RETRY when a tet is
+   inverted. */
 corot_status corot_frames_spin(const corot_model *model, corot_state *state, double t,
                                const double *u, const double *v, double *spin_max);
 
@@ -162,6 +168,7 @@ typedef struct corot_energies {
   double angular_momentum[3]; /* about the origin [kg m^2/s] */
 } corot_energies;
 
+/* Energies and powers of (u, v) at t. COROT_RETRY when a tet is inverted. */
 corot_status corot_energy(const corot_model *model, corot_state *state, double t, const double *u,
                           const double *v, corot_energies *energies);
 
@@ -223,7 +230,7 @@ corot_status corot_elastic_force(const corot_model *model, corot_state *state, d
 
 /* The same of any one strain measure on the model's mesh, whatever the model's is:
    f = lambda_part * (lambda term) + mu_part * (mu term). Dilatations are averaged if the model's
-   are. COROT_RETRY as for corot_residual. */
+   are. COROT_RETRY as for corot_residual. COROT_EINVAL: there is no measure of that name. */
 corot_status corot_internal_force(const corot_model *model, corot_state *state, double t,
                                   const double *u, const char *strain, double lambda_part,
                                   double mu_part, double (*f)[3]);
@@ -259,6 +266,7 @@ typedef struct corot_csc {
   int *node;     /* [n] the mesh node each degree of freedom belongs to; ascending */
 } corot_csc;
 
+/* COROT_EINVAL: there are more entries than an int counts. COROT_ENOMEM. */
 corot_status corot_csc_create(const corot_model *model, corot_triangle triangle, corot_csc **csc);
 
 /* Takes NULL. */

@@ -5,7 +5,9 @@
      S = a M + b D + c K,   K = -dr/du, D = -dr/dv
 
    with (a, b, c) = (1, g, g^2) for CVODE and ARKODE (g: their gamma). The 2n x 2n system is never
-   formed. Nothing here refers to an integrator: a host links the CVODE (or CVODES) it likes. */
+   formed. Nothing here refers to an integrator: a host links the CVODE (or CVODES) it likes.
+
+   A complete program: tests/examples/solve.c (tests/embed/host_cvode.c: with a CVODE of your own). */
 #ifndef COROT_SOLVE_H
 #define COROT_SOLVE_H
 
@@ -46,8 +48,10 @@ corot_linear_def corot_linear_defaults(void);
 /* K, D, S and a factor of S: one for each run. */
 typedef struct corot_pencil corot_pencil;
 
-/* `linear` NULL: the defaults. COROT_EINVAL: no solver, ordering ... of that name, or not in this
-   build. Model and state must outlive the pencil. */
+/* `linear` NULL: the defaults. Model and state must outlive the pencil. COROT_EINVAL: there is no
+   solver, ordering ... of that name, or not in this build; the tolerance is not positive; the
+   refinement is not there, or not of the model's mesh; the matrix has more entries than an int
+   counts. COROT_ENOMEM. */
 corot_status corot_pencil_create(const corot_model *model, corot_state *state,
                                  const corot_linear_def *linear, corot_pencil **pencil);
 
@@ -61,7 +65,7 @@ const char *corot_pencil_solver(const corot_pencil *pencil);
 /* Which derivative of the frames K uses; held at first. */
 void corot_pencil_use(corot_pencil *pencil, corot_tangent tangent);
 
-/* K and D at (t, u, v). */
+/* K and D at (t, u, v). COROT_RETRY when a tet is inverted: there is nothing to combine then. */
 corot_status corot_pencil_assemble(corot_pencil *pencil, double t, const double *u, const double *v);
 
 /* S = a M + b D + c K, without reassembly. */
@@ -72,10 +76,12 @@ void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
    there already), klu factors S as it is, and solves until the next factorisation. The counts
    tell; klu is made when first needed, with memory asked for after creation.
    COROT_RETRY: not positive definite, in statics, where the loss of stability must be seen.
-   COROT_ESINGULAR: no pivot; the message names the degree of freedom and its node. */
+   COROT_ESINGULAR: no pivot; the message names the degree of freedom and its node.
+   COROT_ENOMEM; COROT_EINVAL: the solver's library refuses, for a reason in the message. */
 corot_status corot_pencil_factor(corot_pencil *pencil);
 
-/* x = S^-1 b; x may be b. COROT_RETRY: pcg met a direction in which S is not positive, or did not
+/* x = S^-1 b; x may be b. COROT_EINVAL: S has no factor, because factoring it failed or was not
+   asked for. COROT_ENOMEM. COROT_RETRY: pcg met a direction in which S is not positive, or did not
    converge. If it was not asked for by name, a direct solver takes its place instead, now and for
    the rest of the run (see corot_pencil_solver), with memory asked for then; and so it does, at a
    factorisation, where the iterations have cost twice as much as it would have. */
@@ -104,18 +110,19 @@ corot_pencil_counts corot_pencil_statistics(const corot_pencil *pencil);
 /* M^-1: a division where M is lumped, a factor computed once where it is consistent. */
 typedef struct corot_mass_solver corot_mass_solver;
 
-/* The model must outlive it. */
+/* The model must outlive it. COROT_ENOMEM; a lumped mass needs hardly any. */
 corot_status corot_mass_solver_create(const corot_model *model, corot_mass_solver **solver);
 
 /* Takes NULL. */
 void corot_mass_solver_destroy(corot_mass_solver *solver);
 
-/* x = M^-1 b [n]; x may be b. */
+/* x = M^-1 b [n]; x may be b. Where the mass is lumped it cannot fail, else for want of memory only:
+   COROT_ENOMEM. */
 corot_status corot_mass_solve(corot_mass_solver *solver, const double *b, double *x);
 
 /* --- SUNDIALS ------------------------------------------------------------------------------- */
 
-/* The version of the SUNDIALS library in use, "MAJOR.MINOR.PATCH". */
+/* The version of the SUNDIALS library in use, "MAJOR.MINOR.PATCH"; "" if it does not tell. */
 const char *corot_sundials_version(void);
 
 /* A SUNMatrix (SUNMATRIX_CUSTOM) and a SUNLinearSolver (SUNLINEARSOLVER_DIRECT) that stand for the
@@ -125,7 +132,11 @@ const char *corot_sundials_version(void);
 SUNMatrix corot_sun_matrix(corot_pencil *pencil, SUNContext ctx);
 SUNLinearSolver corot_sun_linsol(corot_pencil *pencil, SUNContext ctx);
 
-/* A CVLsLinSysFn. Its user_data is not looked at: the pencil comes from A. */
+/* What the functions below return to an integrator: 0, or as its manual asks a number > 0 where a
+   shorter step may help (a tet is inverted, the matrix has no factor), or a corot_status < 0 where
+   nothing helps (COROT_ENOMEM, COROT_EINVAL). corot_error() tells more.
+
+   A CVLsLinSysFn. Its user_data is not looked at: the pencil comes from A. */
 int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
                      sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
                      N_Vector tmp2, N_Vector tmp3);
@@ -136,8 +147,9 @@ int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SU
                          sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
                          void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);
 
-/* The same for F(t, y, y') = (u' - v, M v' - r), the residual form of IDA (or IDAS): the solver stands
-   for dF/dy + cj dF/dy'. corot_sun_jacobian_dae is an IDALsJacFn; its user_data is not looked at. */
+/* The same for F(t, y, y') = (u' - v, M v' - r), the residual form of IDA (or IDAS): the solver,
+   NULL where memory ran out, stands for dF/dy + cj dF/dy'. corot_sun_jacobian_dae is an IDALsJacFn;
+   its user_data is not looked at. */
 SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx);
 int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector F,
                            SUNMatrix A, void *user_data, N_Vector tmp1, N_Vector tmp2,
@@ -150,7 +162,8 @@ typedef struct corot_sun_data {
   corot_mass_solver *mass; /* may be NULL where the mass is lumped */
 } corot_sun_data;
 
-/* A CVRhsFn: ydot = (v, M^-1 r). user_data is a corot_sun_data. y is a serial vector [2n]. */
+/* A CVRhsFn: ydot = (v, M^-1 r). user_data is a corot_sun_data. y is a serial vector [2n]. Without a
+   mass solver where one is needed it returns COROT_EINVAL. */
 int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data);
 
 /* An IDAResFn: F = (u' - v, M v' - r), for lumped and consistent mass alike. user_data is a

@@ -9,7 +9,9 @@
    followed by longer ones.
 
    An equilibrium is stable if the stiffness K is positive definite. (Under a pressure this speaks
-   of the elastic part alone.) Load stepping ends where that is lost, as where a column buckles. */
+   of the elastic part alone.) Load stepping ends where that is lost, as where a column buckles.
+
+   A complete program: tests/examples/statics.c. */
 #ifndef COROT_STATICS_H
 #define COROT_STATICS_H
 
@@ -46,7 +48,8 @@ typedef struct corot_statics corot_statics;
 
 /* Starts at load factor 0 from u0 [n] (NULL: at rest), a guess of the equilibrium there. The model
    must outlive it; nothing else is kept.
-   COROT_EINVAL: the definition makes no sense. COROT_ESINGULAR: nothing holds the body, or a part
+   COROT_EINVAL: the definition makes no sense, t or u0 is not finite, or as for corot_pencil_create.
+   COROT_ENOMEM. COROT_ESINGULAR: nothing holds the body, or a part
    of it, against some rigid motion, which the message names. */
 corot_status corot_statics_create(const corot_statics_def *def, const corot_model *model, double t,
                                   const double *u0, corot_statics **statics);
@@ -77,10 +80,11 @@ typedef struct corot_load_step {
 /* Goes on by one load step, at most to load factor 1.
    COROT_EINTEGRATE: there is no way on; the message says how far the load got and why: KINSOL's own
    reason, or that the equilibrium becomes unstable, and where, to one part in 1000 or 2 min_step.
-   What was last reached remains readable. COROT_EINVAL: the full load was reached before. */
+   What was last reached remains readable. COROT_EINVAL: the full load was reached before.
+   COROT_ENOMEM. */
 corot_status corot_statics_step(corot_statics *statics, corot_load_step *step);
 
-/* Load steps to the end. */
+/* Load steps to the end. Failures as of corot_statics_step. */
 corot_status corot_statics_solve(corot_statics *statics);
 
 /* The equilibrium reached: its load factor, and u [n] (or NULL). */

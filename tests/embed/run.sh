@@ -16,6 +16,7 @@ mv "$work/first" "$work/prefix"
 if grep -rIl -e "$build" -e "$work/first" "$work/prefix"; then fail "a path is baked in there"; fi
 mkdir "$work/host"
 cp "$here"/*.c "$here"/*.h "$here"/CMakeLists.txt "$work/host"
+cp -r "$here/../examples" "$work/host"
 cd "$work/host"
 
 # The three hosts agree on where the bar goes, and none has more of SUNDIALS than it asked for.
@@ -36,12 +37,21 @@ compare_hosts() {
   if readelf -d host_cvode | grep cvodes; then fail "host_cvode has both CVODE and CVODES"; fi
 }
 
+# The examples of the public headers, which do as they say.
+check_examples() {
+  for example in "$here"/../examples/*.c; do
+    name=$(basename "$example" .c)
+    sh "$here/../examples/check.sh" "$name" "./example_$name"
+  done
+}
+
 case $kind in
   cmake)
     cmake -S . -B build -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_C_COMPILER="$cc" \
       -DCMAKE_BUILD_TYPE=Release >log 2>&1 && cmake --build build >>log 2>&1 || { cat log; exit 1; }
     cd build
     compare_hosts
+    check_examples
     "$work/prefix/bin/corot" --version
     ;;
   pkg-config)
@@ -49,15 +59,22 @@ case $kind in
     export PKG_CONFIG_PATH
     # shellcheck disable=SC2086
     compile() {
-      program=$1
-      shift
-      $cc -std=c11 ${CFLAGS-} $(pkg-config --cflags "$@") "$program.c" -o "$program" \
-        $(pkg-config --libs "$@") $libs
+      program=$1 package=$2 source=${3-$1}
+      $cc -std=c11 ${CFLAGS-} $(pkg-config --cflags "$package") "$source.c" -o "$program" \
+        $(pkg-config --libs "$package") $libs
     }
     libs= compile host_rk4 corot
     libs="-lsundials_cvode -lsundials_nvecserial" compile host_cvode corot-solve
     libs= compile host_integrate corot-integrate
     compare_hosts
+    for name in base mesh model hierarchy ode; do
+      libs= compile "example_$name" corot "examples/$name"
+    done
+    libs= compile example_solve corot-solve examples/solve
+    for name in integrate statics; do
+      libs= compile "example_$name" corot-integrate "examples/$name"
+    done
+    check_examples
     ;;
   headers)
     for header in "$work"/prefix/include/corot/*.h; do

@@ -10,9 +10,9 @@
 #include "scratch.h"
 #include "small_run.h"
 #include "study/execute/store.h"
-#include "study/measure/collect.h"
 #include "study/plan/json_file.h"
 #include "study/tables/table_text.h"
+#include "study/tables/write_tables.h"
 
 int LLVMFuzzerInitialize(int *argc, char ***argv);
 int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size);
@@ -129,7 +129,7 @@ static void check_study(const char *dir) {
   FILE *remarks = fopen("/dev/null", "w");
   int ndamaged;
   require(remarks, "no /dev/null");
-  status = collect_runs(m, dir, false, remarks, &ndamaged);
+  status = write_tables(m, dir, false, remarks, &ndamaged);
   require(is_clean(status), "a collection");
   fclose(remarks);
   if (status == COROT_OK) check_table(dir);

@@ -125,9 +125,9 @@ static void the_papers_force_keeps_momentum_only(void **state) {
   assert_above(tight.energy, 1e-4); /* a conserving force: 1.4e-5 at ten times the tolerance */
 }
 
-/* Damped, pulled, and turned by its base: the balance closes with the tolerance, to ten of them (1.2
-   to 5.6 were found, by how often the matrix is renewed and where Newton's iteration ends). One way
-   it is that of level 0. */
+/* Damped, pulled, and turned by its base: the balance closes with the tolerance, to ten of them
+   (1.2 to 5.6 were found, by how often the matrix is renewed and where Newton's iteration ends).
+   One way it is that of level 0. */
 static void the_balance_of_energy_closes(void **state) {
   setup s = {"green", 0, 0, true, coupling_of(state), &soft, true};
   drift loose = run(&s, 1e-4), tight = run(&s, 1e-7);

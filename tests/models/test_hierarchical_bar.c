@@ -110,7 +110,7 @@ static void frames_of_finer_levels_come_closer(void **state) {
   drop_body(&plain);
 }
 
-/* A twentieth of the load, by a matrix that is not the derivative and does not know of stability. */
+/* A twentieth of the load, by a matrix that is not the derivative and says nothing of stability. */
 static void an_equilibrium_is_found(void **state) {
   const choice c = {"green", "polar", 2, 0, true};
   body b = make_bent(&c, coupling_of(state));

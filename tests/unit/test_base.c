@@ -1,6 +1,6 @@
 /* Status and message. */
-#include "check.h"
 #include <pthread.h>
+#include "check.h"
 
 static void message_is_empty_at_first(void **state) {
   (void)state;

@@ -9,7 +9,7 @@
 
 #include "bar.h"
 #include "solve/pencil/pencil.h"
-#include "solve/pencil/sun_compat.h"
+#include "solve/sundials/sun_compat.h"
 #include "solver.h"
 
 static const double T_END = 0.2;

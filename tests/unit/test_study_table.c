@@ -6,6 +6,7 @@
 #include "study/measure/errors.h"
 #include "study/measure/fit.h"
 #include "study/plan/json_file.h"
+#include "study/tables/write_tables.h"
 #include "study_text.h"
 
 /* --- Solutions made up: u = (1 + e) t a, v = (1 + 2 e) a --- */
@@ -325,7 +326,8 @@ static void errors_fits_and_rankings(void **state) {
   const double floor = 1e-6;
   manifest *m = make_up(&b, dir, floor);
   json_t *table = NULL;
-  assert_ok(collect_table(m, dir, &table));
+  int ndamaged;
+  assert_ok(collect_table(m, dir, false, &table, &ndamaged));
 
   const json_t *cells = json_object_get(table, "cells");
   for (int i = 0; i < 8; i++) {
@@ -392,7 +394,8 @@ static void a_wrong_reference_is_caught(void **state) {
   solid b = solid_of("");
   manifest *m = make_up(&b, dir, 0.05);
   json_t *table = NULL;
-  assert_ok(collect_table(m, dir, &table));
+  int ndamaged;
+  assert_ok(collect_table(m, dir, false, &table, &ndamaged));
   const json_t *r = json_array_get(json_object_get(table, "references"), 0);
   assert_true(json_is_false(json_object_get(r, "agree")));
   assert_close(number(r, "parts_at"), 0.5, 0, 0);
@@ -429,7 +432,8 @@ static void what_cannot_be_said(void **state) {
   assert_ok(store_fail(dir, &other, 4, "gave up"));
 
   json_t *table = NULL;
-  assert_ok(collect_table(m, dir, &table));
+  int ndamaged;
+  assert_ok(collect_table(m, dir, false, &table, &ndamaged));
   const json_t *cells = json_object_get(table, "cells"), *c[8];
   for (size_t i = 0; i < 8; i++) c[i] = json_array_get(cells, i);
   assert_string_equal(text(c[0], "status"), "missing");
@@ -458,7 +462,8 @@ static void medians_of_repetitions(void **state) {
     assert_ok(timings_add(dir, &m->run[m->cell[0].run], &t, cpu[i], 10 * cpu[i]));
   timings_free(&t);
   json_t *table = NULL;
-  assert_ok(collect_table(m, dir, &table));
+  int ndamaged;
+  assert_ok(collect_table(m, dir, false, &table, &ndamaged));
   const json_t *c = json_array_get(json_object_get(table, "cells"), 0);
   const json_t *cost = json_object_get(c, "cost");
   assert_int_equal(number(cost, "repeats"), 4);
@@ -480,7 +485,8 @@ typedef struct collecting {
 
 static corot_status collect_once(void *context) {
   const collecting *c = context;
-  return collect_study(c->m, c->dir, NULL);
+  int ndamaged;
+  return write_tables(c->m, c->dir, false, NULL, &ndamaged);
 }
 
 static void failed_allocations(void **state) {

@@ -8,7 +8,7 @@
 
 #include "full_system.h"
 #include "solve/integrate/vector.h"
-#include "solve/pencil/sun_compat.h"
+#include "solve/sundials/sun_compat.h"
 #include "solver.h"
 
 static SUNContext context(void) {

@@ -5,7 +5,7 @@
 
 #include "check.h"
 #include "solid.h"
-#include "solve/pencil/sun_compat.h"
+#include "solve/sundials/sun_compat.h"
 
 enum { NVECTOR = 4 };
 

@@ -146,7 +146,8 @@ static corot_status write_all(const precision *p, const points *all, const char 
   free(svg);
   COROT_TRY(status);
   const char *slash = strrchr(base, '/');
-  precision_script script = {p, slash ? slash + 1 : base};
+  precision_script script = {
+      .table = p->table, .cost = p->cost, .error = p->error, .name = slash ? slash + 1 : base};
   COROT_TRY(save(base, ".csv", write_csv, p));
   COROT_TRY(save(base, ".gp", precision_gnuplot, &script));
   return save(base, ".py", precision_matplotlib, &script);

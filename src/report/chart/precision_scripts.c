@@ -7,8 +7,8 @@
 
 corot_status precision_gnuplot(const void *what, FILE *out) {
   const precision_script *s = what;
-  const study_table *t = s->diagram->table;
-  int error = s->diagram->error;
+  const study_table *t = s->table;
+  int error = s->error;
   char label[160];
   fputs(
       "# Draws the diagram with gnuplot, in the folder of this file:\n"
@@ -31,7 +31,7 @@ corot_status precision_gnuplot(const void *what, FILE *out) {
       out);
   escape_gnuplot(t->title, out);
   fputs("\nset xlabel ", out);
-  escape_gnuplot(study_cost_label[s->diagram->cost], out);
+  escape_gnuplot(study_cost_label[s->cost], out);
   study_error_label(t->error_name[error], sizeof label, label);
   fputs("\nset ylabel ", out);
   escape_gnuplot(label, out);
@@ -52,9 +52,9 @@ corot_status precision_gnuplot(const void *what, FILE *out) {
 
 corot_status precision_matplotlib(const void *what, FILE *out) {
   const precision_script *s = what;
-  const study_table *t = s->diagram->table;
+  const study_table *t = s->table;
   char label[160];
-  double floor = STUDY_FLOOR_FACTOR * t->floor[s->diagram->error];
+  double floor = STUDY_FLOOR_FACTOR * t->floor[s->error];
   fputs(
       "\"\"\"Draws the diagram with matplotlib: python3 FILE [FIGURE.pdf]\"\"\"\n"
       "import csv\nimport pathlib\nimport sys\n\n"
@@ -70,7 +70,7 @@ corot_status precision_matplotlib(const void *what, FILE *out) {
       "        if row[\"status\"] == \"rated\":\n"
       "            x.append(float(row[\"",
       out);
-  fputs(study_cost_word[s->diagram->cost], out);
+  fputs(study_cost_word[s->cost], out);
   fputs(
       "\"] or \"nan\"))\n"
       "            y.append(float(row[\"error\"] or \"nan\"))\n\n"
@@ -85,8 +85,8 @@ corot_status precision_matplotlib(const void *what, FILE *out) {
   fputs("axes.set_title(", out);
   escape_python(t->title, out);
   fputs(")\naxes.set_xlabel(", out);
-  escape_python(study_cost_label[s->diagram->cost], out);
-  study_error_label(t->error_name[s->diagram->error], sizeof label, label);
+  escape_python(study_cost_label[s->cost], out);
+  study_error_label(t->error_name[s->error], sizeof label, label);
   fputs(")\naxes.set_ylabel(", out);
   escape_python(label, out);
   fputs(

@@ -4,10 +4,12 @@
 
 #include <stdio.h>
 
-#include "precision.h"
+#include "report/read/study_table.h"
 
 typedef struct precision_script {
-  const precision *diagram;
+  const study_table *table;
+  study_cost cost;  /* across */
+  int error;        /* up: an index of error_name */
   const char *name; /* of CSV and script, without folder and suffix */
 } precision_script;
 

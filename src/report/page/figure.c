@@ -5,7 +5,7 @@
 
 #include "encode.h"
 #include "markup.h"
-#include "report/chart/thin.h"
+#include "thin.h"
 
 static void write_values(const char *name, int n, const double *value, const int *keep,
                          double *kept, FILE *out) {

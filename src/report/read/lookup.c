@@ -31,6 +31,14 @@ const char *lookup_text(const json_t *document, const char *path) {
   return text ? text : "";
 }
 
+bool lookup_has_text(const json_t *list, const char *text) {
+  for (size_t i = 0; i < json_array_size(list); i++) {
+    const char *item = json_string_value(json_array_get(list, i));
+    if (item && strcmp(item, text) == 0) return true;
+  }
+  return false;
+}
+
 static corot_status load(const char *path, json_t **document) {
   json_error_t where;
   COROT_TRY(file_check_regular(path));

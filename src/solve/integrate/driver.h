@@ -4,7 +4,7 @@
 #define COROT_SOLVE_INTEGRATE_DRIVER_H
 
 #include "integrator.h"
-#include "solve/pencil/sun_status.h"
+#include "solve/sundials/sun_status.h"
 
 enum { SUN_MESSAGE = 512 };
 

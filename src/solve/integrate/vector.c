@@ -5,7 +5,7 @@
 #include <nvector/nvector_serial.h>
 
 #include "core/lanes/simd.h"
-#include "solve/pencil/sun_compat.h"
+#include "solve/sundials/sun_compat.h"
 
 /* Outputs may be inputs, entry by entry. */
 #if defined(__clang__)

@@ -12,7 +12,7 @@
 
 #include "core/ode/trial.h"
 #include "pencil.h"
-#include "sun_status.h"
+#include "solve/sundials/sun_status.h"
 #include "wall_clock.h"
 
 static SUNMatrix_ID matrix_id(SUNMatrix A) {

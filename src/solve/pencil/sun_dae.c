@@ -9,7 +9,7 @@
 
 #include "core/ode/trial.h"
 #include "pencil.h"
-#include "sun_status.h"
+#include "solve/sundials/sun_status.h"
 #include "wall_clock.h"
 
 corot_status corot_pencil_newton_dae(corot_pencil *p, N_Vector b, N_Vector x) {

@@ -30,15 +30,18 @@
                  norm of the mass over the total's square; all together are 1;
                  "alone", "alone_end": where nothing else is taken away; "alone_bound": "about",
                  "at least" (space) or "doubtful": less than ten times the errors of time and
-   algebra that both runs have; "probes": {NAME: {"max", "end" [m]; "bound", "low", "high", "floor";
-   "signed": the change of the displacement at the end, a vector; "difference", "difference_end"}};
+                 algebra that both runs have;
+                 "probes": {NAME: {"max", "end" [m]; "bound", "low", "high", "floor"; "signed": the
+                 change of the displacement at the end, a vector; "difference",
+                 "difference_end"}};
                  "cost": CPU time of that run over that of the run as given; "advice"}],
       "total", "total_end", "total_probes", "total_bound", "total_low", "total_high",
       "total_floor", "total_end_bound" and so on: the run as given against what all parts together
-   lead to; "sum": of the parts; "interaction": total less sum; "check": how far two independent
-   methods of integration differ, of time's part; "check_rtol": at that tolerance; "complete": no
-   part is missing; "missing": their names; "first": what to change first, in words, and "verdict":
-   the same; "runs": [{"run", "id", "status", "cpu", "spare": a try whose failure is no matter}],
+      lead to; "sum": of the parts; "interaction": total less sum;
+      "check": how far two independent methods of integration differ, of time's part;
+      "check_rtol": at that tolerance; "complete": no part is missing; "missing": their names;
+      "first": what to change first, in words, and "verdict": the same;
+      "runs": [{"run", "id", "status", "cpu", "spare": a try whose failure is no matter}],
       "builds", "mixed": as in a study's table (collect.h)}
    What is not known, as where a run failed, is null. */
 #ifndef COROT_STUDY_BUDGET_BUDGET_H
@@ -47,19 +50,11 @@
 #include "budget_plan.h"
 #include "study/execute/execute.h"
 
-typedef struct budget_options {
-  bool skip[BUDGET_KINDS]; /* parts that are not looked at */
-  bool still;              /* of the equilibrium, as corot static finds it */
-  int levels;              /* of the mesh: 2, 3, or 0: three if they can be paid for */
-} budget_options;
-
 /* Makes the runs that are missing in execute->dir, and *out, the caller's to json_decref. set
    [nset]: "KEY=VALUE" on top of the scenario, which has them already. COROT_EINVAL: no part is
    left. */
 corot_status budget_make(const scenario *s, int nset, const char *const *set,
                          const budget_options *options, const execute_options *execute,
                          json_t **out, int *signal_number);
-
-void budget_print(const json_t *budget, FILE *out);
 
 #endif

@@ -1,10 +1,11 @@
 /* What an error budget claims of each part, and how far that is to be trusted. */
+#include "budget_claims.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/text/no_memory.h"
-#include "budget_parts.h"
 #include "study/measure/states_sum.h"
 
 /* --- What references are known by --- */

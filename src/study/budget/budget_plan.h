@@ -39,6 +39,13 @@ typedef struct budget_plan {
   budget_part algebra_check; /* the same of part ALGEBRA: tolerances ten times those of the part */
 } budget_plan;
 
+/* What is asked for. */
+typedef struct budget_options {
+  bool skip[BUDGET_KINDS]; /* parts that are not looked at */
+  bool still;              /* of the equilibrium, as corot static finds it */
+  int levels;              /* of the mesh: 2, 3, or 0: three if they can be paid for */
+} budget_options;
+
 extern const char *const budget_names[BUDGET_KINDS]; /* "time integration" */
 
 /* What to change if that part is the largest, of a run or of an equilibrium. */

@@ -1,10 +1,11 @@
 /* The runs of an error budget: planned, made, and read. */
+#include "budget_runs.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/text/json_text.h"
-#include "budget_parts.h"
 #include "study/execute/store.h"
 #include "study/execute/variants.h"
 #include "study/measure/states_sum.h"

@@ -1,9 +1,11 @@
 /* An error budget in words and columns. */
+#include "budget_text.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "budget_parts.h"
 #include "report/read/lookup.h"
+#include "study/measure/claim.h"
 
 /* --- Verdicts --- */
 

@@ -7,6 +7,7 @@
 #include "app/text/say.h"
 #include "command_study.h"
 #include "study/budget/budget.h"
+#include "study/budget/budget_text.h"
 #include "study/tables/report_page.h"
 #include "variants_command.h"
 

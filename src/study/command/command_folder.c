@@ -12,9 +12,9 @@
 #include "app/text/say.h"
 #include "app/text/suggest.h"
 #include "study/execute/store.h"
-#include "study/measure/collect.h"
 #include "study/plan/json_file.h"
 #include "study/tables/table_text.h"
+#include "study/tables/write_tables.h"
 
 /* One folder, and no options but --help. -1: go on with *dir; otherwise an exit code. */
 static int only_folder(const char *program, int argc, char **argv, const char **dir) {
@@ -62,7 +62,7 @@ int command_study_status(int argc, char **argv) {
 static corot_status collect_folder(const char *dir, int *ndamaged) {
   manifest *m = NULL;
   COROT_TRY(manifest_read(dir, &m));
-  corot_status status = collect_runs(m, dir, false, stderr, ndamaged);
+  corot_status status = write_tables(m, dir, false, stderr, ndamaged);
   manifest_destroy(m);
   return status;
 }

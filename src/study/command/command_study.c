@@ -14,9 +14,9 @@
 #include "study/execute/execute.h"
 #include "study/execute/pool.h"
 #include "study/execute/store.h"
-#include "study/measure/collect.h"
 #include "study/plan/plan.h"
 #include "study/tables/report_page.h"
+#include "study/tables/write_tables.h"
 
 static const char help[] =
     "usage: corot study STUDY.yaml [-o DIR] [-j N] [--shard I/N] [--dry-run] ...\n"
@@ -185,7 +185,7 @@ static int execute_here(const manifest *m, const execute_options *o) {
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
     int ndamaged; /* since they were looked at: the next call does them again */
-    status = collect_runs(m, o->dir, true, o->quiet ? NULL : stderr, &ndamaged);
+    status = write_tables(m, o->dir, true, o->quiet ? NULL : stderr, &ndamaged);
     if (status == COROT_OK && !o->quiet) say("corot study table %s\n", o->dir);
     if (status == COROT_OK) status = study_page(o->dir, o->quiet);
     if (status != COROT_OK) code = failure(status);

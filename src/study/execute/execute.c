@@ -1,19 +1,14 @@
-/* Starts what is missing, several at a time, and books what becomes of it. */
+/* Starts what is missing, several at a time, and then what has to be tried again. */
 #include "execute.h"
 
-#include <errno.h>
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "app/run/run_clock.h"
 #include "app/text/no_memory.h"
-#include "app/text/say.h"
-#include "execute_parts.h"
+#include "builds.h"
+#include "execute_one.h"
+#include "execute_timed.h"
 #include "pool.h"
-#include "study/measure/builds.h"
-#include "study/plan/json_file.h"
 
 execute_options execute_defaults(void) {
   long processors = sysconf(_SC_NPROCESSORS_ONLN);
@@ -21,8 +16,6 @@ execute_options execute_defaults(void) {
   return (execute_options){
       .njob = njob, .shard = 1, .nshard = 1, .progress = true, .tells_builds = true};
 }
-
-enum { MOST_RETRIES = 2 }; /* of one run, before the next call of the program */
 
 /* --- What there is to do --- */
 
@@ -51,129 +44,6 @@ static corot_status list_tasks(execution *e) {
   return COROT_OK;
 }
 
-/* --- Progress --- */
-
-void execution_begin(execution *e, const char *what, int due) {
-  e->what = what;
-  e->due = due;
-  e->finished = 0;
-  e->started = wall_clock();
-}
-
-void execution_show(const execution *e) {
-  if (!e->progress) return;
-  fprintf(stderr, "\r\033[K%s: %d of %d", e->what, e->finished, e->due);
-  if (e->nfailed > 0) fprintf(stderr, ", %d failed", e->nfailed);
-  if (e->finished > 0) {
-    double left = (wall_clock() - e->started) * (e->due - e->finished) / e->finished;
-    fprintf(stderr, ", %.0f:%02.0f min left", floor(left / 60), floor(fmod(left, 60)));
-  }
-  fflush(stderr);
-}
-
-static void clear_progress(const execution *e) {
-  if (e->progress) fputs("\r\033[K", stderr);
-}
-
-/* A failure in words, but for all too many. */
-static void tell_failure(execution *e, const task *t, const char *reason) {
-  enum { MOST = 8 };
-  if (e->ntold >= MOST || e->o->expects_failures) return;
-  clear_progress(e);
-  say("%s/runs/%s: %s\n", e->o->dir, t->run->id, reason);
-  if (++e->ntold == MOST) fputs("(further failures are recorded, but not shown)\n", stderr);
-}
-
-/* --- One run --- */
-
-corot_status execution_start(execution *e, int i, const char *folder, const char *more) {
-  const study_run *run = e->task[i].run;
-  char *dir = store_path(e->o->dir, run, folder);
-  char *messages = store_path(e->o->dir, run, "messages.txt");
-  const char **argv = calloc(2 * (size_t)run->nset + 11, sizeof *argv);
-  corot_status status = dir && messages && argv ? COROT_OK : no_memory();
-  if (status == COROT_OK) {
-    int n = 0;
-    argv[n++] = "corot";
-    argv[n++] = e->o->command ? e->o->command : "run";
-    argv[n++] = e->m->base;
-    argv[n++] = "--quiet";
-    argv[n++] = "--force"; /* the folder is the study's, whatever an earlier attempt has left */
-    argv[n++] = "--output";
-    argv[n++] = dir;
-    for (int k = 0; k < run->nset; k++) {
-      argv[n++] = "--set";
-      argv[n++] = run->set[k];
-    }
-    if (more) argv[n++] = "--set", argv[n++] = more;
-    status = pool_start(i, argv, messages, e->o->timeout);
-  }
-  free(argv);
-  free(messages);
-  free(dir);
-  return status;
-}
-
-/* The beginning of what a run said, without the last line break; the file is gone if it said
-   nothing. */
-static void read_messages(const char *path, size_t size, char *text) {
-  text[0] = '\0';
-  FILE *file = fopen(path, "re");
-  if (!file) return;
-  size_t length = fread(text, 1, size - 1, file);
-  fclose(file);
-  while (length > 0 && text[length - 1] == '\n') length--;
-  text[length] = '\0';
-  if (length == 0) unlink(path);
-}
-
-/* Why a run has left no result. */
-static void explain(int ended, double timeout, size_t size, char *reason) {
-  char said[1024];
-  snprintf(said, sizeof said, "%.*s", (int)sizeof said - 1, reason);
-  if (abs(ended) % 128 == SIGXCPU && store_is_timeout(ended))
-    snprintf(reason, size, "it has used up its limit of CPU time");
-  else if (store_is_timeout(ended))
-    snprintf(reason, size, "not over after the %g s that each run has", timeout);
-  else if (ended < 0)
-    snprintf(reason, size, "killed by signal %d (%s)%s%s", -ended, strsignal(-ended),
-             *said ? ": " : "", said);
-  else if (ended == 0)
-    snprintf(reason, size,
-             "its result is not that of the run that was asked for: have scenario "
-             "or mesh changed since the study began?");
-  else if (!*said)
-    snprintf(reason, size, "exit code %d", ended);
-}
-
-/* Books a run that has ended, by what its folder says. */
-static corot_status conclude(execution *e, int i, int ended) {
-  task *t = &e->task[i];
-  char *messages = store_path(e->o->dir, t->run, "messages.txt");
-  if (!messages) return no_memory();
-  char reason[1200];
-  read_messages(messages, sizeof reason, reason);
-  free(messages);
-
-  run_record record;
-  COROT_TRY(store_look(e->o->dir, t->run, &record));
-  corot_status status = COROT_OK;
-  if (record.state == RUN_FAILED) snprintf(reason, sizeof reason, "%s", record.reason);
-  if (record.state == RUN_MISSING) {
-    explain(ended, e->o->timeout, sizeof reason, reason);
-    status = store_fail(e->o->dir, t->run, ended, reason);
-    if (!store_failure(ended).retry) record.state = RUN_FAILED;
-  }
-  t->state = record.state;
-  t->lost = record.state == RUN_MISSING;
-  t->again = t->lost && ended != 0 && e->nretry < MOST_RETRIES && !pool_signal();
-  e->nnew += record.state == RUN_DONE;
-  e->nfailed += record.state == RUN_FAILED;
-  if (record.state != RUN_DONE && !pool_signal() && !t->again) tell_failure(e, t, reason);
-  run_record_free(&record);
-  return status;
-}
-
 /* --- The runs, side by side --- */
 
 static bool is_due(const execution *e, const task *t) {
@@ -191,7 +61,7 @@ static corot_status look_at_each(execution *e, builds *made_by) {
     e->task[i].due = is_due(e, &e->task[i]);
     if (record.state == RUN_FAILED && !e->task[i].due) {
       e->nfailed++;
-      tell_failure(e, &e->task[i], record.reason);
+      execution_tell(e, &e->task[i], record.reason);
     }
     run_record_free(&record);
   }
@@ -207,27 +77,19 @@ static corot_status look_all(execution *e) {
   return status;
 }
 
-static corot_status wait_one(execution *e) {
-  int i, ended;
-  COROT_TRY(pool_wait(&i, &ended));
-  e->finished++;
-  execution_show(e);
-  return conclude(e, i, ended);
-}
-
 static corot_status run_all(execution *e) {
   int due = 0;
   for (int i = 0; i < e->ntask; i++) due += e->task[i].due;
   execution_begin(e, "runs", due);
   for (int i = 0; i < e->ntask && !pool_signal(); i++) {
     if (!e->task[i].due) continue;
-    if (pool_is_full()) COROT_TRY(wait_one(e));
+    if (pool_is_full()) COROT_TRY(execution_wait(e));
     if (pool_signal()) break;
     COROT_TRY(store_clear(e->o->dir, e->task[i].run));
     COROT_TRY(execution_start(e, i, "", NULL));
     execution_show(e);
   }
-  while (!pool_is_empty()) COROT_TRY(wait_one(e));
+  while (!pool_is_empty()) COROT_TRY(execution_wait(e));
   return COROT_OK;
 }
 
@@ -243,7 +105,7 @@ static corot_status retry_lost(execution *e) {
       execution_show(e);
       COROT_TRY(store_clear(e->o->dir, e->task[i].run));
       COROT_TRY(execution_start(e, i, "", NULL));
-      COROT_TRY(wait_one(e));
+      COROT_TRY(execution_wait(e));
     }
   }
   return COROT_OK;
@@ -267,7 +129,7 @@ static corot_status execute(execution *e) {
   corot_status status = run_all(e);
   if (status == COROT_OK) status = retry_lost(e);
   if (status == COROT_OK && !pool_signal()) status = execution_time(e);
-  clear_progress(e);
+  execution_clear(e);
   e->signal_number = pool_signal();
   pool_close();
   return status;

@@ -1,8 +1,9 @@
 /* Repetitions for the clock: alone on the machine, without output that grows with the mesh. */
+#include "execute_timed.h"
+
 #include <stdlib.h>
 
 #include "app/text/no_memory.h"
-#include "execute_parts.h"
 #include "pool.h"
 #include "study/plan/json_file.h"
 

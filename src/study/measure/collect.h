@@ -1,4 +1,4 @@
-/* What the runs of a study say together: table.json, table.csv and index.sqlite in its folder.
+/* What the runs of a study say together: the table that write_tables.h puts into its folder.
 
    table.json
      title, cost, measure   as in the study file; corot: the version that made the runs
@@ -39,16 +39,10 @@
 
 #include "study/plan/manifest.h"
 
-/* The caller's to json_decref. */
-corot_status collect_table(const manifest *m, const char *dir, json_t **table);
-
-/* Collects, and writes all three files. To `remarks` (or NULL): references that part ways or are
-   not known, how many cells are not rated, and which cells carry which warnings. */
-corot_status collect_study(const manifest *m, const char *dir, FILE *remarks);
-
-/* The same; `looked`: the files of the runs have just been verified (store.h), else they are now.
- *ndamaged: how often the files of a run are not those that it left; it is missing then. */
-corot_status collect_runs(const manifest *m, const char *dir, bool looked, FILE *remarks,
-                          int *ndamaged);
+/* *table is the caller's to json_decref. `looked`: the files of the runs have just been verified
+   (study/execute/store.h), else they are now. *ndamaged: how often the files of a run are not those
+   that it left; it is missing then. */
+corot_status collect_table(const manifest *m, const char *dir, bool looked, json_t **table,
+                           int *ndamaged);
 
 #endif

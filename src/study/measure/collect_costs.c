@@ -1,10 +1,11 @@
 /* What a run has cost. */
+#include "collect_costs.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/text/json_text.h"
-#include "collect_parts.h"
 
 static const struct {
   const char *name;

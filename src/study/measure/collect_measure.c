@@ -1,4 +1,6 @@
 /* Trajectories from the folders of runs, and the model they belong to. */
+#include "collect_measure.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,7 +8,6 @@
 #include "app/folder/hash.h"
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
-#include "collect_parts.h"
 
 /* All that a yardstick depends on: the scenario without what only the solution depends on. */
 static char *yardstick_key(const json_t *result) {

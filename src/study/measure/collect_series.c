@@ -1,10 +1,11 @@
 /* What is said of whole series: how errors follow tolerances, and which is the cheapest. */
+#include "collect_series.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/text/json_text.h"
-#include "collect_parts.h"
 #include "fit.h"
 
 static const error_pair *floor_of(const table_rows *t, const table_row *r) {

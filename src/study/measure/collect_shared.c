@@ -1,10 +1,11 @@
 /* What a study's runs have in common with the references that they are held against, and what their
    errors therefore say nothing of. */
+#include "collect_shared.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "app/text/json_text.h"
-#include "collect_parts.h"
 #include "report/read/lookup.h"
 
 enum { FRAMES, MESH, STRAIN, HIERARCHY, MASS, DILATATION, NKIND, TEXT = 128 };

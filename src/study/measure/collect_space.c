@@ -1,12 +1,13 @@
 /* The error of the meshes of a study that varies mesh.refine: its references are exact in time, so
    those of neighbouring levels say what the meshes do (convergence.h). */
+#include "collect_space.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
 #include "claim.h"
-#include "collect_parts.h"
 
 enum { NLEVEL = 3 };
 

@@ -10,6 +10,12 @@
 
 const char *const error_words[ERROR_PROBES] = {"displacement", "velocity", "energy", "mixed"};
 
+int error_named(const char *name) {
+  for (int i = 0; i < ERROR_PROBES; i++)
+    if (strcmp(error_words[i], name) == 0) return i;
+  return -1;
+}
+
 bool is_rated(const error_pair *error, const error_pair *known, bool end) {
   return end ? error->end >= ERROR_FLOOR * known->end : error->max >= ERROR_FLOOR * known->max;
 }

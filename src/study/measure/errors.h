@@ -29,6 +29,9 @@
 enum { ERROR_DISPLACEMENT, ERROR_VELOCITY, ERROR_ENERGY, ERROR_MIXED, ERROR_PROBES };
 extern const char *const error_words[ERROR_PROBES];
 
+/* The error of that name; -1: there is none. */
+int error_named(const char *name);
+
 typedef struct error_pair {
   double max, end; /* over time; at the last time */
 } error_pair;

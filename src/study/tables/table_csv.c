@@ -1,4 +1,6 @@
 /* The flat table as comma-separated values. */
+#include "table_csv.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +11,7 @@
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
 #include "app/text/text_stream.h"
-#include "study/measure/flat.h"
+#include "flat.h"
 
 static corot_status write_value(const json_t *value, FILE *out) {
   if (json_is_integer(value)) {

@@ -1,4 +1,6 @@
 /* The flat table in a database, written beside its place and moved there. */
+#include "table_sqlite.h"
+
 #include <sqlite3.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +11,7 @@
 #include "app/text/escape.h"
 #include "app/text/json_text.h"
 #include "app/text/text_stream.h"
-#include "study/measure/flat.h"
+#include "flat.h"
 
 /* `code` may be of our own making, which SQLite's message does not know. */
 static corot_status complain(int code, const char *path) {

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/integrate/runge_kutta/slow.h"
+#include "solve/integrate/slow.h"
 
 corot_status corot_multistep_open(multistep *m, corot_integrator *self, const multistep_api *api,
                                   const double *u, const double *v) {

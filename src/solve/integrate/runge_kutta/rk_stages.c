@@ -22,7 +22,7 @@
 #include <string.h>
 
 #include "runge_kutta.h"
-#include "slow.h"
+#include "solve/integrate/slow.h"
 
 /* --- The polynomial through stages ----------------------------------------------------------- */
 

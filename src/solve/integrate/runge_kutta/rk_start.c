@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "runge_kutta.h"
-#include "slow.h"
+#include "solve/integrate/slow.h"
 
 static double product(int n, const double *x, const double *y) {
   double sum = 0;

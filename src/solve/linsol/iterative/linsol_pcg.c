@@ -12,7 +12,7 @@
 
 #include "linsol_multilevel.h"
 #include "solve/linsol/linsol.h"
-#include "solve/pencil/sun_status.h"
+#include "solve/sundials/sun_status.h"
 
 /* The end of a message where conjugate gradients do not find the solution that there may be. */
 #ifdef COROT_HAVE_CHOLMOD

@@ -1,8 +1,8 @@
 /* Slow and fast: what a step of an implicit method resolves, and what it does not. */
-#ifndef COROT_SOLVE_INTEGRATE_RUNGE_KUTTA_SLOW_H
-#define COROT_SOLVE_INTEGRATE_RUNGE_KUTTA_SLOW_H
+#ifndef COROT_SOLVE_INTEGRATE_SLOW_H
+#define COROT_SOLVE_INTEGRATE_SLOW_H
 
-#include "solve/integrate/integrator.h"
+#include "integrator.h"
 
 /* y = S^-1 M x [n] by the pencil's latest factor, S = M + g D + g^2 K: x where a mode is slow,
    g w small, and x / (g w)^2 where it is fast. y may be x. */

@@ -3,22 +3,26 @@
 
    What the integrators make of a code (6.4.1 to 7.x):
 
-     right-hand side, residual,     CVODE, IDA, ARKODE: > 0 again with a shorter step, < 0 the end.
-     work rates (quadratures)       ERKStep, and ARKStep in the right-hand side at the end of a
-   step, take > 0 for the end, too: runge_kutta.c shortens the step there linear system, Jacobian,
-   the same; KINSOL takes any but 0 for the end set-up of the linear solver its solve CVODE, IDA,
-   ARKODE look for SUNLS_* by value: CONV_FAIL and some more are the shorter step; MEM_FAIL and
-   PACKAGE_FAIL_UNREC are the end; what is not on their lists (-1 is not) IS A SUCCESS, and the
-   unsolved right-hand side is taken for the solution. KINSOL goes by the sign error weights any but
-   0 is the end system function of KINSOL      > 0 half the step, five times at most; the end at the
-   first call; < 0 the end product and preconditioner     SUNLinSol_PCG: by the sign,
-   SUNLS_ATIMES_FAIL_* and of conjugate gradients         SUNLS_PSOLVE_FAIL_*
+   * Right-hand side, residual, work rates (quadratures): CVODE, IDA, ARKODE try again with a
+     shorter step if > 0, and end if < 0. ERKStep, and ARKStep in the right-hand side at the end of
+     a step, take > 0 for the end, too: runge_kutta.c shortens the step there.
+   * Linear system, Jacobian, set-up of the linear solver: the same; KINSOL takes any but 0 for the
+     end.
+   * Solve of the linear solver: CVODE, IDA, ARKODE look for SUNLS_* by value. CONV_FAIL and some
+     more are the shorter step; MEM_FAIL and PACKAGE_FAIL_UNREC are the end; what is not on their
+     lists (-1 is not) IS A SUCCESS, and the unsolved right-hand side is taken for the solution.
+     KINSOL goes by the sign.
+   * Error weights: any but 0 is the end.
+   * System function of KINSOL: > 0 halves the step, five times at most, and is the end at the first
+     call; < 0 is the end.
+   * Product and preconditioner of conjugate gradients (SUNLinSol_PCG): by the sign,
+     SUNLS_ATIMES_FAIL_* and SUNLS_PSOLVE_FAIL_*.
 
    A shorter step helps against an inverted element, and against a matrix that is indefinite or
    singular, or that conjugate gradients do not solve: it brings S closer to M. Nothing of that kind
    helps where memory ran out or a call makes no sense. */
-#ifndef COROT_SOLVE_PENCIL_SUN_STATUS_H
-#define COROT_SOLVE_PENCIL_SUN_STATUS_H
+#ifndef COROT_SOLVE_SUNDIALS_SUN_STATUS_H
+#define COROT_SOLVE_SUNDIALS_SUN_STATUS_H
 
 #include <corot/base.h>
 #include <stdbool.h>

@@ -1,8 +1,8 @@
 /* Every difference between SUNDIALS 6.4 (Debian 12) and 7.x stands here. Return values are only
    ever compared with zero, whose meaning never changed. What our functions return is in
    sun_status.h. */
-#ifndef COROT_SOLVE_PENCIL_SUN_COMPAT_H
-#define COROT_SOLVE_PENCIL_SUN_COMPAT_H
+#ifndef COROT_SOLVE_SUNDIALS_SUN_COMPAT_H
+#define COROT_SOLVE_SUNDIALS_SUN_COMPAT_H
 
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>

@@ -1,6 +1,6 @@
 /* The cells of table.json as one flat table, the same for CSV and SQL. */
-#ifndef COROT_STUDY_MEASURE_FLAT_H
-#define COROT_STUDY_MEASURE_FLAT_H
+#ifndef COROT_STUDY_TABLES_FLAT_H
+#define COROT_STUDY_TABLES_FLAT_H
 
 #include <corot/base.h>
 #include <jansson.h>
@@ -23,11 +23,5 @@ void flat_free(flat *f);
 
 /* NULL or null: nothing to say. */
 const json_t *flat_value(const json_t *cell, const flat_column *c);
-
-/* DIR/table.csv: one line a cell, numbers with 17 digits, empty where there is nothing to say. */
-corot_status table_write_csv(const json_t *table, const char *dir);
-
-/* DIR/index.sqlite: the same as the table `runs` of a database. */
-corot_status table_write_sqlite(const json_t *table, const char *dir);
 
 #endif

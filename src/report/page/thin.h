@@ -1,6 +1,6 @@
 /* Long curves made short without a change that is seen. */
-#ifndef COROT_REPORT_CHART_THIN_H
-#define COROT_REPORT_CHART_THIN_H
+#ifndef COROT_REPORT_PAGE_THIN_H
+#define COROT_REPORT_PAGE_THIN_H
 
 /* A curve of more points than THIN_MOST is cut into THIN_BINS pieces, of each of which four points
    stay: the first, the lowest, the highest and the last. A piece is as long in x and in number of

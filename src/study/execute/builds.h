@@ -4,8 +4,8 @@
 
    with the build of most runs first. Numbers and times of one build need not be those of another,
    though scenario, mesh and version are the same. */
-#ifndef COROT_STUDY_MEASURE_BUILDS_H
-#define COROT_STUDY_MEASURE_BUILDS_H
+#ifndef COROT_STUDY_EXECUTE_BUILDS_H
+#define COROT_STUDY_EXECUTE_BUILDS_H
 
 #include "study/plan/manifest.h"
 

@@ -1,9 +1,10 @@
-/* Inside of an error budget. */
-#ifndef COROT_STUDY_BUDGET_BUDGET_PARTS_H
-#define COROT_STUDY_BUDGET_BUDGET_PARTS_H
+/* The runs of an error budget: planned, made, and read. */
+#ifndef COROT_STUDY_BUDGET_BUDGET_RUNS_H
+#define COROT_STUDY_BUDGET_BUDGET_RUNS_H
 
-#include "budget.h"
-#include "study/measure/builds.h"
+#include "budget_plan.h"
+#include "study/execute/builds.h"
+#include "study/execute/execute_options.h"
 #include "study/measure/claim.h"
 
 /* Runs: as given; the chain, one more approximation gone in each; each gone alone; the checks;
@@ -46,8 +47,6 @@ typedef struct budgeting {
   yardstick *yardstick;
 } budgeting;
 
-/* --- Runs (budget_runs.c) --- */
-
 /* Plans and makes all runs; where *signal_number is not 0 afterwards, some are missing. */
 corot_status budget_runs_make(budgeting *b, int nset, const char *const *set,
                               const execute_options *options, int *signal_number);
@@ -62,22 +61,5 @@ int budget_alone_run(const budgeting *b, int part);
 /* Distances of two runs, the second taken as exact; n = 0 where either is not known. */
 corot_status budget_distance(const budgeting *b, const trajectory *run, const trajectory *reference,
                              errors *out);
-
-/* --- Claims (budget_claims.c) --- */
-
-typedef struct budget_claims {
-  claim part[BUDGET_KINDS], total;
-  errors check; /* of time: two methods at the finest tolerance; n = 0: none */
-  errors chain; /* what the runs after time are known by; n = 0: nobody knows */
-} budget_claims;
-
-corot_status budget_claims_make(const budgeting *b, budget_claims *out);
-void budget_claims_free(budget_claims *c);
-
-/* --- In words (budget_text.c) --- */
-
-/* The largest part and what to do about it, or that it is not known. parts: as in budget.json. The
-   caller's; NULL: no memory. */
-json_t *budget_verdict(const json_t *parts, double total);
 
 #endif

@@ -1,11 +1,13 @@
-/* Inside of carrying out a study. */
-#ifndef COROT_STUDY_EXECUTE_EXECUTE_PARTS_H
-#define COROT_STUDY_EXECUTE_EXECUTE_PARTS_H
+/* Carries out one run of a study: starts its process, books what becomes of it, and shows how far
+   all of them have got. */
+#ifndef COROT_STUDY_EXECUTE_EXECUTE_ONE_H
+#define COROT_STUDY_EXECUTE_EXECUTE_ONE_H
 
-#include <signal.h>
-
-#include "execute.h"
+#include "execute_options.h"
 #include "store.h"
+#include "study/plan/manifest.h"
+
+enum { MOST_RETRIES = 2 }; /* of one run, before the next call of the program */
 
 typedef struct task {
   const study_run *run;
@@ -32,12 +34,16 @@ typedef struct execution {
 /* A line on the terminal for a phase of so many runs. */
 void execution_begin(execution *e, const char *what, int due);
 void execution_show(const execution *e);
+void execution_clear(const execution *e); /* takes the line away */
+
+/* Tells stderr why a run has failed, unless failures are expected or all too many. */
+void execution_tell(execution *e, const task *t, const char *reason);
 
 /* Starts task i, which writes to a folder in that of its run; `more` (or NULL) is a further
    override. */
 corot_status execution_start(execution *e, int i, const char *folder, const char *more);
 
-/* The timed repetitions that are missing, one at a time. */
-corot_status execution_time(execution *e);
+/* Waits for the next of the runs that have been started, and books it by what its folder says. */
+corot_status execution_wait(execution *e);
 
 #endif
