@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/command/cli.h"
 #include "app/text/say.h"
 #include "outputs.h"
 #include "progress.h"
@@ -342,6 +341,8 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
   release(&r);
   return code;
 }
+
+void run_interrupt(int signal_number) { stop_request(signal_number); }
 
 int run_scenario(const scenario *s, const run_options *options) {
   return run_in_c_locale(integrate_scenario, s, options);

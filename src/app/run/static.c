@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/command/cli.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
 #include "reactions.h"
