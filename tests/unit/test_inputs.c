@@ -57,17 +57,17 @@ static void check_forms(const scenario *s) {
   static const double list[][2] = {{0, 0}, {1, 2}, {3, 1}},
                       table[][2] = {{0, 0}, {0.5, 1}, {1.5, -1}};
   static const double jump[][2] = {{0, 0}, {1, 1}, {1, 0}, {2, 1}};
-  const corot_amplitude *a = &s->load[0].amplitude;
+  const corot_amplitude *a = &s->model.load[0].amplitude;
   assert_int_equal(a->curve, COROT_CURVE_SINE);
   assert_true(a->frequency == 2 && a->phase == 0.5 && a->offset == -3);
-  a = &s->load[1].amplitude;
+  a = &s->model.load[1].amplitude;
   assert_true(a->frequency == 4 && a->phase == 0 && a->offset == 0);
-  check_points(&s->load[2].amplitude, COROT_CURVE_SMOOTH, 3, list);
-  check_points(&s->load[3].amplitude, COROT_CURVE_LINEAR, 3, table);
-  check_points(&s->load[4].amplitude, COROT_CURVE_SMOOTH, 3, table);
-  check_points(&s->load[5].amplitude, COROT_CURVE_LINEAR, 4, jump);
-  const corot_motion *m = s->motion;
-  assert_int_equal(s->nmotion, 3);
+  check_points(&s->model.load[2].amplitude, COROT_CURVE_SMOOTH, 3, list);
+  check_points(&s->model.load[3].amplitude, COROT_CURVE_LINEAR, 3, table);
+  check_points(&s->model.load[4].amplitude, COROT_CURVE_SMOOTH, 3, table);
+  check_points(&s->model.load[5].amplitude, COROT_CURVE_LINEAR, 4, jump);
+  const corot_motion *m = s->model.motion;
+  assert_int_equal(s->model.nmotion, 3);
   assert_true(m[0].kind == COROT_MOVE && m[0].direction[1] == 2);
   assert_int_equal(m[0].amplitude.curve, COROT_CURVE_SMOOTH);
   assert_true(m[2].kind == COROT_TURN && m[2].axis[2] == 2 && m[2].center[0] == 1);
@@ -146,10 +146,10 @@ static void every_key_can_be_overridden(void **state) {
                              "boundary.2.move.rotate.angle=0.25",
                              "start.1.spin.rate=11"};
   scenario *s = accept_with(forms, 7, (char *const *)set);
-  assert_true(s->load[0].amplitude.frequency == 7 && s->load[0].amplitude.phase == 0.5);
-  assert_int_equal(s->load[3].amplitude.curve, COROT_CURVE_SMOOTH);
-  assert_int_equal(s->load[5].amplitude.curve, COROT_CURVE_SINE);
-  assert_true(s->motion[0].direction[2] == 9 && s->motion[2].angle == 0.25);
+  assert_true(s->model.load[0].amplitude.frequency == 7 && s->model.load[0].amplitude.phase == 0.5);
+  assert_int_equal(s->model.load[3].amplitude.curve, COROT_CURVE_SMOOTH);
+  assert_int_equal(s->model.load[5].amplitude.curve, COROT_CURVE_SINE);
+  assert_true(s->model.motion[0].direction[2] == 9 && s->model.motion[2].angle == 0.25);
   assert_true(s->start[1].rate == 11);
   scenario_destroy(s);
 
@@ -627,7 +627,7 @@ static void a_thrown_body_flies_along_a_parabola(void **state) {
     corot_model *model;
     corot_state *now;
     corot_integrator *integrator;
-    s->strain = measures[k % NMEASURE], s->integrator.method = methods[k / NMEASURE];
+    s->model.strain = measures[k % NMEASURE], s->integrator.method = methods[k / NMEASURE];
     s->integrator.rtol = 1e-6;
     assert_ok(scenario_build(s, &mesh, NULL, &model));
     assert_ok(corot_state_create(model, &now));

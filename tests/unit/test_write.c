@@ -364,8 +364,7 @@ static void failed_allocations_are_survived(void **state) {
   def.load = &load;
   probe_def probe = {.name = (char *)"tip", .node = 7};
   maker m = {.dir = dir,
-             .scenario = {.nmaterial = 1,
-                          .material = &material,
+             .scenario = {.model = {.nmaterial = 1, .material = &material},
                           .nprobe = 1,
                           .probe = &probe,
                           .write_fields = true}};

@@ -60,11 +60,11 @@ void outputs_destroy(outputs *o) {
 
 /* material [ntet]: the entry of the scenario's list that fills each tet. */
 static void number_materials(const scenario *s, const corot_mesh *mesh, int *material) {
-  for (int i = 0; i < s->nmaterial; i++)
-    if (!s->material[i].group)
+  for (int i = 0; i < s->model.nmaterial; i++)
+    if (!s->model.material[i].group)
       for (int e = 0; e < mesh->ntet; e++) material[e] = i;
-  for (int i = 0; i < s->nmaterial; i++) {
-    const char *name = s->material[i].group;
+  for (int i = 0; i < s->model.nmaterial; i++) {
+    const char *name = s->model.material[i].group;
     const corot_group *group = name ? corot_mesh_find_group(mesh, name) : NULL;
     for (int k = 0; group && k < group->ntet; k++) material[group->tet[k]] = i;
   }
@@ -187,7 +187,8 @@ static bool is_more_strained(const corot_deformation *a, const corot_deformation
 /* Keeps the worst of the deformations so far. */
 static void observe_deformation(const outputs *o, corot_state *state, double t, const double *u,
                                 observed *s) {
-  bool first = s->strained.det_tet < 0, turns = corot_strain_find(o->scenario->strain)->linear;
+  bool first = s->strained.det_tet < 0,
+       turns = corot_strain_find(o->scenario->model.strain)->linear;
   corot_deformation d;
   corot_deformation_measure(o->model, state, t, u, STRAIN_LIMIT, turns ? TURN_LIMIT : INFINITY, &d);
   if (first || is_more_strained(&d, &s->strained)) s->strained = d, s->t_strained = t;

@@ -49,18 +49,18 @@ static support *support_of(reactions *r, const char *name) {
 }
 
 static void find_supports(reactions *r, const scenario *s) {
-  for (int i = 0; i < s->nfix; i++) {
-    support *at = support_of(r, s->fix[i].group);
-    for (int c = 0; c < 3; c++) at->held[c] |= s->fix[i].component[c];
+  for (int i = 0; i < s->model.nfix; i++) {
+    support *at = support_of(r, s->model.fix[i].group);
+    for (int c = 0; c < 3; c++) at->held[c] |= s->model.fix[i].component[c];
   }
-  for (int i = 0; i < s->nmotion; i++) {
-    support *at = support_of(r, s->motion[i].group);
+  for (int i = 0; i < s->model.nmotion; i++) {
+    support *at = support_of(r, s->model.motion[i].group);
     for (int c = 0; c < 3; c++) at->held[c] = true;
   }
 }
 
 static corot_status begin(reactions *r, const char *dir, const scenario *s) {
-  size_t most = (size_t)s->nfix + (size_t)s->nmotion + 1;
+  size_t most = (size_t)s->model.nfix + (size_t)s->model.nmotion + 1;
   r->support = calloc(most, sizeof *r->support);
   r->name = calloc(most, sizeof *r->name);
   r->force = calloc(most, sizeof *r->force);

@@ -44,8 +44,8 @@ static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *me
 }
 
 static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
-  if (s->refine == 0 && !s->coarse_strain) return COROT_OK;
-  bool needed = s->coarse_strain || scenario_solves_by_levels(s);
+  if (s->refine == 0 && !s->model.hierarchy) return COROT_OK;
+  bool needed = s->model.hierarchy || scenario_solves_by_levels(s);
   corot_status status = refine_mesh(s->refine, s->diagonal, mesh, needed ? refinement : NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
@@ -206,32 +206,16 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   COROT_TRY(check_section(s, "loads", mesh));
   COROT_TRY(check_section(s, "start", mesh));
   COROT_TRY(check_probes(s, mesh));
-  corot_model_def def = corot_model_defaults();
-  corot_hierarchy_def hierarchy = {.refinement = refinement,
-                                   .coarse_strain = s->coarse_strain,
-                                   .frame_level = s->frame_level,
-                                   .conservative = s->conservative,
-                                   .coupling = s->coupling};
+  corot_model_def def = s->model;
+  corot_hierarchy_def hierarchy = s->hierarchy;
+  hierarchy.refinement = refinement;
   def.mesh = mesh;
-  def.hierarchy = s->coarse_strain ? &hierarchy : NULL;
-  def.strain = s->strain;
-  def.nmaterial = s->nmaterial;
-  def.material = s->material;
-  def.nfix = s->nfix;
-  def.fix = s->fix;
-  def.nmotion = s->nmotion;
-  def.motion = s->motion;
-  def.nload = s->nload;
-  def.load = s->load;
-  def.viscosity = s->viscosity;
-  def.mass = s->mass;
-  def.dilatation = s->dilatation;
-  def.dilatation_local = s->dilatation_local;
+  if (def.hierarchy) def.hierarchy = &hierarchy;
   corot_status status = corot_model_create(&def, model);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   /* names and coefficients are checked above: what is left is a mass that the supports do not
      allow, and which tet has which material */
-  bool mass = s->mass == COROT_MASS_CONSISTENT && s->nmotion > 0;
+  bool mass = def.mass == COROT_MASS_CONSISTENT && def.nmotion > 0;
   return config_fail_key(place(s, mass ? "mass" : "material"), "%s", corot_error());
 }
 

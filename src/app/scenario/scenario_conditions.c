@@ -75,7 +75,7 @@ static void turning(const corot_motion *m, double about[6]) {
 static corot_status check_sequence(const scenario *s, config_node *node, const corot_motion *m) {
   double about[6], before[6];
   turning(m, about);
-  for (const corot_motion *other = s->motion; other < m; other++) {
+  for (const corot_motion *other = s->model.motion; other < m; other++) {
     if (strcmp(other->group, m->group) != 0) continue;
     turning(other, before);
     bool same = turns(other) == turns(m);
@@ -106,13 +106,13 @@ static corot_status read_boundary(scenario *s) {
   corot_fix *fix = config_alloc(s->source, (size_t)list->nchild, sizeof *fix);
   corot_motion *motion = config_alloc(s->source, (size_t)list->nchild, sizeof *motion);
   if (!fix || !motion) return no_memory();
-  s->fix = fix;
-  s->motion = motion;
+  s->model.fix = fix;
+  s->model.motion = motion;
   for (config_node *c = list->child; c; c = c->next) {
     if (config_find(c, "fix"))
-      read_fix(c, &fix[s->nfix++]);
+      read_fix(c, &fix[s->model.nfix++]);
     else
-      COROT_TRY(read_motion(s, c, &motion[s->nmotion++]));
+      COROT_TRY(read_motion(s, c, &motion[s->model.nmotion++]));
   }
   return COROT_OK;
 }
@@ -150,7 +150,8 @@ corot_status scenario_read_conditions(scenario *s) {
   config_node *list = config_find(s->source->root, "loads");
   corot_load *load = config_alloc(s->source, (size_t)list->nchild, sizeof *load);
   if (!load) return no_memory();
-  s->load = load;
-  for (config_node *c = list->child; c; c = c->next) COROT_TRY(read_load(s, c, &load[s->nload++]));
+  s->model.load = load;
+  for (config_node *c = list->child; c; c = c->next)
+    COROT_TRY(read_load(s, c, &load[s->model.nload++]));
   return COROT_OK;
 }

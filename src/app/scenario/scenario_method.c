@@ -44,12 +44,12 @@ static corot_status read_frames(scenario *s) {
 
 static corot_status read_viscosity(scenario *s) {
   config_node *root = s->source->root;
-  s->viscosity = text_is(root, "viscosity", "auto")        ? COROT_VISCOSITY_AUTO
-                 : text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE
-                                                           : COROT_COROTATED;
-  if (s->viscosity == COROT_OBJECTIVE && !corot_strain_find(s->strain)->polar)
+  s->model.viscosity = text_is(root, "viscosity", "auto")        ? COROT_VISCOSITY_AUTO
+                       : text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE
+                                                                 : COROT_COROTATED;
+  if (s->model.viscosity == COROT_OBJECTIVE && !corot_strain_find(s->model.strain)->polar)
     return config_fail(config_find(root, "viscosity"),
-                       "objective needs strain: polar or hybrid, not %s", s->strain);
+                       "objective needs strain: polar or hybrid, not %s", s->model.strain);
   return COROT_OK;
 }
 
@@ -166,12 +166,13 @@ static corot_status read_integrator(scenario *s) {
 
 static void read_dilatation(scenario *s) {
   config_node *node = config_find(s->source->root, "dilatation");
-  s->dilatation = text_is(node, "name", "nodal") ? COROT_DILATATION_NODAL : COROT_DILATATION_LOCAL;
-  s->dilatation_local = number_at(node, "local");
+  s->model.dilatation =
+      text_is(node, "name", "nodal") ? COROT_DILATATION_NODAL : COROT_DILATATION_LOCAL;
+  s->model.dilatation_local = number_at(node, "local");
 }
 
 corot_status scenario_read_method(scenario *s) {
-  s->mass =
+  s->model.mass =
       text_is(s->source->root, "mass", "consistent") ? COROT_MASS_CONSISTENT : COROT_MASS_LUMPED;
   read_dilatation(s);
   COROT_TRY(read_viscosity(s));
