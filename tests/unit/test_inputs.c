@@ -202,8 +202,10 @@ static void tables_are_refused_with_their_place(void **state) {
       {"0 0\n1 2 3\n", TABLE ":2:5: expected two columns, time and value; here is more"},
       {"0 0\n1, 2, 3\n", TABLE ":2:5: expected two columns"},
       {"0 0\n1,,2\n", TABLE ":2:3: expected a value"},
-      {"0 0\n2 1\n1 2\n", TABLE ":3:1: times must increase, but 1 follows 2"},
-      {"0 0\n 1 1\n 1 2\n 1 3\n", TABLE ":4:2: the third point at 1: a jump has a value before"},
+      {"0 0\n2 1\n1 2\n",
+       TABLE ":3:1: the amplitude's times do not increase at point 2: 1 follows 2"},
+      {"0 0\n 1 1\n 1 2\n 1 3\n",
+       TABLE ":4:2: the amplitude has more than two points at t = 1: a jump has a value before"},
       {"0 nan\n", TABLE ":1:3: expected a value"},
       {"0 1e999\n", TABLE ":1:3: expected a value"},
       {"0 0\ninf 1\n", TABLE ":2:1: expected a time"},
@@ -220,7 +222,7 @@ static void tables_are_refused_with_their_place(void **state) {
   write_file(TABLE, "0 0\n1 1\n1 2\n", 12);
   scenario *s = NULL;
   assert_fails(read_as(FILE_NAME, smooth, &s), COROT_EFORMAT,
-               TABLE ":3:1: the second point at 1: there are no jumps here");
+               TABLE ":3:1: the amplitude has two points at t = 1: a smooth one has no jumps");
   assert_int_equal(remove(TABLE), 0);
   refuse(text, "4:48: loads[0].amplitude.file: " TABLE ": No such file or directory");
   refuse(MINIMAL "loads: [{gravity: [1, 0, 0], amplitude: {file: .}}]",
@@ -234,7 +236,8 @@ static void what_makes_no_sense_is_refused_where_it_stands(void **state) {
   (void)state;
   static const refusal r[] = {
       {LOAD "[[0, 0], [1, 1], [1, 2], [1, 3]]}]",
-       "4:67: loads[0].amplitude[3][0]: the third point at 1: a jump has a value before"},
+       "4:67: loads[0].amplitude[3][0]: the amplitude has more than two points at t = 1: a jump "
+       "has"},
       {LOAD "{}}]", "4:30: loads[0].amplitude: sine or smooth or file is missing"},
       {LOAD "table.csv}]", "4:41: loads[0].amplitude: expected a list of [time, value], such as"},
       {LOAD "{sine: {}}}]", "4:42: loads[0].amplitude.sine: frequency is missing (periods per"},
@@ -248,11 +251,13 @@ static void what_makes_no_sense_is_refused_where_it_stands(void **state) {
       {LOAD "{table: a}}]", "4:42: loads[0].amplitude.table: unknown key; did you mean file?"},
       {LOAD "{file: ''}}]", "4:48: loads[0].amplitude.file: the name is empty"},
       {LOAD "{smooth: [[0, 0], [1, 1], [1, 2]]}}]",
-       "4:68: loads[0].amplitude.smooth[2][0]: the second point at 1: a smooth amplitude has no"},
+       "4:68: loads[0].amplitude.smooth[2][0]: the amplitude has two points at t = 1: a smooth "
+       "one"},
       {LOAD "{smooth: [[0, 0], [100, 0], [100.01, 1], [100.02, 0]]}}]",
        "4:50: loads[0].amplitude.smooth: the spline through the amplitude's points swings out to"},
       {MOVE "[[0, 0], [1, 1], [1, 2]]}}]",
-       "4:84: boundary[0].move.amplitude[2][0]: the second point at 1: a support cannot be in two"},
+       "4:84: boundary[0].move.amplitude[2][0]: its amplitude jumps at t = 1, and group 'zmin' "
+       "cannot"},
       {MOVE "[[0, 0.5], [1, 1]]}}]",
        "4:66: boundary[0].move.amplitude: is 0.5 at t = 0, and the support away from where"},
       {MOVE "{sine: {frequency: 1, phase: -1.5707963267948966}}}}]",
@@ -264,7 +269,7 @@ static void what_makes_no_sense_is_refused_where_it_stands(void **state) {
        "4:23: boundary[0].move: direction or rotate is missing"},
       {MINIMAL "boundary: [{group: a, move: {rotate: {axis: [0, 0, 0], angle: 1}, amplitude: "
                "[[0, 0]]}}]",
-       "4:45: boundary[0].move.rotate.axis: [0, 0, 0] has no direction"},
+       "4:45: boundary[0].move.rotate.axis: the axis has no direction: it is [0, 0, 0]"},
       {MINIMAL "boundary:\n- {group: a, move: {direction: [1, 0, 0], amplitude: [[0, 0]]}}\n"
                "- {group: a, rotate: {axis: [0, 0, 1], rate: 1}}",
        "6:22: boundary[1].rotate: does not continue the other motion of a: it has to translate"},

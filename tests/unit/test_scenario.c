@@ -679,26 +679,38 @@ static void build_refusals(void **state) {
       {MINIMAL "loads: [{group: wombat, traction: [0, 0, 1]}]",
        "4:17: loads[0].group: no group wombat; there are: xmin, xmax, ymin, ymax, zmin, zmax"},
       {MINIMAL "groups: {a: {nodes: [1]}}\nloads: [{group: a, traction: [0, 0, 1]}]",
-       "5:17: loads[0].group: a has no faces for a traction to act on"},
+       "5:17: loads[0].group: group 'a' has no faces for a traction to act on"},
       {MESH TIME "material: [{group: zmin, mu: 1, nu: 0, density: 1}]",
-       "3:20: material[0].group: zmin has no tets for a material to fill"},
+       "3:20: material[0].group: group 'zmin' has no tets for a material to fill"},
       {MESH TIME "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 1]}}}\n"
                  "material: [{group: a, mu: 1, nu: 0, density: 1}]",
        "4:1: material: "},
+      {MESH TIME
+       "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 2]}}, b: {plane: {axis: z, at: 0}},"
+       "c: {box: {min: [0, 0, 0], max: [1, 1, 1]}}}\n"
+       "material:\n- {group: a, mu: 1, nu: 0, density: 1}\n"
+       "- {group: c, mu: 1, nu: 0, density: 1}",
+       "6:11: material[1].group: tet 0 belongs to materials 0 and 1; see material[0]"},
+      {MINIMAL "boundary:\n- {group: zmin, translate: {velocity: [0, 0, 1]}}\n"
+               "- {group: zmaks, fix: [x]}",
+       "6:11: boundary[1].group: no group zmaks; did you mean zmax?"},
       {MINIMAL "groups: {a: {nodes: [1]}}\nloads: [{group: a, pressure: 1}]",
-       "5:17: loads[0].group: a has no faces for a pressure to act on (1 nodes, 0 tets)"},
+       "5:17: loads[0].group: group 'a' has no faces for a pressure to act on (1 nodes, 0 tets)"},
       {MINIMAL "boundary:\n- {group: zmin, fix: [x]}\n- {group: xmin, rotate: {axis: [0, 0, 1], "
                "rate: 1}}",
-       "6:11: boundary[1].group: node 0 of xmin cannot be moved: it is in zmin, too, which "
-       "boundary[0] fixes"},
+       "6:11: boundary[1].group: node 0 of group 'xmin' is already held in x: it is in 'zmin', "
+       "too; "
+       "see boundary[0]"},
       {MINIMAL "boundary:\n- {group: zmin, translate: {velocity: [0, 0, 1]}}\n"
                "- {group: zmin, fix: [y]}",
-       "6:11: boundary[1].group: node 0 of zmin cannot be fixed: it is in zmin, too, which "
-       "boundary[0] moves"},
+       "5:11: boundary[0].group: node 0 of group 'zmin' is already held in y: it is in 'zmin', "
+       "too; "
+       "see boundary[1]"},
       {MINIMAL "boundary:\n- {group: zmin, translate: {velocity: [0, 0, 1]}}\n"
                "- {group: xmax, translate: {velocity: [0, 0, 1]}}",
-       "6:11: boundary[1].group: node 1 of xmax cannot be moved: it is in zmin, too, which "
-       "boundary[0] moves"},
+       "6:11: boundary[1].group: node 1 of group 'xmax' is already held in x: it is in 'zmin', "
+       "too; "
+       "see boundary[0]"},
       {MINIMAL "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 2]}}}\n"
                "boundary: [{group: a, fix: [x, y]}, {group: a, fix: [z]}]",
        "5:1: boundary: all components of all 12 nodes are held: nothing can move"},

@@ -6,6 +6,8 @@
 
 #include "app/config/schema.h"
 #include "box_split.h"
+#include "core/model/definition.h"
+#include "scenario_fault.h"
 #include "scenario_parts.h"
 
 /* --- Mesh and groups --- */
@@ -104,10 +106,6 @@ static corot_status read_material(config *tree, config_node *node, corot_materia
       .damping_mu = number_at(node, "damping.mu"),
       .damping_mass = number_at(node, "damping.mass"),
   };
-  if (!(3 * material->lambda + 2 * material->mu > 0))
-    return config_fail(config_find(node, "lambda"),
-                       "3 lambda + 2 mu must be > 0, otherwise the solid has no resistance to a "
-                       "change of volume");
   return COROT_OK;
 }
 
@@ -118,16 +116,8 @@ static corot_status read_materials(scenario *s) {
   corot_material *material = config_alloc(s->source, (size_t)n, sizeof *material);
   if (!material) return no_memory();
   s->model.material = material;
-  for (config_node *c = list ? node->child : node; c; c = list ? c->next : NULL) {
-    COROT_TRY(read_material(s->source, c, &material[s->model.nmaterial]));
-    for (int i = 0; i < s->model.nmaterial; i++) {
-      const char *a = material[i].group, *b = material[s->model.nmaterial].group;
-      if (!a && !b) return config_fail(c, "group is missing; one entry only may go without");
-      if (a && b && strcmp(a, b) == 0)
-        return config_fail(config_find(c, "group"), "%s has a material already", b);
-    }
-    s->model.nmaterial++;
-  }
+  for (config_node *c = list ? node->child : node; c; c = list ? c->next : NULL)
+    COROT_TRY(read_material(s->source, c, &material[s->model.nmaterial++]));
   return COROT_OK;
 }
 
@@ -225,7 +215,8 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_conditions(s));
   COROT_TRY(read_time(s));
   COROT_TRY(scenario_read_method(s));
-  COROT_TRY(scenario_read_hierarchy(s));
+  scenario_read_hierarchy(s);
+  COROT_TRY(scenario_told(s, NULL, corot_definition_check(&s->model, s->refine)));
   COROT_TRY(scenario_read_statics(s));
   COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));

@@ -1,8 +1,10 @@
 /* From a definition to a model: each part checked, then made. */
 #include <stdlib.h>
 
+#include "core/base/fault.h"
 #include "core/solid/measures.h"
 #include "core/system/levels.h"
+#include "definition.h"
 
 corot_model_def corot_model_defaults(void) {
   return (corot_model_def){
@@ -16,7 +18,7 @@ corot_hierarchy_def corot_hierarchy_defaults(void) {
 static corot_status hold_fixed(const corot_model_def *def, const corot_model *m, char (*held)[3]) {
   for (int k = 0; k < def->nfix; k++) {
     const corot_group *group;
-    COROT_TRY(corot_model_find_group(m->mesh, def->fix[k].group, "fix", &group));
+    COROT_TRY(corot_definition_nodes(m->mesh, "fix", k, def->fix[k].group, &group));
     for (int i = 0; i < group->nnode; i++)
       for (int c = 0; c < 3; c++)
         if (def->fix[k].component[c]) held[group->node[i]][c] = 1;
@@ -38,7 +40,9 @@ static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
       for (int c = 0; c < 3; c++) m->dof[n][c] = held[n][c] ? -1 : m->ndof++;
   free(held);
   COROT_TRY(status);
-  if (m->ndof == 0) return corot_fail(COROT_EINVAL, "every node is fixed: nothing can move");
+  if (m->ndof == 0)
+    return corot_fail_at("model", 0, "fix",
+                         "all components of all %d nodes are held: nothing can move", nnode);
   m->body_nnode = m->levels ? corot_levels_body(m) : nnode;
   for (int n = 0; n < m->body_nnode; n++)
     for (int c = 0; c < 3; c++) m->body_ndof += m->dof[n][c] >= 0;
@@ -124,9 +128,6 @@ static void find_scales(corot_model *m) {
    the tets. */
 static corot_status average_dilatation(const corot_model_def *def, corot_model *m) {
   if (def->dilatation == COROT_DILATATION_LOCAL) return COROT_OK;
-  if (!(def->dilatation_local >= 0) || !isfinite(def->dilatation_local))
-    return corot_fail(COROT_EINVAL, "dilatation_local = %g is not a number of shear moduli >= 0",
-                      def->dilatation_local);
   double *averaged = calloc(m->nmaterial + 1, sizeof *averaged), most = 0;
   if (!averaged) return corot_fail(COROT_ENOMEM, "no memory for %d materials", m->nmaterial);
   for (int k = 0; k < m->nmaterial; k++) {
@@ -149,19 +150,12 @@ static corot_status average_dilatation(const corot_model_def *def, corot_model *
 static corot_status choose_strain(const corot_model_def *def, corot_model *m) {
   const corot_hierarchy_def *h = def->hierarchy;
   if (h) COROT_TRY(corot_levels_check(h, def->mesh));
-  if (h && h->refinement->nlevel > 0 && def->dilatation != COROT_DILATATION_LOCAL)
-    return corot_fail(COROT_EINVAL,
-                      "hierarchy: dilatations averaged at nodes are not provided for");
+  COROT_TRY(corot_definition_check(def, h ? h->refinement->nlevel : 0));
   const char *name = h && h->refinement->nlevel == 0 ? h->coarse_strain : def->strain;
   COROT_TRY(corot_strain_index(name, &m->strain));
   bool polar = strain_measures[m->strain].frame == FRAME_POLAR;
-  if ((unsigned)def->viscosity > COROT_VISCOSITY_AUTO)
-    return corot_fail(COROT_EINVAL, "there is no viscous law %d", (int)def->viscosity);
   m->objective = def->viscosity == COROT_OBJECTIVE;
   if (def->viscosity == COROT_VISCOSITY_AUTO) m->objective = polar && !h;
-  if (m->objective && !polar)
-    return corot_fail(COROT_EINVAL, "the objective viscous law needs a polar frame, not strain %s",
-                      name);
   return COROT_OK;
 }
 

@@ -95,10 +95,6 @@ struct corot_model {
   struct levels *levels; /* NULL: one strain measure on one mesh; see levels.h */
 };
 
-/* COROT_EINVAL if the mesh has no such group; `user` says who asked. */
-corot_status corot_model_find_group(const corot_mesh *mesh, const char *name, const char *user,
-                                    const corot_group **group);
-
 /* m->material from the definition; of_tet [ntet] = the material that fills each tet. */
 corot_status corot_materials_create(const corot_model_def *def, corot_model *m, int *of_tet);
 

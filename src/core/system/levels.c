@@ -35,9 +35,6 @@ corot_status corot_levels_check(const corot_hierarchy_def *def, const corot_mesh
                       "hierarchy: the refinement is of %d nodes and %d tets, the mesh has %d and "
                       "%d",
                       r->nnode[r->nlevel], r->ntet[r->nlevel], mesh->nnode, mesh->ntet);
-  if (def->frame_level < 0 || def->frame_level > r->nlevel)
-    return corot_fail(COROT_EINVAL, "hierarchy: frame level %d, where the levels are 0 to %d",
-                      def->frame_level, r->nlevel);
   return check_middles(r, mesh);
 }
 
@@ -129,30 +126,6 @@ static corot_status check_materials(const corot_refinement *r, const int *of_tet
   return COROT_OK;
 }
 
-static corot_status check_choices(const corot_hierarchy_def *def, const corot_model *m) {
-  const strain_measure *s = &strain_measures[m->strain];
-  if (def->coupling < COROT_COUPLING_MEAN || def->coupling > COROT_COUPLING_ONE_WAY)
-    return corot_fail(COROT_EINVAL, "hierarchy: no coupling has the number %d", (int)def->coupling);
-  if (s->pressure != BY_FRAME || s->shear != BY_FRAME)
-    return corot_fail(COROT_EINVAL,
-                      "hierarchy: strain %s is not linear in a given frame; cauchy, warp and polar "
-                      "are",
-                      s->name);
-  if (m->objective)
-    return corot_fail(COROT_EINVAL, "hierarchy: the viscous law must be the corotated one");
-  if (def->conservative && s->frame == FRAME_WARP)
-    return corot_fail(COROT_EINVAL,
-                      "hierarchy: strain warp has no conservative force: use polar, or set "
-                      "conservative to false");
-  if (def->frame_level > 0 && s->frame == FRAME_WARP)
-    return corot_fail(
-        COROT_EINVAL,
-        "hierarchy: frame level %d, but warp frames depend on the edges of a tet, and "
-        "those of level 0 alone fit the coarse motion: use polar, or frame level 0",
-        def->frame_level);
-  return COROT_OK;
-}
-
 int corot_levels_together(const corot_hierarchy_def *def) {
   return def ? 1 << 3 * (def->refinement->nlevel - def->frame_level) : 1;
 }
@@ -182,7 +155,6 @@ corot_status corot_levels_create(const corot_hierarchy_def *def, const int *of_t
   const corot_refinement *r = def->refinement;
   int coarse;
   COROT_TRY(corot_strain_index(def->coarse_strain, &coarse));
-  COROT_TRY(check_choices(def, m));
   COROT_TRY(check_materials(r, of_tet));
   levels *l = m->levels = calloc(1, sizeof *l);
   if (!l) return corot_fail(COROT_ENOMEM, "no memory for the levels of a hierarchy");
