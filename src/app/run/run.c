@@ -319,7 +319,7 @@ static int conclude(run *r, corot_status status) {
 static corot_status open_outputs(run *r) {
   COROT_TRY(run_enter(r->scenario->path, r->options, &r->lock));
   COROT_TRY(outputs_open(r->scenario, r->model, r->options->dir, &r->outputs));
-  return outputs_open_history(r->outputs, r->options->dir);
+  return outputs_open_run(r->outputs, r->options->dir);
 }
 
 static int integrate_scenario(const scenario *s, const run_options *options) {
