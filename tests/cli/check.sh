@@ -85,10 +85,10 @@ expect 3 check model.yaml --set frames.policy=hold --set frames.interval=0
 err "frames.interval: must be > 0, found 0"
 expect 3 check model.yaml --set integrator.method=newmark; err "newmark needs integrator.step"
 sed 's/fix: .*/rotate: {axis: [0, 0, 0], rate: 1}}/' model.yaml >bad.yaml
-expect 3 check bad.yaml; err "bad.yaml:7:34: boundary[0].rotate.axis: [0, 0, 0] has no direction"
+expect 3 check bad.yaml; err "bad.yaml:7:34: boundary[0].rotate.axis: the axis has no direction: it is [0, 0, 0]"
 sed '7a\  - {group: xmin, translate: {velocity: [1, 0, 0]}}' model.yaml >bad.yaml
 expect 3 check bad.yaml; no_out
-err "bad.yaml:8:13: boundary[1].group: node 0 of xmin cannot be moved: it is in base, too"
+err "bad.yaml:8:13: boundary[1].group: node 0 of group 'xmin' is already held in x: it is in 'base', too; see boundary[0]"
 expect 3 check model.yaml --set mesh.refine=20; no_out
 err "--set mesh.refine=20: mesh.refine: refining 12 tets 20 times makes 1.38e+19"
 printf 'mesh: {file: none.msh}\n' >bad.yaml

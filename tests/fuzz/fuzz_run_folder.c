@@ -11,6 +11,8 @@
 #include "app/folder/states.h"
 #include "app/scenario/curve_file.h"
 #include "app/text/json_text.h"
+#include "core/base/fault.h"
+#include "core/model/amplitude.h"
 #include "report/command/report.h"
 #include "report/read/fields_file.h"
 #include "report/run/budget_section.h"
@@ -127,12 +129,22 @@ static void check_curve(const char *path) {
   require(node, "no memory");
   node->text = "curve.csv";
   node->source = &source;
-  for (int jumps = 0; jumps < 2; jumps++) {
+  for (int smooth = 0; smooth < 2; smooth++) {
     curve c;
-    corot_status status = curve_file_read(tree, node, path, jumps, &c);
+    amplitude made;
+    corot_status status = curve_file_read(tree, node, path, &c);
     require(status == COROT_OK || status == COROT_EFORMAT, "a curve");
+    if (status != COROT_OK) continue;
+    corot_amplitude from = {.n = c.n, .time = c.time, .value = c.value};
+    if (smooth) from.curve = COROT_CURVE_SMOOTH;
+    status = corot_amplitude_create(&from, "load", 0, &made);
+    require(status == COROT_OK || status == COROT_EINVAL, "an amplitude");
+    if (status == COROT_EINVAL)
+      require(curve_file_fail(tree, node, path, corot_fault_last().point, "bad") == COROT_EFORMAT,
+              "a place in the file");
     for (int i = 1; status == COROT_OK && i < c.n; i++)
-      require(c.time[i] > c.time[i - 1] || (jumps && c.time[i] == c.time[i - 1]), "rising times");
+      require(c.time[i] > c.time[i - 1] || (!smooth && c.time[i] == c.time[i - 1]), "rising times");
+    if (status == COROT_OK) corot_amplitude_clear(&made);
   }
   config_destroy(tree);
 }

@@ -7,7 +7,7 @@ static const double pi = 3.14159265358979323846;
 
 static amplitude made(corot_amplitude def) {
   amplitude a;
-  assert_ok(corot_amplitude_create(&def, "", &a));
+  assert_ok(corot_amplitude_create(&def, "load", 0, &a));
   return a;
 }
 
@@ -223,7 +223,7 @@ static void refuses_what_makes_no_sense(void **state) {
   };
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     amplitude a;
-    assert_fails(corot_amplitude_create(&bad[k].def, "load 7: ", &a), COROT_EINVAL, bad[k].words);
+    assert_fails(corot_amplitude_create(&bad[k].def, "load", 7, &a), COROT_EINVAL, bad[k].words);
   }
 }
 

@@ -62,8 +62,8 @@ static void assert_settings_accepted(const char *text) {
       assert_true(s->integrator.rtol <= 1e-6);
     }
     if (i == plan.npart - 1) {
-      assert_string_equal(s->strain, "green");
-      assert_true(!s->coarse_strain && s->frames.frames == COROT_FRAMES_EXACT);
+      assert_string_equal(s->model.strain, "green");
+      assert_true(!s->model.hierarchy && s->frames.frames == COROT_FRAMES_EXACT);
     }
     scenario_destroy(s);
     s = NULL; /* and each alone */

@@ -57,17 +57,17 @@ static void check_forms(const scenario *s) {
   static const double list[][2] = {{0, 0}, {1, 2}, {3, 1}},
                       table[][2] = {{0, 0}, {0.5, 1}, {1.5, -1}};
   static const double jump[][2] = {{0, 0}, {1, 1}, {1, 0}, {2, 1}};
-  const corot_amplitude *a = &s->load[0].amplitude;
+  const corot_amplitude *a = &s->model.load[0].amplitude;
   assert_int_equal(a->curve, COROT_CURVE_SINE);
   assert_true(a->frequency == 2 && a->phase == 0.5 && a->offset == -3);
-  a = &s->load[1].amplitude;
+  a = &s->model.load[1].amplitude;
   assert_true(a->frequency == 4 && a->phase == 0 && a->offset == 0);
-  check_points(&s->load[2].amplitude, COROT_CURVE_SMOOTH, 3, list);
-  check_points(&s->load[3].amplitude, COROT_CURVE_LINEAR, 3, table);
-  check_points(&s->load[4].amplitude, COROT_CURVE_SMOOTH, 3, table);
-  check_points(&s->load[5].amplitude, COROT_CURVE_LINEAR, 4, jump);
-  const corot_motion *m = s->motion;
-  assert_int_equal(s->nmotion, 3);
+  check_points(&s->model.load[2].amplitude, COROT_CURVE_SMOOTH, 3, list);
+  check_points(&s->model.load[3].amplitude, COROT_CURVE_LINEAR, 3, table);
+  check_points(&s->model.load[4].amplitude, COROT_CURVE_SMOOTH, 3, table);
+  check_points(&s->model.load[5].amplitude, COROT_CURVE_LINEAR, 4, jump);
+  const corot_motion *m = s->model.motion;
+  assert_int_equal(s->model.nmotion, 3);
   assert_true(m[0].kind == COROT_MOVE && m[0].direction[1] == 2);
   assert_int_equal(m[0].amplitude.curve, COROT_CURVE_SMOOTH);
   assert_true(m[2].kind == COROT_TURN && m[2].axis[2] == 2 && m[2].center[0] == 1);
@@ -146,10 +146,10 @@ static void every_key_can_be_overridden(void **state) {
                              "boundary.2.move.rotate.angle=0.25",
                              "start.1.spin.rate=11"};
   scenario *s = accept_with(forms, 7, (char *const *)set);
-  assert_true(s->load[0].amplitude.frequency == 7 && s->load[0].amplitude.phase == 0.5);
-  assert_int_equal(s->load[3].amplitude.curve, COROT_CURVE_SMOOTH);
-  assert_int_equal(s->load[5].amplitude.curve, COROT_CURVE_SINE);
-  assert_true(s->motion[0].direction[2] == 9 && s->motion[2].angle == 0.25);
+  assert_true(s->model.load[0].amplitude.frequency == 7 && s->model.load[0].amplitude.phase == 0.5);
+  assert_int_equal(s->model.load[3].amplitude.curve, COROT_CURVE_SMOOTH);
+  assert_int_equal(s->model.load[5].amplitude.curve, COROT_CURVE_SINE);
+  assert_true(s->model.motion[0].direction[2] == 9 && s->model.motion[2].angle == 0.25);
   assert_true(s->start[1].rate == 11);
   scenario_destroy(s);
 
@@ -202,8 +202,10 @@ static void tables_are_refused_with_their_place(void **state) {
       {"0 0\n1 2 3\n", TABLE ":2:5: expected two columns, time and value; here is more"},
       {"0 0\n1, 2, 3\n", TABLE ":2:5: expected two columns"},
       {"0 0\n1,,2\n", TABLE ":2:3: expected a value"},
-      {"0 0\n2 1\n1 2\n", TABLE ":3:1: times must increase, but 1 follows 2"},
-      {"0 0\n 1 1\n 1 2\n 1 3\n", TABLE ":4:2: the third point at 1: a jump has a value before"},
+      {"0 0\n2 1\n1 2\n",
+       TABLE ":3:1: the amplitude's times do not increase at point 2: 1 follows 2"},
+      {"0 0\n 1 1\n 1 2\n 1 3\n",
+       TABLE ":4:2: the amplitude has more than two points at t = 1: a jump has a value before"},
       {"0 nan\n", TABLE ":1:3: expected a value"},
       {"0 1e999\n", TABLE ":1:3: expected a value"},
       {"0 0\ninf 1\n", TABLE ":2:1: expected a time"},
@@ -220,7 +222,7 @@ static void tables_are_refused_with_their_place(void **state) {
   write_file(TABLE, "0 0\n1 1\n1 2\n", 12);
   scenario *s = NULL;
   assert_fails(read_as(FILE_NAME, smooth, &s), COROT_EFORMAT,
-               TABLE ":3:1: the second point at 1: there are no jumps here");
+               TABLE ":3:1: the amplitude has two points at t = 1: a smooth one has no jumps");
   assert_int_equal(remove(TABLE), 0);
   refuse(text, "4:48: loads[0].amplitude.file: " TABLE ": No such file or directory");
   refuse(MINIMAL "loads: [{gravity: [1, 0, 0], amplitude: {file: .}}]",
@@ -234,7 +236,8 @@ static void what_makes_no_sense_is_refused_where_it_stands(void **state) {
   (void)state;
   static const refusal r[] = {
       {LOAD "[[0, 0], [1, 1], [1, 2], [1, 3]]}]",
-       "4:67: loads[0].amplitude[3][0]: the third point at 1: a jump has a value before"},
+       "4:67: loads[0].amplitude[3][0]: the amplitude has more than two points at t = 1: a jump "
+       "has"},
       {LOAD "{}}]", "4:30: loads[0].amplitude: sine or smooth or file is missing"},
       {LOAD "table.csv}]", "4:41: loads[0].amplitude: expected a list of [time, value], such as"},
       {LOAD "{sine: {}}}]", "4:42: loads[0].amplitude.sine: frequency is missing (periods per"},
@@ -248,11 +251,13 @@ static void what_makes_no_sense_is_refused_where_it_stands(void **state) {
       {LOAD "{table: a}}]", "4:42: loads[0].amplitude.table: unknown key; did you mean file?"},
       {LOAD "{file: ''}}]", "4:48: loads[0].amplitude.file: the name is empty"},
       {LOAD "{smooth: [[0, 0], [1, 1], [1, 2]]}}]",
-       "4:68: loads[0].amplitude.smooth[2][0]: the second point at 1: a smooth amplitude has no"},
+       "4:68: loads[0].amplitude.smooth[2][0]: the amplitude has two points at t = 1: a smooth "
+       "one"},
       {LOAD "{smooth: [[0, 0], [100, 0], [100.01, 1], [100.02, 0]]}}]",
        "4:50: loads[0].amplitude.smooth: the spline through the amplitude's points swings out to"},
       {MOVE "[[0, 0], [1, 1], [1, 2]]}}]",
-       "4:84: boundary[0].move.amplitude[2][0]: the second point at 1: a support cannot be in two"},
+       "4:84: boundary[0].move.amplitude[2][0]: its amplitude jumps at t = 1, and group 'zmin' "
+       "cannot"},
       {MOVE "[[0, 0.5], [1, 1]]}}]",
        "4:66: boundary[0].move.amplitude: is 0.5 at t = 0, and the support away from where"},
       {MOVE "{sine: {frequency: 1, phase: -1.5707963267948966}}}}]",
@@ -264,7 +269,7 @@ static void what_makes_no_sense_is_refused_where_it_stands(void **state) {
        "4:23: boundary[0].move: direction or rotate is missing"},
       {MINIMAL "boundary: [{group: a, move: {rotate: {axis: [0, 0, 0], angle: 1}, amplitude: "
                "[[0, 0]]}}]",
-       "4:45: boundary[0].move.rotate.axis: [0, 0, 0] has no direction"},
+       "4:45: boundary[0].move.rotate.axis: the axis has no direction: it is [0, 0, 0]"},
       {MINIMAL "boundary:\n- {group: a, move: {direction: [1, 0, 0], amplitude: [[0, 0]]}}\n"
                "- {group: a, rotate: {axis: [0, 0, 1], rate: 1}}",
        "6:22: boundary[1].rotate: does not continue the other motion of a: it has to translate"},
@@ -627,7 +632,7 @@ static void a_thrown_body_flies_along_a_parabola(void **state) {
     corot_model *model;
     corot_state *now;
     corot_integrator *integrator;
-    s->strain = measures[k % NMEASURE], s->integrator.method = methods[k / NMEASURE];
+    s->model.strain = measures[k % NMEASURE], s->integrator.method = methods[k / NMEASURE];
     s->integrator.rtol = 1e-6;
     assert_ok(scenario_build(s, &mesh, NULL, &model));
     assert_ok(corot_state_create(model, &now));

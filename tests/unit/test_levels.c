@@ -309,7 +309,7 @@ static void test_refusals(void **state) {
   bad = good, bad.fine = "hybrid";
   refuse(&bad, coupling, s.mesh, s.refinement, "strain hybrid is not linear");
   bad = good, bad.fine = "warp";
-  refuse(&bad, coupling, s.mesh, s.refinement, "set conservative to false");
+  refuse(&bad, coupling, s.mesh, s.refinement, "strain warp has no conservative force");
   bad.conservative = false, bad.frame_level = 1;
   refuse(&bad, coupling, s.mesh, s.refinement, "or frame level 0");
 

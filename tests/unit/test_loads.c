@@ -201,13 +201,14 @@ static void refuses_a_motion_without_sense(void **state) {
                "no kind of motion has the number 5");
   motion[0] = good, motion[0].group = "nowhere";
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
-               "motion: the mesh has no group 'now");
+               "motion 0: the mesh has no group 'now");
   motion[0] = good, motion[1].from = 0.5, motion[1].to = 2, def.nmotion = 2;
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
                "motion 1: group 'zmax' is already moving from t = 0 to t = 1");
   motion[1].kind = COROT_TRANSLATE;
-  assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
-               "motion 1: node 24 of group 'zmax' is already held in x");
+  assert_fails(
+      corot_model_create(&def, &model), COROT_EINVAL,
+      "motion 1: does not continue the other motion of zmax: it has to turn about the same");
   def.nmotion = 1, def.nfix = 1, def.fix = &fix;
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "is already held in y");
   assert_null(model);

@@ -53,9 +53,9 @@ static void refuses_a_definition_without_sense(void **state) {
 
   corot_fix fix = {"nowhere", {true, true, true}};
   def = plain(mesh), def.nfix = 1, def.fix = &fix;
-  refuses(&def, "fix: the mesh has no group 'nowhere'");
+  refuses(&def, "fix 0: the mesh has no group 'nowhere'");
   fix.group = NULL;
-  refuses(&def, "fix: the mesh has no group ''");
+  refuses(&def, "fix 0: the mesh has no group ''");
   fix.group = "all";
   refuses(&def, "nothing can move");
   corot_mesh_destroy(mesh);
@@ -108,12 +108,12 @@ static void every_tet_has_one_material(void **state) {
   m[0].group = "lower";
   refuses(&def, "has no material"); /* the upper half */
   m[0].group = "nowhere";
-  refuses(&def, "material: the mesh has no group 'nowhere'");
+  refuses(&def, "material 0: the mesh has no group 'nowhere'");
   m[0].group = "waist"; /* a plane of nodes */
   refuses(&def, "group 'waist' has no tets");
   def.nmaterial = 2;
   m[0].group = m[1].group = NULL;
-  refuses(&def, "materials 0 and 1 both have no group");
+  refuses(&def, "material 1: group is missing: one entry only may go without (material 0)");
   m[0].group = "lower", m[1].group = "all";
   refuses(&def, "belongs to materials 0 and 1");
   m[1].group = NULL; /* the rest */
@@ -131,9 +131,9 @@ static void refuses_a_load_without_sense(void **state) {
   corot_model_def def = plain(mesh);
   def.nload = 1, def.load = &load;
   load.group = "nowhere";
-  refuses(&def, "traction: the mesh has no group 'nowhere'");
+  refuses(&def, "load 0: the mesh has no group 'nowhere'");
   load.group = "waist"; /* inner nodes: no face of the boundary */
-  refuses(&def, "traction: group 'waist' has no faces");
+  refuses(&def, "load 0: group 'waist' has no faces for a traction to act on");
   load.group = "zmax", load.value[1] = NAN;
   refuses(&def, "load 0: component 1 is not finite");
   load.kind = COROT_GRAVITY, load.value[1] = INFINITY;

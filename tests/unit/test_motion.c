@@ -100,8 +100,8 @@ static void amplitudes_move_supports(void **state) {
     double h = 1e-5, *zero = calloc(b.n, sizeof *zero);
     double(*x)[3] = calloc(3 * nnode, sizeof *x), (*y)[3] = x + nnode, (*v)[3] = y + nnode;
     amplitude a, sine;
-    assert_ok(corot_amplitude_create(&by[k], "", &a));
-    assert_ok(corot_amplitude_create(&by[2], "", &sine));
+    assert_ok(corot_amplitude_create(&by[k], "load", 0, &a));
+    assert_ok(corot_amplitude_create(&by[2], "load", 0, &sine));
     for (double t = -0.93; t < 2; t += 0.1) { /* no kink is nearer than h */
       corot_nodal(b.model, t - h, zero, zero, x, NULL);
       corot_nodal(b.model, t + h, zero, zero, y, NULL);
@@ -175,8 +175,9 @@ static void an_amplitude_that_cannot_move_is_refused(void **state) {
   m[1].axis[0] = 1, m[1].angle = INFINITY;
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "motion 1: a number is not finite");
   m[1].angle = 1;
-  assert_fails(corot_model_create(&def, &model), COROT_EINVAL,
-               "motion 1: node 0 of group 'zmin' is already held in x");
+  assert_fails(
+      corot_model_create(&def, &model), COROT_EINVAL,
+      "motion 1: does not continue the other motion of zmin: it has to translate (motion 0)");
   def.nmotion = 1, def.mass = COROT_MASS_CONSISTENT;
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "moving support");
   assert_null(model);

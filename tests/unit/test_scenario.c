@@ -35,14 +35,15 @@ static void defaults(void **state) {
   assert_close(i->spectral_radius, d.spectral_radius, 0, 0);
 
   assert_string_equal(s->title, "");
-  assert_string_equal(s->strain, "polar");
-  assert_int_equal(s->viscosity, COROT_VISCOSITY_AUTO);
-  assert_int_equal(s->dilatation, COROT_DILATATION_LOCAL);
-  assert_close(s->dilatation_local, corot_model_defaults().dilatation_local, 0, 0);
+  assert_string_equal(s->model.strain, "polar");
+  assert_int_equal(s->model.viscosity, COROT_VISCOSITY_AUTO);
+  assert_int_equal(s->model.dilatation, COROT_DILATATION_LOCAL);
+  assert_close(s->model.dilatation_local, corot_model_defaults().dilatation_local, 0, 0);
   assert_string_equal(s->frame_policy, "exact");
   assert_int_equal(s->frames.frames, COROT_FRAMES_EXACT);
   assert_int_equal(s->frames.history, COROT_HISTORY_AUTO);
-  assert_int_equal(s->nfix + s->nmotion + s->nload + s->nprobe + s->ngroup + s->ncompare, 0);
+  assert_int_equal(
+      s->model.nfix + s->model.nmotion + s->model.nload + s->nprobe + s->ngroup + s->ncompare, 0);
   assert_close(s->t_end, 2, 0, 0);
   assert_close(s->output_step, 0.02, 0, 0);
   assert_true(s->write_fields);
@@ -106,16 +107,16 @@ static void all_keys(void **state) {
   assert_int_equal(s->group[2].kind, GROUP_NODES);
   assert_int_equal(s->group[2].nnode, 2);
   assert_int_equal(s->group[2].node[1], 5);
-  assert_close(s->material[0].lambda, 1e5, 0, 0);
-  assert_close(s->material[0].mu, 1e4, 0, 0);
-  assert_close(s->material[0].density, 500, 0, 0);
-  assert_close(s->material[0].damping_lambda, 3, 0, 0);
-  assert_close(s->material[0].damping_mu, 4, 0, 0);
-  assert_close(s->material[0].damping_mass, 5, 0, 0);
-  assert_null(s->material[0].group);
-  assert_int_equal(s->viscosity, COROT_OBJECTIVE);
-  assert_int_equal(s->dilatation, COROT_DILATATION_NODAL);
-  assert_close(s->dilatation_local, 2.5, 0, 0);
+  assert_close(s->model.material[0].lambda, 1e5, 0, 0);
+  assert_close(s->model.material[0].mu, 1e4, 0, 0);
+  assert_close(s->model.material[0].density, 500, 0, 0);
+  assert_close(s->model.material[0].damping_lambda, 3, 0, 0);
+  assert_close(s->model.material[0].damping_mu, 4, 0, 0);
+  assert_close(s->model.material[0].damping_mass, 5, 0, 0);
+  assert_null(s->model.material[0].group);
+  assert_int_equal(s->model.viscosity, COROT_OBJECTIVE);
+  assert_int_equal(s->model.dilatation, COROT_DILATATION_NODAL);
+  assert_close(s->model.dilatation_local, 2.5, 0, 0);
   assert_string_equal(s->frame_policy, "hold");
   assert_int_equal(s->frames.frames, COROT_FRAMES_HELD);
   assert_close(s->frames.interval, 0.25, 0, 0);
@@ -145,10 +146,11 @@ static void all_keys_of_statics(void **state) {
 static void all_keys_of_boundary(void **state) {
   (void)state;
   scenario *s = accept(everything);
-  assert_int_equal(s->nfix, 1);
-  assert_true(s->fix[0].component[0] && !s->fix[0].component[1] && s->fix[0].component[2]);
-  assert_int_equal(s->nmotion, 2);
-  const corot_motion *m = s->motion;
+  assert_int_equal(s->model.nfix, 1);
+  assert_true(s->model.fix[0].component[0] && !s->model.fix[0].component[1] &&
+              s->model.fix[0].component[2]);
+  assert_int_equal(s->model.nmotion, 2);
+  const corot_motion *m = s->model.motion;
   assert_int_equal(m[0].kind, COROT_ROTATE);
   assert_string_equal(m[0].group, "tip");
   assert_close(m[0].axis[1], 2, 0, 0);
@@ -167,23 +169,23 @@ static void all_keys_of_boundary(void **state) {
 static void all_keys_of_loads_and_run(void **state) {
   (void)state;
   scenario *s = accept(everything);
-  assert_int_equal(s->nload, 4);
-  assert_int_equal(s->load[0].kind, COROT_TRACTION);
-  assert_string_equal(s->load[0].group, "tip");
-  assert_close(s->load[0].value[1], 2, 0, 0);
-  assert_int_equal(s->load[0].amplitude.n, 2);
-  assert_close(s->load[0].amplitude.time[1], 10, 0, 0);
-  assert_close(s->load[0].amplitude.value[1], 1, 0, 0);
-  assert_int_equal(s->load[1].kind, COROT_GRAVITY);
-  assert_null(s->load[1].group);
-  assert_close(s->load[1].value[2], -9.81, 0, 0);
-  assert_int_equal(s->load[1].amplitude.n, 0);
-  assert_int_equal(s->load[2].kind, COROT_PRESSURE);
-  assert_close(s->load[2].value[0], 50, 0, 0);
-  assert_int_equal(s->load[3].kind, COROT_FORCE);
-  assert_string_equal(s->load[3].group, "some");
-  assert_close(s->load[3].value[2], 9, 0, 0);
-  assert_close(s->load[3].amplitude.value[0], 2, 0, 0);
+  assert_int_equal(s->model.nload, 4);
+  assert_int_equal(s->model.load[0].kind, COROT_TRACTION);
+  assert_string_equal(s->model.load[0].group, "tip");
+  assert_close(s->model.load[0].value[1], 2, 0, 0);
+  assert_int_equal(s->model.load[0].amplitude.n, 2);
+  assert_close(s->model.load[0].amplitude.time[1], 10, 0, 0);
+  assert_close(s->model.load[0].amplitude.value[1], 1, 0, 0);
+  assert_int_equal(s->model.load[1].kind, COROT_GRAVITY);
+  assert_null(s->model.load[1].group);
+  assert_close(s->model.load[1].value[2], -9.81, 0, 0);
+  assert_int_equal(s->model.load[1].amplitude.n, 0);
+  assert_int_equal(s->model.load[2].kind, COROT_PRESSURE);
+  assert_close(s->model.load[2].value[0], 50, 0, 0);
+  assert_int_equal(s->model.load[3].kind, COROT_FORCE);
+  assert_string_equal(s->model.load[3].group, "some");
+  assert_close(s->model.load[3].value[2], 9, 0, 0);
+  assert_close(s->model.load[3].amplitude.value[0], 2, 0, 0);
   corot_integrator_def *i = &s->integrator;
   assert_close(i->rtol, 1e-6, 0, 0);
   assert_close(i->atol_displacement, 1e-7, 0, 0);
@@ -250,12 +252,12 @@ static void comparisons(void **state) {
 static void material_forms(void **state) {
   (void)state;
   scenario *s = accept(MESH TIME "material: {E: 260, nu: 0.3, density: 1}\n");
-  assert_close(s->material->mu, 100, 1e-15, 0);
-  assert_close(s->material->lambda, 150, 1e-15, 0);
+  assert_close(s->model.material->mu, 100, 1e-15, 0);
+  assert_close(s->model.material->lambda, 150, 1e-15, 0);
   scenario_destroy(s);
 
   s = accept(MESH TIME "material: {mu: 100, nu: 0.3, density: 1}\n");
-  assert_close(s->material->lambda, 150, 1e-15, 0);
+  assert_close(s->model.material->lambda, 150, 1e-15, 0);
   json_t *material = json_object_get(s->resolved, "material");
   assert_close(json_real_value(json_object_get(material, "lambda")), 150, 1e-15, 0);
   assert_null(json_object_get(material, "nu"));
@@ -265,11 +267,11 @@ static void material_forms(void **state) {
              "material:\n"
              "  - {group: hard, E: 2, nu: 0, density: 1}\n"
              "  - {lambda: 1, mu: 2, density: 3}\n");
-  assert_int_equal(s->nmaterial, 2);
-  assert_string_equal(s->material[0].group, "hard");
-  assert_close(s->material[0].mu, 1, 0, 0);
-  assert_null(s->material[1].group);
-  assert_close(s->material[1].density, 3, 0, 0);
+  assert_int_equal(s->model.nmaterial, 2);
+  assert_string_equal(s->model.material[0].group, "hard");
+  assert_close(s->model.material[0].mu, 1, 0, 0);
+  assert_null(s->model.material[1].group);
+  assert_close(s->model.material[1].density, 3, 0, 0);
   scenario_destroy(s);
 }
 
@@ -277,8 +279,8 @@ static void material_forms(void **state) {
 static void yaml_features(void **state) {
   (void)state;
   scenario *s = accept("%YAML 1.1\n---\n" MINIMAL "loads:\nboundary: null\nstrain: ~\n");
-  assert_int_equal(s->nload, 0);
-  assert_string_equal(s->strain, "polar");
+  assert_int_equal(s->model.nload, 0);
+  assert_string_equal(s->model.strain, "polar");
   scenario_destroy(s);
 
   s = accept(MINIMAL
@@ -286,7 +288,7 @@ static void yaml_features(void **state) {
              "loads:\n"
              "  - {gravity: [0, 0, -1], amplitude: &ramp [[0, 0], [1, 1]]}\n"
              "  - {gravity: [1, 0, 0], amplitude: *ramp}\n");
-  assert_int_equal(s->load[1].amplitude.n, 2);
+  assert_int_equal(s->model.load[1].amplitude.n, 2);
   scenario_destroy(s);
 
   s = accept("# comment\r\n" MESH MATERIAL "title: \"caf\xC3\xA9\"\r\n" TIME);
@@ -302,7 +304,7 @@ static void json_files(void **state) {
       "\t\"time\": {\"end\": 2.0}\n}\n";
   scenario *s = NULL;
   assert_ok(read_as(JSON_NAME, text, &s));
-  assert_close(s->material->lambda, 1e5, 0, 0);
+  assert_close(s->model.material->lambda, 1e5, 0, 0);
   scenario_destroy(s);
   s = accept(text); /* under any name */
   assert_close(s->t_end, 2, 0, 0);
@@ -339,14 +341,14 @@ static void overrides(void **state) {
   assert_close(s->integrator.rtol, 1e-6, 0, 0);
   scenario_destroy(s);
   assert_ok(override(everything, "loads.0.traction=[1, 0, 0]", &s));
-  assert_close(s->load[0].value[1], 0, 0, 0);
-  assert_int_equal(s->load[0].amplitude.n, 2);
+  assert_close(s->model.load[0].value[1], 0, 0, 0);
+  assert_int_equal(s->model.load[0].amplitude.n, 2);
   scenario_destroy(s);
   assert_ok(override(everything, "loads=[]", &s));
-  assert_int_equal(s->nload, 0);
+  assert_int_equal(s->model.nload, 0);
   scenario_destroy(s);
   assert_ok(override(everything, "material={E: 2, nu: 0, density: 1}", &s));
-  assert_close(s->material->mu, 1, 0, 0);
+  assert_close(s->model.material->mu, 1, 0, 0);
   scenario_destroy(s);
   assert_ok(override(everything, "title=a=b", &s));
   assert_string_equal(s->title, "a=b");
@@ -388,7 +390,7 @@ static void overrides_of_short_forms(void **state) {
   assert_ok(scenario_read(FILE_NAME, 4, list, &s));
   assert_string_equal(s->integrator.linear.solver, "pcg");
   assert_close(s->integrator.linear.tolerance, 1e-6, 0, 0);
-  assert_true(s->dilatation == COROT_DILATATION_NODAL && s->dilatation_local == 2);
+  assert_true(s->model.dilatation == COROT_DILATATION_NODAL && s->model.dilatation_local == 2);
   scenario_destroy(s);
   list[1] = (char[]){"linear_solver=klu"}; /* the whole of it */
   assert_ok(scenario_read(FILE_NAME, 4, list, &s));
@@ -677,26 +679,38 @@ static void build_refusals(void **state) {
       {MINIMAL "loads: [{group: wombat, traction: [0, 0, 1]}]",
        "4:17: loads[0].group: no group wombat; there are: xmin, xmax, ymin, ymax, zmin, zmax"},
       {MINIMAL "groups: {a: {nodes: [1]}}\nloads: [{group: a, traction: [0, 0, 1]}]",
-       "5:17: loads[0].group: a has no faces for a traction to act on"},
+       "5:17: loads[0].group: group 'a' has no faces for a traction to act on"},
       {MESH TIME "material: [{group: zmin, mu: 1, nu: 0, density: 1}]",
-       "3:20: material[0].group: zmin has no tets for a material to fill"},
+       "3:20: material[0].group: group 'zmin' has no tets for a material to fill"},
       {MESH TIME "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 1]}}}\n"
                  "material: [{group: a, mu: 1, nu: 0, density: 1}]",
        "4:1: material: "},
+      {MESH TIME
+       "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 2]}}, b: {plane: {axis: z, at: 0}},"
+       "c: {box: {min: [0, 0, 0], max: [1, 1, 1]}}}\n"
+       "material:\n- {group: a, mu: 1, nu: 0, density: 1}\n"
+       "- {group: c, mu: 1, nu: 0, density: 1}",
+       "6:11: material[1].group: tet 0 belongs to materials 0 and 1; see material[0]"},
+      {MINIMAL "boundary:\n- {group: zmin, translate: {velocity: [0, 0, 1]}}\n"
+               "- {group: zmaks, fix: [x]}",
+       "6:11: boundary[1].group: no group zmaks; did you mean zmax?"},
       {MINIMAL "groups: {a: {nodes: [1]}}\nloads: [{group: a, pressure: 1}]",
-       "5:17: loads[0].group: a has no faces for a pressure to act on (1 nodes, 0 tets)"},
+       "5:17: loads[0].group: group 'a' has no faces for a pressure to act on (1 nodes, 0 tets)"},
       {MINIMAL "boundary:\n- {group: zmin, fix: [x]}\n- {group: xmin, rotate: {axis: [0, 0, 1], "
                "rate: 1}}",
-       "6:11: boundary[1].group: node 0 of xmin cannot be moved: it is in zmin, too, which "
-       "boundary[0] fixes"},
+       "6:11: boundary[1].group: node 0 of group 'xmin' is already held in x: it is in 'zmin', "
+       "too; "
+       "see boundary[0]"},
       {MINIMAL "boundary:\n- {group: zmin, translate: {velocity: [0, 0, 1]}}\n"
                "- {group: zmin, fix: [y]}",
-       "6:11: boundary[1].group: node 0 of zmin cannot be fixed: it is in zmin, too, which "
-       "boundary[0] moves"},
+       "5:11: boundary[0].group: node 0 of group 'zmin' is already held in y: it is in 'zmin', "
+       "too; "
+       "see boundary[1]"},
       {MINIMAL "boundary:\n- {group: zmin, translate: {velocity: [0, 0, 1]}}\n"
                "- {group: xmax, translate: {velocity: [0, 0, 1]}}",
-       "6:11: boundary[1].group: node 1 of xmax cannot be moved: it is in zmin, too, which "
-       "boundary[0] moves"},
+       "6:11: boundary[1].group: node 1 of group 'xmax' is already held in x: it is in 'zmin', "
+       "too; "
+       "see boundary[0]"},
       {MINIMAL "groups: {a: {box: {min: [0, 0, 0], max: [1, 1, 2]}}}\n"
                "boundary: [{group: a, fix: [x, y]}, {group: a, fix: [z]}]",
        "5:1: boundary: all components of all 12 nodes are held: nothing can move"},

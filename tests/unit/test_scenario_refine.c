@@ -118,21 +118,22 @@ static void hierarchies(void **state) {
   assert_above(coupled, mean);
   assert_int_equal(blocks_of(REFINED("1") "hierarchy: {coupling: one-way}\n"), coupled);
   refuse(REFINED("1") "mass: consistent\nhierarchy: {coupling: one-way}\n",
-         "4:7: mass: with hierarchy.coupling one-way it must be lumped");
+         "4:7: mass: a consistent mass would couple the finer nodes of a one-way hierarchy");
   refuse(REFINED("1") "loads: [{group: zmax, pressure: 1.0}]\nhierarchy: {coupling: one-way}\n",
-         "5:23: hierarchy.coupling: a pressure follows the refined surface");
+         "4:33: loads[0].pressure: pressure on group 'zmax': it follows the fine surface, which "
+         "level");
   refuse(REFINED("1") "hierarchy: {frame_level: 2}\n",
-         "4:26: hierarchy.frame_level: mesh.refine makes the levels 0 to 1");
+         "4:26: hierarchy.frame_level: frame level 2, where the levels are 0 to 1");
   refuse(REFINED("1") "strain: green\nhierarchy: {}\n",
-         "4:9: strain: with a hierarchy it is that of the refined mesh");
+         "4:9: strain: strain green is not linear in a given frame");
   refuse(REFINED("1") "strain: warp\nhierarchy: {}\n",
-         "4:9: strain: warp has no conservative force: hierarchy.force must be paper");
+         "5:1: hierarchy.force: strain warp has no conservative force: use polar, or the");
   refuse(REFINED("1") "strain: warp\nhierarchy: {force: paper, frame_level: 1}\n",
-         "5:40: hierarchy.frame_level: warp takes its frames from level 0 only");
+         "5:40: hierarchy.frame_level: frame level 1, but warp frames depend on the edges");
   refuse(REFINED("1") "viscosity: objective\nhierarchy: {}\n",
-         "4:12: viscosity: with a hierarchy it must be corotated");
+         "4:12: viscosity: under a hierarchy the viscous law must be the corotated one");
   refuse(REFINED("1") "dilatation: nodal\nhierarchy: {}\n",
-         "4:13: dilatation.name: with a hierarchy it must be local");
+         "4:13: dilatation.name: dilatations averaged at nodes are not provided for in");
   refuse(REFINED("1") "hierarchy: {coarse_strain: gren}\n",
          "4:28: hierarchy.coarse_strain: unknown: gren; did you mean green?");
 }

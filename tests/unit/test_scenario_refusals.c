@@ -102,13 +102,13 @@ static void out_of_range(void **state) {
       {MINIMAL "frames: {policy: extrapolate, max_angle: -1}",
        "4:42: frames.max_angle: must be > 0, found -1"},
       {MINIMAL "boundary: [{group: a, rotate: {axis: [0, 0, 0], rate: 1}}]",
-       "4:38: boundary[0].rotate.axis: [0, 0, 0] has no direction"},
+       "4:38: boundary[0].rotate.axis: the axis has no direction: it is [0, 0, 0]"},
       {MINIMAL "boundary: [{group: a, rotate: {axis: [0, 0, 1], rate: 1, from: -1}}]",
        "4:64: boundary[0].rotate.from: must be >= 0"},
       {MINIMAL "boundary: [{group: a, rotate: {axis: [0, 0, 1], rate: 1, to: never}}]",
        "4:62: boundary[0].rotate.to: expected a number or end, found never"},
       {MINIMAL "boundary: [{group: a, translate: {velocity: [0, 0, 1], from: 2, to: 2}}]",
-       "4:69: boundary[0].translate.to: must be later than from, 2 s"},
+       "4:69: boundary[0].translate.to: it goes from t = 2 to t = 2 s: to must be later than from"},
       {MESH TIME "material: {mu: 1, nu: 0, density: 1, damping: {mass: -1}}",
        "3:54: material.damping.mass: must be >= 0"},
       {MINIMAL "integrator: {first_step: 2, max_step: 1}",
@@ -133,7 +133,8 @@ static void out_of_range(void **state) {
        "1:29: mesh.refine: must be >= 0, found -1"},
       {"mesh: {file: a.msh, refine: 0.5}\n" MATERIAL TIME, "1:29: mesh.refine: expected a whole"},
       {MINIMAL "loads: [{gravity: [0, 0, 1], amplitude: [[1, 0], [0, 1]]}]",
-       "4:51: loads[0].amplitude[1][0]: times must increase, but 0 follows 1"},
+       "4:51: loads[0].amplitude[1][0]: the amplitude's times do not increase at point 1: 0 "
+       "follows 1"},
       {MINIMAL "loads: [{gravity: [0, 0, 1], amplitude: [[0, 0, 1]]}]",
        "4:42: loads[0].amplitude[0]: expected a pair [time, value]"},
       {MINIMAL "loads: [{gravity: [0, 0, 1], amplitude: []}]",
@@ -170,7 +171,7 @@ static void keys_together(void **state) {
        "5:3: material[1]: group is missing"},
       {MESH TIME
        "material:\n- {group: a, mu: 1, nu: 0, density: 1}\n- {group: a, mu: 1, nu: 0, density: 1}",
-       "5:11: material[1].group: a has a material already"},
+       "5:11: material[1].group: group 'a' has a material already; see material[0]"},
       {MINIMAL "frames: {policy: hold}",
        "4:18: frames.policy: hold needs frames.interval or frames.max_angle"},
       {MINIMAL "frames: {policy: extrapolate}",
@@ -184,7 +185,7 @@ static void keys_together(void **state) {
       {MINIMAL "frames: {max_angle: 0.1}",
        "4:10: frames.max_angle: has an effect with policy: hold or extrapolate only"},
       {MINIMAL "viscosity: objective\nstrain: green",
-       "4:12: viscosity: objective needs strain: polar or hybrid, not green"},
+       "4:12: viscosity: the objective viscous law needs a polar frame, not strain green"},
       {MINIMAL "dilatation: nodel", "4:13: dilatation.name: unknown: nodel; did you mean nodal?"},
       {MINIMAL "dilatation: {name: nodal, local: -1}",
        "4:34: dilatation.local: must be >= 0, found -1"},
@@ -235,9 +236,11 @@ static void motions_together(void **state) {
   MINIMAL "boundary:\n- {group: a, rotate: {axis: [0, 0, 1], rate: 1, from: 1, to: 2}}\n"
   static const refusal r[] = {
       {FIRST "- {group: a, rotate: {axis: [0, 0, 1], rate: 1, from: 1.5}}",
-       "6:22: boundary[1].rotate: a is moving already, from t = 1 s to t = 2 s"},
+       "6:22: boundary[1].rotate: group 'a' is already moving from t = 1 to t = 2 s; see "
+       "boundary[0]"},
       {FIRST "- {group: a, rotate: {axis: [0, 0, 1], rate: 1, to: 1.5}}",
-       "6:22: boundary[1].rotate: a is moving already, from t = 1 s to t = 2 s"},
+       "6:22: boundary[1].rotate: group 'a' is already moving from t = 1 to t = 2 s; see "
+       "boundary[0]"},
       {FIRST "- {group: a, rotate: {axis: [0, 1, 0], rate: 1, from: 2}}",
        "6:22: boundary[1].rotate: does not continue the other motion of a: it has to turn about"},
       {FIRST "- {group: a, rotate: {axis: [0, 0, 1], center: [1, 0, 0], rate: 1, from: 2}}",
@@ -246,6 +249,31 @@ static void motions_together(void **state) {
        "6:25: boundary[1].translate: does not continue the other motion of a: it has to turn"},
   };
 #undef FIRST
+  refuse_all(sizeof r / sizeof *r, r);
+}
+
+/* Rules of the core, of entries by their place in the file whatever their place in the model. */
+static void rules_of_the_model(void **state) {
+  (void)state;
+  static const refusal r[] = {
+      {MESH TIME
+       "material:\n- {group: a, mu: 1, nu: 0, density: 1}\n- {lambda: -1, mu: 1, density: 1}",
+       "5:12: material[1].lambda: 3 lambda + 2 mu must be > 0"},
+      {MESH TIME "material: {mu: 1.0e-320, nu: -0.9, density: 1.0e-320}\nviscosity: objective\n"
+                 "strain: warp",
+       "4:12: viscosity: the objective viscous law needs a polar frame, not strain warp"},
+      {MINIMAL "mass: consistent\nboundary:\n- {group: zmax, fix: [x]}\n"
+               "- {group: zmin, translate: {velocity: [0, 0, 1]}}",
+       "4:7: mass: group 'zmin' is a moving support, whose sudden start a consistent mass would "
+       "hand on to its neighbours as an impulse; a lumped mass has no such coupling; see "
+       "boundary[1]"},
+      {MINIMAL "boundary:\n- {group: zmax, fix: [x]}\n"
+               "- {group: zmin, translate: {velocity: [0, 0, 1], from: 2, to: 1}}",
+       "6:63: boundary[1].translate.to: it goes from t = 2 to t = 1 s"},
+      {MINIMAL "boundary:\n- {group: zmax, fix: [x]}\n"
+               "- {group: a, move: {direction: [1, 0, 0], amplitude: {smooth: [[0, 0], [0, 1]]}}}",
+       "6:73: boundary[1].move.amplitude.smooth[1][0]: the amplitude has two points at t = 0"},
+  };
   refuse_all(sizeof r / sizeof *r, r);
 }
 
@@ -362,10 +390,15 @@ static void excerpts(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(unknown_keys),     cmocka_unit_test(wrong_types),
-      cmocka_unit_test(out_of_range),     cmocka_unit_test(keys_together),
-      cmocka_unit_test(motions_together), cmocka_unit_test(methods_and_their_orders),
-      cmocka_unit_test(malformed),        cmocka_unit_test(hostile),
+      cmocka_unit_test(unknown_keys),
+      cmocka_unit_test(wrong_types),
+      cmocka_unit_test(out_of_range),
+      cmocka_unit_test(keys_together),
+      cmocka_unit_test(motions_together),
+      cmocka_unit_test(rules_of_the_model),
+      cmocka_unit_test(methods_and_their_orders),
+      cmocka_unit_test(malformed),
+      cmocka_unit_test(hostile),
       cmocka_unit_test(excerpts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

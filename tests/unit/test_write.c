@@ -1,6 +1,7 @@
 /* The writers: tables, fields, result files. */
 #include "alloc.h"
 #include "app/folder/folder.h"
+#include "app/folder/inventory.h"
 #include "app/folder/write_csv.h"
 #include "app/folder/write_vtu.h"
 #include "app/run/outputs.h"
@@ -364,8 +365,7 @@ static void failed_allocations_are_survived(void **state) {
   def.load = &load;
   probe_def probe = {.name = (char *)"tip", .node = 7};
   maker m = {.dir = dir,
-             .scenario = {.nmaterial = 1,
-                          .material = &material,
+             .scenario = {.model = {.nmaterial = 1, .material = &material},
                           .nprobe = 1,
                           .probe = &probe,
                           .write_fields = true}};
@@ -388,11 +388,24 @@ static void failed_allocations_are_survived(void **state) {
   remove_folder(dir);
 }
 
+/* Who adds a file to the outputs adds it to what a folder may hold. */
+static void each_output_stands_in_the_inventory(void **state) {
+  (void)state;
+  const char *file;
+  for (int i = 0; (file = outputs_file(i)); i++) {
+    int k = 0;
+    while (k < INVENTORY_SIZE && strcmp(inventory[k].name, file) != 0) k++;
+    if (k == INVENTORY_SIZE) fail_msg("%s is not in the inventory", file);
+    assert_true(inventory[k].cleaned && inventory[k].listed);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(folders_are_made_with_those_above),
       cmocka_unit_test(cleaning_leaves_files_of_others_alone),
       cmocka_unit_test(a_file_is_replaced_as_a_whole_or_not_at_all),
+      cmocka_unit_test(each_output_stands_in_the_inventory),
       cmocka_unit_test(probes_have_a_column_a_component),
       cmocka_unit_test(rows_reach_the_disk_as_they_are_made),
       cmocka_unit_test(steps_name_what_happened),

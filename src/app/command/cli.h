@@ -6,15 +6,7 @@
 #include <getopt.h>
 #include <stdbool.h>
 
-/* Exit codes of the program. An interrupted run ends with 128 + the signal's number. */
-enum {
-  EXIT_OK = 0,
-  EXIT_CHECK = 1,      /* finished, but a check failed */
-  EXIT_USAGE = 2,      /* the command line makes no sense */
-  EXIT_SCENARIO = 3,   /* bad scenario or mesh, or there is none */
-  EXIT_INTEGRATOR = 4, /* the integrator gave up */
-  EXIT_SYSTEM = 5,     /* the system refused memory, reading or writing */
-};
+#include "app/run/exit_code.h"
 
 /* Each gets the arguments from its own name on, prints data on stdout and messages on stderr, and
    returns the exit code. */

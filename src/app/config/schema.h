@@ -21,7 +21,7 @@ typedef enum schema_type {
   SCHEMA_COUNTS,   /* three integers */
   SCHEMA_INTEGERS, /* any number of integers */
   SCHEMA_WORDS,    /* some of `words`, each once */
-  SCHEMA_CURVE,    /* pairs of time and value, at most two at one time, or a map */
+  SCHEMA_CURVE,    /* pairs of time and value, or a map */
   SCHEMA_STATES,   /* one of `words`, a map, or a list of maps */
   SCHEMA_TEXTS,    /* any number of texts; one may stand alone */
   SCHEMA_VALUES,   /* any number of values of any kind */

@@ -232,18 +232,9 @@ static corot_status check_words(const config_node *node, const schema_key *key) 
 static corot_status check_pairs(config_node *node) {
   if (node->kind != CONFIG_LIST || node->nchild == 0)
     return expected(node, "a list of [time, value], such as [[0.0, 0.0], [10.0, 1.0]], or a map");
-  const config_node *before = NULL, *first = NULL;
   for (config_node *c = node->child; c; c = c->next) {
     if (c->kind != CONFIG_LIST || c->nchild != 2) return expected(c, "a pair [time, value]");
     COROT_TRY(check_entries(c, SCHEMA_ANY, check_number));
-    config_node *time = c->child;
-    if (before && !(time->number >= before->number))
-      return config_fail(time, "times must increase, but %s follows %s", time->text, before->text);
-    if (first && time->number == first->number)
-      return config_fail(
-          time, "the third point at %s: a jump has a value before it and one after it", time->text);
-    first = before;
-    before = time;
   }
   return COROT_OK;
 }

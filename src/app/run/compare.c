@@ -12,7 +12,7 @@ typedef struct force {
   bool known;                         /* false: a tet is inverted */
 } force;
 
-struct comparison {
+typedef struct comparison {
   const corot_model *model;
   int nnode, nmeasure;
   const char *const *measure; /* [nmeasure] */
@@ -20,10 +20,12 @@ struct comparison {
   double (*memory)[3]; /* [4 nnode] of both forces */
   force_error *error;  /* [nmeasure] of one row */
   table *table;
-};
+} comparison;
 
-corot_status comparison_close(comparison *c) {
-  if (!c) return COROT_OK;
+static bool wants_comparison(const scenario *s) { return s->ncompare > 0; }
+
+static corot_status close_comparison(void *writer) {
+  comparison *c = writer;
   corot_status status = table_close(c->table);
   free(c->memory);
   free(c->error);
@@ -41,20 +43,19 @@ static corot_status open_all(comparison *c, const char *dir) {
   return compare_open(dir, c->nmeasure, c->measure, &c->table);
 }
 
-corot_status comparison_open(const char *dir, const corot_model *model, int nmeasure,
-                             const char *const *measure, comparison **out) {
+static corot_status open_comparison(const writer_source *source, void **writer) {
   comparison *c = calloc(1, sizeof *c);
   if (!c) return corot_fail(COROT_ENOMEM, "the comparison: out of memory");
-  *c = (comparison){.model = model,
-                    .nnode = corot_model_mesh(model)->nnode,
-                    .nmeasure = nmeasure,
-                    .measure = measure};
-  corot_status status = open_all(c, dir);
+  *c = (comparison){.model = source->model,
+                    .nnode = corot_model_mesh(source->model)->nnode,
+                    .nmeasure = source->scenario->ncompare,
+                    .measure = source->scenario->compare};
+  corot_status status = open_all(c, source->dir);
   if (status != COROT_OK) {
-    comparison_close(c);
+    close_comparison(c);
     return status;
   }
-  *out = c;
+  *writer = c;
   return COROT_OK;
 }
 
@@ -90,11 +91,20 @@ static force_error error_of(const comparison *c) {
                        .shear = ratio(difference[2], size[2])};
 }
 
-corot_status comparison_row(comparison *c, corot_state *state, double t, const double *u) {
-  COROT_TRY(find_force(c, state, t, u, "green", &c->green));
+static corot_status write_comparison(void *writer, const moment *now) {
+  comparison *c = writer;
+  COROT_TRY(find_force(c, now->state, now->t, now->u, "green", &c->green));
   for (int i = 0; i < c->nmeasure; i++) {
-    COROT_TRY(find_force(c, state, t, u, c->measure[i], &c->other));
+    COROT_TRY(find_force(c, now->state, now->t, now->u, c->measure[i], &c->other));
     c->error[i] = error_of(c);
   }
-  return compare_row(c->table, t, c->nmeasure, c->error);
+  return compare_row(c->table, now->t, c->nmeasure, c->error);
 }
+
+const writer_ops comparison_writer = {
+    .file = "compare.csv",
+    .wanted = wants_comparison,
+    .open = open_comparison,
+    .moment = write_comparison,
+    .close = close_comparison,
+};

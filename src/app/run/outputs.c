@@ -6,100 +6,61 @@
 #include <string.h>
 
 #include "app/folder/folder.h"
-#include "app/folder/states.h"
-#include "app/folder/write_groups.h"
-#include "app/folder/write_vtu.h"
 #include "compare.h"
+#include "fields.h"
+#include "reactions.h"
+#include "writers.h"
+
+/* Files are begun, written and closed in this order. */
+static const writer_ops *const writers[] = {
+    &probes_writer, &energy_writer, &steps_writer,   &comparison_writer,
+    &states_writer, &fields_writer, &history_writer, &reactions_writer,
+};
+enum { NWRITER = sizeof writers / sizeof *writers };
+
+const char *outputs_file(int i) { return i < NWRITER ? writers[i]->file : NULL; }
 
 struct outputs {
   const scenario *scenario;
   const corot_model *model;
-  table *probes, *energy, *steps;
-  comparison *comparison;  /* NULL: none is asked for */
-  vtu *fields;             /* NULL: none are asked for */
-  state_writer *states;    /* the same */
-  int *node;               /* [nprobe] */
-  const char **probe_name; /* [nprobe] */
-  double (*nodal)[3];      /* [2 nnode] where there are no fields: displacement, velocity */
-  vtu_fields value;        /* of the last moment; displacement and velocity in any case */
-  ledger ledger;           /* of the last moment */
+  void *writer[NWRITER]; /* NULL: not begun */
+  int *node;             /* [nprobe] */
+  double (*nodal)[3];    /* [2 nnode] of the last moment: displacement, */
+  double (*velocity)[3]; /* [nnode] and velocity, in its second half */
+  ledger ledger;         /* of the last moment */
   history *history;
   observed seen;          /* all but its history and its jumps */
   double energy_at_start; /* [J] */
   long count;             /* moments written */
 };
 
+/* The first error is told. */
 corot_status outputs_close(outputs *o) {
-  corot_status probes = table_close(o->probes), energy = table_close(o->energy);
-  corot_status steps = table_close(o->steps), compared = comparison_close(o->comparison);
-  corot_status fields = o->fields ? vtu_finish(o->fields) : COROT_OK;
-  corot_status binary = states_close(o->states);
-  corot_status past = o->history ? history_close(o->history) : COROT_OK;
-  o->probes = o->energy = o->steps = NULL;
-  o->comparison = NULL;
-  o->states = NULL;
-  return probes != COROT_OK     ? probes
-         : energy != COROT_OK   ? energy
-         : steps != COROT_OK    ? steps
-         : compared != COROT_OK ? compared
-         : binary != COROT_OK   ? binary
-         : past != COROT_OK     ? past
-                                : fields;
+  corot_status status = COROT_OK;
+  for (int i = 0; i < NWRITER; i++) {
+    corot_status closed = o->writer[i] ? writers[i]->close(o->writer[i]) : COROT_OK;
+    o->writer[i] = NULL;
+    if (status == COROT_OK) status = closed;
+  }
+  return status;
 }
 
 void outputs_destroy(outputs *o) {
   if (!o) return;
   outputs_close(o);
-  vtu_destroy(o->fields);
   history_destroy(o->history);
   free(o->node);
-  free(o->probe_name);
   free(o->nodal);
   free(o);
-}
-
-/* material [ntet]: the entry of the scenario's list that fills each tet. */
-static void number_materials(const scenario *s, const corot_mesh *mesh, int *material) {
-  for (int i = 0; i < s->nmaterial; i++)
-    if (!s->material[i].group)
-      for (int e = 0; e < mesh->ntet; e++) material[e] = i;
-  for (int i = 0; i < s->nmaterial; i++) {
-    const char *name = s->material[i].group;
-    const corot_group *group = name ? corot_mesh_find_group(mesh, name) : NULL;
-    for (int k = 0; group && k < group->ntet; k++) material[group->tet[k]] = i;
-  }
-}
-
-static corot_status open_fields(outputs *o, const char *dir) {
-  const corot_mesh *mesh = corot_model_mesh(o->model);
-  int *material = calloc((size_t)mesh->ntet, sizeof *material);
-  if (!material) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
-  number_materials(o->scenario, mesh, material);
-  corot_status status = vtu_create(dir, mesh, material, &o->fields);
-  free(material);
-  COROT_TRY(status);
-  o->value = vtu_arrays(o->fields);
-  return groups_write(dir, o->scenario->resolved, mesh);
-}
-
-/* Where no fields are written the probes still need the nodes. */
-static corot_status open_nodal(outputs *o) {
-  size_t nnode = (size_t)corot_model_mesh(o->model)->nnode;
-  o->nodal = malloc(2 * nnode * sizeof *o->nodal);
-  if (!o->nodal) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
-  o->value = (vtu_fields){.displacement = o->nodal, .velocity = o->nodal + nnode};
-  return COROT_OK;
 }
 
 static corot_status find_probes(outputs *o) {
   const scenario *s = o->scenario;
   const corot_mesh *mesh = corot_model_mesh(o->model);
   o->node = malloc(((size_t)s->nprobe + 1) * sizeof *o->node);
-  o->probe_name = malloc(((size_t)s->nprobe + 1) * sizeof *o->probe_name);
-  if (!o->node || !o->probe_name) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
+  if (!o->node) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
   for (int i = 0; i < s->nprobe; i++) {
     const probe_def *p = &s->probe[i];
-    o->probe_name[i] = p->name;
     o->node[i] = p->node >= 0 ? p->node : corot_mesh_nearest(mesh, p->point);
     if (o->node[i] >= mesh->nnode)
       return corot_fail(COROT_EINVAL, "probe %s: node %d; the mesh's nodes are 0 to %d", p->name,
@@ -108,19 +69,34 @@ static corot_status find_probes(outputs *o) {
   return COROT_OK;
 }
 
+static corot_status allocate(outputs *o) {
+  size_t nnode = (size_t)corot_model_mesh(o->model)->nnode;
+  o->nodal = calloc(2 * nnode, sizeof *o->nodal);
+  if (!o->nodal) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
+  o->velocity = o->nodal + nnode;
+  return history_create(o->scenario, corot_model_ndof(o->model), &o->history);
+}
+
+static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
+  const writer_source source = {.dir = dir,
+                                .scenario = o->scenario,
+                                .model = o->model,
+                                .node = o->node,
+                                .history = o->history};
+  for (int i = 0; i < NWRITER; i++) {
+    const writer_ops *ops = writers[i];
+    if (ops->use != use) continue;
+    if (!ops->wanted || ops->wanted(o->scenario)) COROT_TRY(ops->open(&source, &o->writer[i]));
+  }
+  return COROT_OK;
+}
+
 static corot_status open_all(outputs *o, const char *dir) {
   COROT_TRY(find_probes(o));
+  COROT_TRY(allocate(o));
   COROT_TRY(folder_make(dir));
   COROT_TRY(folder_clean(dir));
-  COROT_TRY(probes_open(dir, o->scenario->nprobe, o->probe_name, &o->probes));
-  COROT_TRY(energy_open(dir, &o->energy));
-  COROT_TRY(steps_open(dir, &o->steps));
-  COROT_TRY(history_create(o->scenario, corot_model_ndof(o->model), &o->history));
-  if (o->scenario->ncompare > 0)
-    COROT_TRY(comparison_open(dir, o->model, o->scenario->ncompare, o->scenario->compare,
-                              &o->comparison));
-  if (o->scenario->write_states) COROT_TRY(states_create(dir, o->model, &o->states));
-  return o->scenario->write_fields ? open_fields(o, dir) : open_nodal(o);
+  return open_writers(o, dir, WRITER_COMMON);
 }
 
 corot_status outputs_open(const scenario *s, const corot_model *model, const char *dir,
@@ -139,8 +115,12 @@ corot_status outputs_open(const scenario *s, const corot_model *model, const cha
   return COROT_OK;
 }
 
-corot_status outputs_open_history(outputs *o, const char *dir) {
-  return o->scenario->write_history ? history_open(o->history, dir) : COROT_OK;
+corot_status outputs_open_run(outputs *o, const char *dir) {
+  return open_writers(o, dir, WRITER_OF_RUN);
+}
+
+corot_status outputs_open_statics(outputs *o, const char *dir) {
+  return open_writers(o, dir, WRITER_OF_STATICS);
 }
 
 static ledger make_ledger(outputs *o, const instant *now, const corot_energies *e) {
@@ -169,12 +149,12 @@ static corot_status take_energies(outputs *o, corot_state *state, const instant 
 }
 
 static corot_status add_history(outputs *o, const instant *now, const ledger *row) {
-  return history_add(o->history, row, o->node, (const double(*)[3])o->value.displacement, now->u);
+  return history_add(o->history, row, o->node, (const double(*)[3])o->nodal, now->u);
 }
 
 corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e) {
   ledger row = make_ledger(o, now, e);
-  corot_nodal(o->model, now->t, now->u, now->v, o->value.displacement, NULL);
+  corot_nodal(o->model, now->t, now->u, now->v, o->nodal, NULL);
   return add_history(o, now, &row);
 }
 
@@ -187,7 +167,8 @@ static bool is_more_strained(const corot_deformation *a, const corot_deformation
 /* Keeps the worst of the deformations so far. */
 static void observe_deformation(const outputs *o, corot_state *state, double t, const double *u,
                                 observed *s) {
-  bool first = s->strained.det_tet < 0, turns = corot_strain_find(o->scenario->strain)->linear;
+  bool first = s->strained.det_tet < 0,
+       turns = corot_strain_find(o->scenario->model.strain)->linear;
   corot_deformation d;
   corot_deformation_measure(o->model, state, t, u, STRAIN_LIMIT, turns ? TURN_LIMIT : INFINITY, &d);
   if (first || is_more_strained(&d, &s->strained)) s->strained = d, s->t_strained = t;
@@ -199,45 +180,71 @@ static void observe(outputs *o, corot_state *state, const instant *now) {
   double largest = 0;
   observe_deformation(o, state, now->t, now->u, &o->seen);
   for (int n = 0; n < corot_model_mesh(o->model)->nnode; n++) {
-    const double *u = o->value.displacement[n];
+    const double *u = o->nodal[n];
     largest = fmax(largest, u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
   }
   o->seen.displacement = fmax(o->seen.displacement, sqrt(largest));
 }
 
-static corot_status take_fields(outputs *o, corot_state *state, const instant *now) {
-  corot_element_fields fields = {
-      .frame = o->value.frame,
-      .strain = o->value.strain,
-      .von_mises = o->value.von_mises,
-      .det = o->value.det,
-  };
-  return corot_elements(o->model, state, now->t, now->u, &fields);
+/* Hands a moment to one of the operations of all writers that have it. */
+static corot_status evaluate_all(outputs *o, const moment *now) {
+  for (int i = 0; i < NWRITER; i++) {
+    const writer_ops *ops = writers[i];
+    if (o->writer[i] && ops->evaluate) COROT_TRY(ops->evaluate(o->writer[i], now));
+  }
+  return COROT_OK;
+}
+
+static corot_status write_all(outputs *o, const moment *now) {
+  for (int i = 0; i < NWRITER; i++) {
+    const writer_ops *ops = writers[i];
+    if (o->writer[i] && ops->moment) COROT_TRY(ops->moment(o->writer[i], now));
+  }
+  return COROT_OK;
 }
 
 corot_status outputs_write(outputs *o, corot_state *state, const instant *now, bool last) {
-  int every = o->scenario->field_every > 0 ? o->scenario->field_every : 1;
-  bool frame = o->fields && (last || o->count % every == 0);
   ledger row;
+  const moment all = {.t = now->t,
+                      .number = o->count,
+                      .last = last,
+                      .state = state,
+                      .u = now->u,
+                      .v = now->v,
+                      .displacement = (const double(*)[3])o->nodal,
+                      .velocity = (const double(*)[3])o->velocity,
+                      .ledger = &o->ledger,
+                      .factor = now->factor,
+                      .internal = now->internal};
+  /* whatever the body's state may not allow, before a file is touched */
   COROT_TRY(take_energies(o, state, now, &row));
-  if (frame) COROT_TRY(take_fields(o, state, now));
-  corot_nodal(o->model, now->t, now->u, now->v, o->value.displacement, o->value.velocity);
-  if (now->still)
-    memset(o->value.velocity, 0, corot_model_mesh(o->model)->nnode * sizeof *o->value.velocity);
+  COROT_TRY(evaluate_all(o, &all));
 
+  /* the moment on all nodes */
+  corot_nodal(o->model, now->t, now->u, now->v, o->nodal, o->velocity);
+  if (now->still) memset(o->velocity, 0, corot_model_mesh(o->model)->nnode * sizeof *o->velocity);
   o->ledger = row;
   o->count++;
   observe(o, state, now);
+
+  /* the files */
   if (o->count == 1 || now->still) COROT_TRY(add_history(o, now, &row));
-  COROT_TRY(probes_row(o->probes, now->t, o->scenario->nprobe, o->node,
-                       (const double(*)[3])o->value.displacement));
-  COROT_TRY(energy_row(o->energy, &row));
-  if (o->comparison) COROT_TRY(comparison_row(o->comparison, state, now->t, now->u));
-  if (o->states) COROT_TRY(states_add(o->states, now->t, now->u, now->v));
-  return frame ? vtu_write(o->fields, now->t) : COROT_OK;
+  return write_all(o, &all);
 }
 
-corot_status outputs_step(outputs *o, const step_row *row) { return steps_add(o->steps, row); }
+corot_status outputs_step(outputs *o, const step_row *row) {
+  for (int i = 0; i < NWRITER; i++) {
+    const writer_ops *ops = writers[i];
+    if (o->writer[i] && ops->step) COROT_TRY(ops->step(o->writer[i], row));
+  }
+  return COROT_OK;
+}
+
+json_t *outputs_reactions(const outputs *o) {
+  for (int i = 0; i < NWRITER; i++)
+    if (writers[i] == &reactions_writer && o->writer[i]) return reactions_last(o->writer[i]);
+  return NULL;
+}
 
 long outputs_count(const outputs *o) { return o->count; }
 
@@ -272,7 +279,7 @@ int outputs_nprobe(const outputs *o) { return o->scenario->nprobe; }
 
 const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]) {
   *node = o->node[i];
-  memcpy(u, o->value.displacement[*node], 3 * sizeof *u);
-  memcpy(v, o->value.velocity[*node], 3 * sizeof *v);
-  return o->probe_name[i];
+  memcpy(u, o->nodal[*node], 3 * sizeof *u);
+  memcpy(v, o->velocity[*node], 3 * sizeof *v);
+  return o->scenario->probe[i].name;
 }

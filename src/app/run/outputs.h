@@ -1,5 +1,5 @@
 /* The files of a run that grow with it: probes.csv, energy.csv, history.csv, steps.csv,
-   compare.csv, states.bin, fields. */
+   compare.csv, reactions.csv, states.bin, fields. Each is a writer (writer.h). */
 #ifndef COROT_APP_RUN_OUTPUTS_H
 #define COROT_APP_RUN_OUTPUTS_H
 
@@ -16,21 +16,24 @@ typedef struct instant {
   double dissipated, external_work; /* from the start to t [J] */
   double frame_energy;              /* put in by frame updates so far [J] */
   bool still;                       /* nothing moves, whatever supports do at t */
+  double factor;                    /* of the loads, in statics */
+  const double (*internal)[3];      /* [nnode] elastic force, in statics [N] */
 } instant;
 
-/* Makes `dir`, removes what an earlier run left there, and begins the files but
-   history.csv. Scenario and model must outlive the outputs. */
+/* Makes `dir`, removes what an earlier run left there, and begins the files that runs and statics
+   have in common. Scenario and model must outlive the outputs. */
 corot_status outputs_open(const scenario *s, const corot_model *model, const char *dir,
                           outputs **out);
 
-/* Begins DIR/history.csv if the scenario wants it. Call this before the first instant is written.
- */
-corot_status outputs_open_history(outputs *o, const char *dir);
+/* Begins those that only one of them has: history.csv if the scenario wants it, reactions.csv. Call
+   this before the first instant is written. */
+corot_status outputs_open_run(outputs *o, const char *dir);
+corot_status outputs_open_statics(outputs *o, const char *dir);
 
-/* Adds a row to probes.csv, energy.csv and compare.csv, a record to states.bin, and a frame to the
-   fields if it is their turn (every scenario.field_every times, and the `last`). Where an
-   evaluation fails nothing is written. The energy balance is taken against the first instant, with
-   which the history begins; one that is still (statics) enters it as well. */
+/* Adds a row to probes.csv, energy.csv, compare.csv and reactions.csv, a record to states.bin, and
+   a frame to the fields if it is their turn (every scenario.field_every times, and the `last`).
+   Where an evaluation fails nothing is written. The energy balance is taken against the first
+   instant, with which the history begins; one that is still (statics) enters it as well. */
 corot_status outputs_write(outputs *o, corot_state *state, const instant *now, bool last);
 
 /* Adds the end of a step to the history; `e` are the energies of that instant. Call this after the
@@ -40,6 +43,9 @@ corot_status outputs_history(outputs *o, const instant *now, const corot_energie
 /* Adds a row to steps.csv. */
 corot_status outputs_step(outputs *o, const step_row *row);
 
+/* The name of each file, i = 0, 1, ...; NULL beyond the last. */
+const char *outputs_file(int i);
+
 /* How many moments were written. */
 long outputs_count(const outputs *o);
 
@@ -47,6 +53,10 @@ long outputs_count(const outputs *o);
 ledger outputs_ledger(const outputs *o);
 int outputs_nprobe(const outputs *o);
 const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]);
+
+/* The forces of the supports at the moment written last: reactions_last, and as that before the
+   outputs are closed; NULL without reactions.csv. */
+json_t *outputs_reactions(const outputs *o);
 
 /* Extremes of probes and energies: history_extremes. */
 json_t *outputs_extremes(const outputs *o);

@@ -23,20 +23,15 @@ struct reactions {
   double (*load)[3];  /* [nnode] */
 };
 
-corot_status reactions_close(reactions *r) {
+static corot_status close_reactions(void *writer) {
+  reactions *r = writer;
   corot_status status = table_close(r->table);
-  r->table = NULL;
-  return status;
-}
-
-void reactions_destroy(reactions *r) {
-  if (!r) return;
-  reactions_close(r);
   free(r->support);
   free(r->name);
   free(r->force);
   free(r->load);
   free(r);
+  return status;
 }
 
 /* The support of a group, begun if there is none yet. */
@@ -49,18 +44,18 @@ static support *support_of(reactions *r, const char *name) {
 }
 
 static void find_supports(reactions *r, const scenario *s) {
-  for (int i = 0; i < s->nfix; i++) {
-    support *at = support_of(r, s->fix[i].group);
-    for (int c = 0; c < 3; c++) at->held[c] |= s->fix[i].component[c];
+  for (int i = 0; i < s->model.nfix; i++) {
+    support *at = support_of(r, s->model.fix[i].group);
+    for (int c = 0; c < 3; c++) at->held[c] |= s->model.fix[i].component[c];
   }
-  for (int i = 0; i < s->nmotion; i++) {
-    support *at = support_of(r, s->motion[i].group);
+  for (int i = 0; i < s->model.nmotion; i++) {
+    support *at = support_of(r, s->model.motion[i].group);
     for (int c = 0; c < 3; c++) at->held[c] = true;
   }
 }
 
 static corot_status begin(reactions *r, const char *dir, const scenario *s) {
-  size_t most = (size_t)s->nfix + (size_t)s->nmotion + 1;
+  size_t most = (size_t)s->model.nfix + (size_t)s->model.nmotion + 1;
   r->support = calloc(most, sizeof *r->support);
   r->name = calloc(most, sizeof *r->name);
   r->force = calloc(most, sizeof *r->force);
@@ -71,37 +66,44 @@ static corot_status begin(reactions *r, const char *dir, const scenario *s) {
   return reactions_open(dir, r->n, r->name, &r->table);
 }
 
-corot_status reactions_create(const char *dir, const scenario *s, const corot_model *model,
-                              reactions **out) {
+static corot_status open_reactions(const writer_source *source, void **writer) {
   reactions *r = calloc(1, sizeof *r);
-  if (!r) return corot_fail(COROT_ENOMEM, "%s/reactions.csv: out of memory", dir);
-  r->model = model;
-  r->t_end = s->t_end;
-  corot_status status = begin(r, dir, s);
+  if (!r) return corot_fail(COROT_ENOMEM, "%s/reactions.csv: out of memory", source->dir);
+  r->model = source->model;
+  r->t_end = source->scenario->t_end;
+  corot_status status = begin(r, source->dir, source->scenario);
   if (status != COROT_OK) {
-    reactions_destroy(r);
+    close_reactions(r);
     return status;
   }
-  *out = r;
+  *writer = r;
   return COROT_OK;
 }
 
-corot_status reactions_add(reactions *r, double factor, const double (*displacement)[3],
-                           const double (*internal)[3]) {
-  COROT_TRY(corot_load_force(r->model, r->t_end, factor, displacement, r->load));
+static corot_status write_reactions(void *writer, const moment *now) {
+  reactions *r = writer;
+  COROT_TRY(corot_load_force(r->model, r->t_end, now->factor, now->displacement, r->load));
   for (int k = 0; k < r->n; k++) {
     const support *s = &r->support[k];
     for (int c = 0; c < 3; c++) {
       double sum = 0;
       for (int i = 0; s->held[c] && i < s->group->nnode; i++) {
         int n = s->group->node[i];
-        sum += internal[n][c] - r->load[n][c];
+        sum += now->internal[n][c] - r->load[n][c];
       }
       r->force[k][c] = sum;
     }
   }
-  return reactions_row(r->table, factor * r->t_end, r->n, (const double(*)[3])r->force);
+  return reactions_row(r->table, now->factor * r->t_end, r->n, (const double(*)[3])r->force);
 }
+
+const writer_ops reactions_writer = {
+    .file = "reactions.csv",
+    .use = WRITER_OF_STATICS,
+    .open = open_reactions,
+    .moment = write_reactions,
+    .close = close_reactions,
+};
 
 json_t *reactions_last(const reactions *r) {
   json_t *all = json_object();

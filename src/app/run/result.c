@@ -9,7 +9,6 @@
 #include "app/folder/folder.h"
 #include "app/folder/provenance.h"
 #include "app/text/json_text.h"
-#include "result_statics.h"
 
 /* Zero stands for what was not asked for. */
 static json_t *positive(double x) { return x > 0 ? json_text_real(x) : json_null(); }

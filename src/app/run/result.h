@@ -19,6 +19,7 @@
 #include "app/scenario/warnings.h"
 #include "failure.h"
 #include "outputs.h"
+#include "result_statics.h"
 
 /* All updates of held or extrapolated frames. */
 typedef struct frame_totals {
@@ -26,16 +27,6 @@ typedef struct frame_totals {
   double angle_max, angle_mean; /* the largest and the mean turn of a frame [rad] */
   double energy;                /* put in [J] */
 } frame_totals;
-
-/* What a search for an equilibrium has to say beside that. */
-typedef struct statics_summary {
-  corot_statics_counts counts;
-  const char *linear_solver;
-  double factor;           /* reached */
-  double stable, unstable; /* load factors between which stability was lost; NaN: nowhere */
-  json_t *steps;           /* a list with an object for each load step */
-  json_t *reactions;       /* by group, at the last equilibrium */
-} statics_summary;
 
 /* What a run has to say when it is over. */
 typedef struct run_summary {

@@ -21,7 +21,7 @@ static corot_status make_text(const scenario *s, const brief_result *what, json_
   result = json_text_with(result, "title", s ? json_text_string(s->title) : json_null());
   result = json_text_with(result, "warnings",
                           what->warnings ? warnings_json(what->warnings) : json_array());
-  result = json_text_with(result, "strain", s ? json_string(s->strain) : json_null());
+  result = json_text_with(result, "strain", s ? json_string(s->model.strain) : json_null());
   result = json_text_with(result, "versions", result_versions());
   result = json_text_with(result, "provenance", provenance);
   result = json_text_with(result, "scenario", s ? json_incref(s->resolved) : json_null());

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/command/cli.h"
 #include "app/text/say.h"
 #include "outputs.h"
 #include "progress.h"
@@ -320,7 +319,7 @@ static int conclude(run *r, corot_status status) {
 static corot_status open_outputs(run *r) {
   COROT_TRY(run_enter(r->scenario->path, r->options, &r->lock));
   COROT_TRY(outputs_open(r->scenario, r->model, r->options->dir, &r->outputs));
-  return outputs_open_history(r->outputs, r->options->dir);
+  return outputs_open_run(r->outputs, r->options->dir);
 }
 
 static int integrate_scenario(const scenario *s, const run_options *options) {
@@ -342,6 +341,8 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
   release(&r);
   return code;
 }
+
+void run_interrupt(int signal_number) { stop_request(signal_number); }
 
 int run_scenario(const scenario *s, const run_options *options) {
   return run_in_c_locale(integrate_scenario, s, options);

@@ -2,15 +2,7 @@
 #ifndef COROT_APP_RUN_RUN_H
 #define COROT_APP_RUN_RUN_H
 
-#include "app/scenario/scenario.h"
-
-typedef struct run_options {
-  const char *dir; /* made if need be; files of an earlier run in it are replaced */
-  bool force;      /* files of others, too, where they have the names of a run's */
-  bool progress;   /* a line on stderr while it runs, if that is a terminal */
-  bool quiet;      /* nothing on stderr but the reason of a failure */
-  bool json;       /* result.json on stdout, too */
-} run_options;
+#include "run_options.h"
 
 /* Runs the scenario and writes its files: probes.csv, energy.csv, history.csv, steps.csv,
    compare.csv (write_csv.h), states.bin (states.h), fields (write_vtu.h) and result.json. Messages

@@ -6,15 +6,12 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "app/command/cli.h"
 #include "app/folder/folder.h"
 #include "app/folder/folder_files.h"
 #include "app/folder/folder_owner.h"
 #include "app/text/say.h"
 #include "result_brief.h"
 #include "stop.h"
-
-void run_interrupt(int signal_number) { stop_request(signal_number); }
 
 int run_interrupted(size_t size, char *reason) {
   snprintf(reason, size, "interrupted by signal %d", stop_signal());

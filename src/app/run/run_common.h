@@ -3,11 +3,10 @@
 #define COROT_APP_RUN_RUN_COMMON_H
 
 #include "app/folder/folder_lock.h"
+#include "exit_code.h"
 #include "outputs.h"
 #include "result.h"
-#include "run.h"
-
-enum { EXIT_SIGNAL = 128 }; /* and the number of the signal that ended the run */
+#include "run_options.h"
 
 int run_exit_code(corot_status status);
 

@@ -6,10 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/command/cli.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
-#include "reactions.h"
 #include "run_clock.h"
 #include "run_common.h"
 #include "stop.h"
@@ -23,7 +21,6 @@ typedef struct equilibrium_run {
   corot_state *state; /* for outputs */
   corot_statics *statics;
   outputs *outputs;
-  reactions *reactions;
   double *u, *v;                         /* [n] v is zero */
   double (*nodal)[3];                    /* [5 nnode] room for the following */
   double (*x)[3], (*f)[3];               /* [nnode] displacement and internal force now */
@@ -79,12 +76,11 @@ static corot_status open_outputs(equilibrium_run *r) {
   const scenario *s = r->scenario;
   COROT_TRY(run_enter(s->path, r->options, &r->lock));
   COROT_TRY(outputs_open(s, r->model, r->options->dir, &r->outputs));
-  return reactions_create(r->options->dir, s, r->model, &r->reactions);
+  return outputs_open_statics(r->outputs, r->options->dir);
 }
 
 static void release(equilibrium_run *r) {
   outputs_destroy(r->outputs);
-  reactions_destroy(r->reactions);
   corot_statics_destroy(r->statics);
   corot_state_destroy(r->state);
   corot_model_destroy(r->model);
@@ -115,11 +111,14 @@ static corot_status add_work(equilibrium_run *r, double t) {
 static corot_status write_equilibrium(equilibrium_run *r, bool last) {
   double started = wall_clock(), t = r->factor * r->scenario->t_end;
   corot_status status = add_work(r, t);
-  instant now = {.t = t, .u = r->u, .v = r->v, .external_work = r->work, .still = true};
+  instant now = {.t = t,
+                 .u = r->u,
+                 .v = r->v,
+                 .external_work = r->work,
+                 .still = true,
+                 .factor = r->factor,
+                 .internal = (const double(*)[3])r->f_before}; /* which are those of now */
   if (status == COROT_OK) status = outputs_write(r->outputs, r->state, &now, last);
-  if (status == COROT_OK)
-    status = reactions_add(r->reactions, r->factor, (const double(*)[3])r->x_before,
-                           (const double(*)[3])r->f_before); /* which are those of now */
   r->output_s += wall_clock() - started;
   return status;
 }
@@ -239,9 +238,8 @@ static int conclude(equilibrium_run *r, corot_status status) {
     snprintf(reason, sizeof reason, "%s", corot_error());
   stop_heeded();
 
-  corot_status late = outputs_close(r->outputs), closed = reactions_close(r->reactions);
-  if (late == COROT_OK) late = closed;
-  r->reactions_at_end = reactions_last(r->reactions);
+  r->reactions_at_end = outputs_reactions(r->outputs);
+  corot_status late = outputs_close(r->outputs);
   if (code == 0 && late != COROT_OK) {
     code = run_exit_code(late);
     status = late;

@@ -3,7 +3,7 @@
 #ifndef COROT_APP_RUN_STATIC_H
 #define COROT_APP_RUN_STATIC_H
 
-#include "run.h"
+#include "run_options.h"
 
 /* The loads are those of time.end; the time of a row is the load factor times time.end, where the
    supports stand. external_work in energy.csv is by the trapezoidal rule over the load steps, so

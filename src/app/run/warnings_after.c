@@ -59,10 +59,10 @@ static corot_status find_energy(const scenario *s, const history_facts *h, warni
 /* What the measure makes of strains beyond the limit: between uniaxial stresses of laws with the
    same E and nu there are terms of second order in the strain. */
 static const char *about_measure(const scenario *s) {
-  if (corot_strain_find(s->strain)->exact)
+  if (corot_strain_find(s->model.strain)->exact)
     return "green's law (St. Venant-Kirchhoff) gets stiffer in tension, and softer in compression "
            "until it gives way at a stretch of 0.577";
-  if (corot_strain_find(s->strain)->linear)
+  if (corot_strain_find(s->model.strain)->linear)
     return "cauchy is linear, which holds for small strains";
   return "the law is linear in the strain, and others with the same E and nu differ from it by "
          "then "
@@ -94,7 +94,7 @@ static corot_status find_strains(const scenario *s, const observed *o, warnings 
 
 static corot_status find_inverted(const scenario *s, const observed *o, warnings *w) {
   const corot_deformation *d = &o->inverted;
-  if (d->ninverted == 0 || !corot_strain_find(s->strain)->linear) return COROT_OK;
+  if (d->ninverted == 0 || !corot_strain_find(s->model.strain)->linear) return COROT_OK;
   return warnings_add(w, WARNING_INVERTED,
                       "at t = %.4g s %d tet%s turned inside out, tet %d the furthest (det F = "
                       "%.3g): no body does that, but cauchy, which is linear, does not notice; "

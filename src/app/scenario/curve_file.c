@@ -15,8 +15,9 @@ enum { MOST_BYTES = 256 << 20 };
 typedef struct reading {
   config *tree;
   config_source source;
-  size_t at; /* in the source's text */
-  bool jumps;
+  size_t at;    /* in the source's text */
+  int wanted;   /* a point, or -1, and */
+  size_t place; /* where it stands */
   int n, room;
   double *time, *value; /* [room] */
 } reading;
@@ -73,24 +74,9 @@ static corot_status make_room(reading *r) {
   return COROT_OK;
 }
 
-/* The times in order, at `at` that of the point to come. */
-static corot_status check_time(const reading *r, size_t at, double t) {
-  int n = r->n;
-  if (n == 0 || t > r->time[n - 1]) return COROT_OK;
-  if (t < r->time[n - 1])
-    return config_fail_at(&r->source, at, "times must increase, but %g follows %g", t,
-                          r->time[n - 1]);
-  if (!r->jumps)
-    return config_fail_at(&r->source, at, "the second point at %g: there are no jumps here", t);
-  if (n > 1 && t == r->time[n - 2])
-    return config_fail_at(
-        &r->source, at, "the third point at %g: a jump has a value before it and one after it", t);
-  return COROT_OK;
-}
-
 static corot_status take_point(reading *r) {
   double t, value;
-  size_t at = r->at;
+  if (r->n == r->wanted) r->place = r->at;
   COROT_TRY(take_number(r, "a time", &t));
   char separator = r->source.text[r->at];
   if (separator == ',' || separator == ';') {
@@ -100,7 +86,6 @@ static corot_status take_point(reading *r) {
   COROT_TRY(take_number(r, "a value", &value));
   if (!line_ends(r))
     return config_fail_at(&r->source, r->at, "expected two columns, time and value; here is more");
-  COROT_TRY(check_time(r, at, t));
   COROT_TRY(make_room(r));
   r->time[r->n] = t;
   r->value[r->n++] = value;
@@ -139,19 +124,38 @@ static corot_status load(const config_node *node, const char *path, char **text,
   return status == COROT_EIO ? config_fail(node, "%s", corot_error()) : status;
 }
 
-corot_status curve_file_read(config *tree, const config_node *node, const char *path, bool jumps,
-                             curve *out) {
-  char *text = NULL;
+/* Takes all points of a file, and notes where the wanted one stands. The text is the caller's to
+   free, on failure as well. */
+static corot_status take_file(config *tree, const config_node *node, const char *path, int wanted,
+                              reading *r, char **text) {
   size_t size = 0;
-  COROT_TRY(load(node, path, &text, &size));
-  reading r = {.tree = tree,
-               .source = {.name = path, .text = text, .size = size, .lines = true},
-               .jumps = jumps};
-  corot_status status = take_points(&r);
+  COROT_TRY(load(node, path, text, &size));
+  *r = (reading){.tree = tree,
+                 .source = {.name = path, .text = *text, .size = size, .lines = true},
+                 .wanted = wanted};
+  return take_points(r);
+}
+
+corot_status curve_file_read(config *tree, const config_node *node, const char *path, curve *out) {
+  reading r;
+  char *text = NULL;
+  corot_status status = take_file(tree, node, path, -1, &r, &text);
   if (status == COROT_OK) {
     *out = (curve){.n = r.n, .time = r.time, .value = r.value};
-    hash_bytes(text, size, out->digest);
+    hash_bytes(text, r.source.size, out->digest);
   }
+  free(text);
+  return status;
+}
+
+corot_status curve_file_fail(config *tree, const config_node *node, const char *scenario_path,
+                             int point, const char *reason) {
+  const char *path = config_beside(tree, scenario_path, node->text);
+  if (!path) return no_memory();
+  reading r;
+  char *text = NULL;
+  corot_status status = take_file(tree, node, path, point, &r, &text);
+  if (status == COROT_OK) status = config_fail_at(&r.source, r.place, "%s", reason);
   free(text);
   return status;
 }

@@ -30,8 +30,8 @@ static double group_volume(const corot_mesh *mesh, const corot_group *group) {
 /* Each tet has one material: that of its group, or else the one without a group. */
 static double total_mass(const scenario *s, const facts *f) {
   double mass = 0, rest = f->quality.volume, density = 0;
-  for (int i = 0; i < s->nmaterial; i++) {
-    const corot_material *m = &s->material[i];
+  for (int i = 0; i < s->model.nmaterial; i++) {
+    const corot_material *m = &s->model.material[i];
     if (!m->group) {
       density = m->density;
       continue;
@@ -105,19 +105,20 @@ static const char *const motion_words[] = {
 };
 
 static void print_uses(const scenario *s, const char *group, FILE *out) {
-  for (int i = 0; i < s->nfix; i++) {
-    if (!is_named(s->fix[i].group, group)) continue;
+  for (int i = 0; i < s->model.nfix; i++) {
+    if (!is_named(s->model.fix[i].group, group)) continue;
     fputs("; fixed", out);
     for (int k = 0; k < 3; k++)
-      if (s->fix[i].component[k]) fprintf(out, " %c", "xyz"[k]);
+      if (s->model.fix[i].component[k]) fprintf(out, " %c", "xyz"[k]);
   }
-  for (int i = 0; i < s->nmotion; i++)
-    if (is_named(s->motion[i].group, group)) fprintf(out, "; %s", motion_words[s->motion[i].kind]);
-  for (int i = 0; i < s->nload; i++)
-    if (is_named(s->load[i].group, group))
-      fprintf(out, "; %s", scenario_load_words[s->load[i].kind]);
-  for (int i = 0; i < s->nmaterial; i++)
-    if (is_named(s->material[i].group, group)) fputs("; material", out);
+  for (int i = 0; i < s->model.nmotion; i++)
+    if (is_named(s->model.motion[i].group, group))
+      fprintf(out, "; %s", motion_words[s->model.motion[i].kind]);
+  for (int i = 0; i < s->model.nload; i++)
+    if (is_named(s->model.load[i].group, group))
+      fprintf(out, "; %s", scenario_load_words[s->model.load[i].kind]);
+  for (int i = 0; i < s->model.nmaterial; i++)
+    if (is_named(s->model.material[i].group, group)) fputs("; material", out);
 }
 
 /* A symmetric split cuts the middle one of an odd number of cells in halves. */
@@ -152,7 +153,7 @@ static void print_mesh(const scenario *s, const facts *f, FILE *out) {
 
 static void print_frames(const scenario *s, FILE *out) {
   const corot_frame_policy *p = &s->frames;
-  fprintf(out, "strain         %s, frames: %s", s->strain, s->frame_policy);
+  fprintf(out, "strain         %s, frames: %s", s->model.strain, s->frame_policy);
   if (p->interval > 0) fprintf(out, ", every %g s", p->interval);
   if (p->max_angle > 0) fprintf(out, ", beyond %g rad", p->max_angle);
   fputc('\n', out);
@@ -164,15 +165,15 @@ static const char *viscosity_name(const facts *f) {
 
 static void print_viscosity(const scenario *s, const facts *f, FILE *out) {
   bool viscous = false;
-  for (int i = 0; i < s->nmaterial; i++)
-    viscous |= s->material[i].damping_lambda > 0 || s->material[i].damping_mu > 0;
+  for (int i = 0; i < s->model.nmaterial; i++)
+    viscous |= s->model.material[i].damping_lambda > 0 || s->model.material[i].damping_mu > 0;
   if (viscous) fprintf(out, "viscosity      %s\n", viscosity_name(f));
 }
 
 static void print_dilatation(const scenario *s, FILE *out) {
-  if (s->dilatation == COROT_DILATATION_NODAL)
+  if (s->model.dilatation == COROT_DILATATION_NODAL)
     fprintf(out, "dilatation     averaged at the nodes, but for %g mu of lambda\n",
-            s->dilatation_local);
+            s->model.dilatation_local);
 }
 
 static void print_amplitude(const corot_amplitude *a, FILE *out) {
@@ -234,16 +235,16 @@ static void print_start(const start_def *start, FILE *out) {
 
 /* What acts on the body from outside, and what it begins with. */
 static void print_inputs(const scenario *s, FILE *out) {
-  for (int i = 0; i < s->nload; i++) print_load(&s->load[i], out);
-  for (int i = 0; i < s->nmotion; i++) print_motion(&s->motion[i], out);
+  for (int i = 0; i < s->model.nload; i++) print_load(&s->model.load[i], out);
+  for (int i = 0; i < s->model.nmotion; i++) print_motion(&s->model.motion[i], out);
   if (s->start_at_equilibrium) fputs("start          in equilibrium\n", out);
   for (int i = 0; i < s->nstart; i++) print_start(&s->start[i], out);
 }
 
 static void print_model(const scenario *s, const facts *f, FILE *out) {
   int ndof = corot_model_ndof(f->model), all = 3 * f->mesh->nnode;
-  for (int i = 0; i < s->nmaterial; i++) {
-    const corot_material *m = &s->material[i];
+  for (int i = 0; i < s->model.nmaterial; i++) {
+    const corot_material *m = &s->model.material[i];
     fprintf(out, "material       %s%slambda %g, mu %g Pa; %g kg/m^3; damping %g, %g Pa s",
             m->group ? m->group : "", m->group ? ": " : "", m->lambda, m->mu, m->density,
             m->damping_lambda, m->damping_mu);
@@ -253,7 +254,7 @@ static void print_model(const scenario *s, const facts *f, FILE *out) {
   fprintf(out, "mass           %.6g kg\n", f->mass);
   fprintf(out, "freedom        %d of %d components%s\n", ndof, all,
           ndof == all ? ": a free body" : "");
-  fprintf(out, "loads          %d\n", s->nload);
+  fprintf(out, "loads          %d\n", s->model.nload);
   print_inputs(s, out);
   print_frames(s, out);
   print_viscosity(s, f, out);
@@ -351,14 +352,14 @@ static void add_amplitude(json_t *list, const char *key, const corot_amplitude *
 static json_t *amplitudes_json(const scenario *s) {
   json_t *list = json_array();
   char key[32];
-  for (int i = 0; i < s->nload; i++) {
+  for (int i = 0; i < s->model.nload; i++) {
     snprintf(key, sizeof key, "loads[%d]", i);
-    add_amplitude(list, key, &s->load[i].amplitude);
+    add_amplitude(list, key, &s->model.load[i].amplitude);
   }
-  for (int i = 0; i < s->nmotion; i++) {
-    if (s->motion[i].kind != COROT_MOVE && s->motion[i].kind != COROT_TURN) continue;
-    snprintf(key, sizeof key, "motion of %.20s", s->motion[i].group);
-    add_amplitude(list, key, &s->motion[i].amplitude);
+  for (int i = 0; i < s->model.nmotion; i++) {
+    if (s->model.motion[i].kind != COROT_MOVE && s->model.motion[i].kind != COROT_TURN) continue;
+    snprintf(key, sizeof key, "motion of %.20s", s->model.motion[i].group);
+    add_amplitude(list, key, &s->model.motion[i].amplitude);
   }
   return list;
 }
@@ -379,11 +380,12 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "groups", facts_groups(f->mesh));
   j = json_text_with(j, "mass", json_real(f->mass));
   j = json_text_with(j, "dofs", json_integer(corot_model_ndof(f->model)));
-  j = json_text_with(j, "loads", json_integer(s->nload));
+  j = json_text_with(j, "loads", json_integer(s->model.nload));
   j = json_text_with(j, "amplitudes", amplitudes_json(s));
-  j = json_text_with(j, "strain", json_string(s->strain));
-  j = json_text_with(j, "dilatation",
-                     json_string(s->dilatation == COROT_DILATATION_NODAL ? "nodal" : "local"));
+  j = json_text_with(j, "strain", json_string(s->model.strain));
+  j = json_text_with(
+      j, "dilatation",
+      json_string(s->model.dilatation == COROT_DILATATION_NODAL ? "nodal" : "local"));
   j = json_text_with(j, "viscosity", json_string(viscosity_name(f)));
   j = json_text_with(j, "frames", json_string(s->frame_policy));
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));

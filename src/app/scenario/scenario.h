@@ -47,29 +47,12 @@ typedef struct scenario {
   int ngroup;
   const group_def *group;
 
-  int nmaterial;
-  const corot_material *material;
-  const char *strain;
-
-  const char *coarse_strain; /* of the unrefined mesh; NULL: no hierarchy */
-  int frame_level;
-  bool conservative;
-  corot_coupling coupling;
-
-  corot_viscosity viscosity;
-  corot_mass mass;
-  corot_dilatation dilatation;
-  double dilatation_local; /* [mu] */
+  corot_model_def model;         /* all but the mesh, which scenario_build makes; model.hierarchy is
+                                    NULL or the address of */
+  corot_hierarchy_def hierarchy; /* all but the refinement */
 
   const char *frame_policy; /* its name */
   corot_frame_policy frames;
-
-  int nfix;
-  const corot_fix *fix;
-  int nmotion;
-  const corot_motion *motion;
-  int nload;
-  const corot_load *load;
 
   double t_end;       /* [s] */
   double output_step; /* [s] */

@@ -42,15 +42,9 @@ static corot_status read_frames(scenario *s) {
   return COROT_OK;
 }
 
-static corot_status read_viscosity(scenario *s) {
-  config_node *root = s->source->root;
-  s->viscosity = text_is(root, "viscosity", "auto")        ? COROT_VISCOSITY_AUTO
-                 : text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE
-                                                           : COROT_COROTATED;
-  if (s->viscosity == COROT_OBJECTIVE && !corot_strain_find(s->strain)->polar)
-    return config_fail(config_find(root, "viscosity"),
-                       "objective needs strain: polar or hybrid, not %s", s->strain);
-  return COROT_OK;
+static corot_viscosity viscosity_at(config_node *root) {
+  if (text_is(root, "viscosity", "auto")) return COROT_VISCOSITY_AUTO;
+  return text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE : COROT_COROTATED;
 }
 
 static corot_status read_constant_step(config_node *node, corot_integrator_def *def) {
@@ -166,15 +160,16 @@ static corot_status read_integrator(scenario *s) {
 
 static void read_dilatation(scenario *s) {
   config_node *node = config_find(s->source->root, "dilatation");
-  s->dilatation = text_is(node, "name", "nodal") ? COROT_DILATATION_NODAL : COROT_DILATATION_LOCAL;
-  s->dilatation_local = number_at(node, "local");
+  s->model.dilatation =
+      text_is(node, "name", "nodal") ? COROT_DILATATION_NODAL : COROT_DILATATION_LOCAL;
+  s->model.dilatation_local = number_at(node, "local");
 }
 
 corot_status scenario_read_method(scenario *s) {
-  s->mass =
+  s->model.mass =
       text_is(s->source->root, "mass", "consistent") ? COROT_MASS_CONSISTENT : COROT_MASS_LUMPED;
   read_dilatation(s);
-  COROT_TRY(read_viscosity(s));
+  s->model.viscosity = viscosity_at(s->source->root);
   COROT_TRY(read_frames(s));
   return read_integrator(s);
 }

@@ -20,8 +20,8 @@ corot_status scenario_read_method(scenario *s);
 /* Whether the linear solver may have to know the levels of mesh.refine. */
 bool scenario_solves_by_levels(const scenario *s);
 
-/* hierarchy, after viscosity */
-corot_status scenario_read_hierarchy(scenario *s);
+/* hierarchy */
+void scenario_read_hierarchy(scenario *s);
 
 /* statics, after linear_solver */
 corot_status scenario_read_statics(scenario *s);
@@ -29,9 +29,8 @@ corot_status scenario_read_statics(scenario *s);
 /* start, after boundary */
 corot_status scenario_read_start(scenario *s);
 
-/* An amplitude, with or without jumps; its memory is the tree's. */
-corot_status scenario_read_amplitude(scenario *s, config_node *node, bool jumps,
-                                     corot_amplitude *a);
+/* An amplitude; its memory is the tree's. */
+corot_status scenario_read_amplitude(scenario *s, config_node *node, corot_amplitude *a);
 
 /* COROT_EFORMAT at `node` where the amplitude of a motion is not zero at t = 0. */
 corot_status scenario_check_moved_start(const config_node *node, const corot_amplitude *a);

@@ -35,7 +35,7 @@ static corot_status read_entry(scenario *s, config_node *node, bool alone) {
 /* A body at rest is undeformed only where nothing that moves it is displaced. */
 static corot_status check_moved(scenario *s) {
   if (s->start_at_equilibrium) return COROT_OK;
-  const corot_motion *m = s->motion;
+  const corot_motion *m = s->model.motion;
   config_node *c = config_find(s->source->root, "boundary")->child;
   for (; c; c = c->next) {
     if (config_find(c, "fix")) continue;

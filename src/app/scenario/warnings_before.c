@@ -13,8 +13,8 @@
 #define MOST_LAMBDA 10.0
 
 static corot_status find_locking(const scenario *s, warnings *w) {
-  for (int i = 0; i < s->nmaterial && s->dilatation != COROT_DILATATION_NODAL; i++) {
-    const corot_material *m = &s->material[i];
+  for (int i = 0; i < s->model.nmaterial && s->model.dilatation != COROT_DILATATION_NODAL; i++) {
+    const corot_material *m = &s->model.material[i];
     if (!(m->lambda > MOST_LAMBDA * m->mu)) continue;
     double ratio = m->lambda / m->mu;
     COROT_TRY(warnings_add(

@@ -33,8 +33,8 @@
 static bool is_zero(const double x[3]) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
 
 static bool is_undamped(const scenario *s) {
-  for (int i = 0; i < s->nmaterial; i++) {
-    const corot_material *m = &s->material[i];
+  for (int i = 0; i < s->model.nmaterial; i++) {
+    const corot_material *m = &s->model.material[i];
     if (m->damping_lambda > 0 || m->damping_mu > 0 || m->damping_mass > 0) return false;
   }
   return true;
@@ -58,13 +58,13 @@ static bool will_move(const scenario *s, bool is_free) {
     if (d->rate != 0) return true;
     if (!is_zero(d->velocity) && (d->group || !is_free)) return true;
   }
-  for (int i = 0; i < s->nload; i++) {
-    const corot_load *l = &s->load[i];
+  for (int i = 0; i < s->model.nload; i++) {
+    const corot_load *l = &s->model.load[i];
     bool stays = l->amplitude.curve == COROT_CURVE_LINEAR && l->amplitude.n < 2;
     if (is_zero(l->value) || (is_free && l->kind == COROT_GRAVITY)) continue;
     if (!(stays && s->start_at_equilibrium)) return true;
   }
-  return s->nmotion > 0;
+  return s->model.nmotion > 0;
 }
 
 corot_status warnings_find_integrator(const scenario *s, const corot_model *model, warnings *w) {

@@ -6,7 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/fault.h"
+
 #define TWO_PI 6.283185307179586
+
+/* Whose amplitude it is: an entry of a definition. */
+typedef struct user {
+  const char *entry;
+  int index;
+} user;
 
 /* --- Points ---------------------------------------------------------------------------------- */
 
@@ -23,32 +31,35 @@ static int points_until(int n, const double *time, double t) {
   return low;
 }
 
-static corot_status check_points(const corot_amplitude *a, const char *user) {
+static corot_status check_points(const corot_amplitude *a, const user *of) {
   for (int i = 0; i < a->n; i++) {
-    if (!isfinite(a->time[i]) || !isfinite(a->value[i]))
-      return corot_fail(COROT_EINVAL, "%spoint %d of the amplitude is not finite", user, i);
-    if (i > 0 && !(a->time[i] >= a->time[i - 1]))
-      return corot_fail(COROT_EINVAL, "%sthe amplitude's times do not increase at point %d", user,
-                        i);
-    if (i > 0 && a->time[i] == a->time[i - 1] && a->curve == COROT_CURVE_SMOOTH)
-      return corot_fail(COROT_EINVAL,
-                        "%sthe amplitude has two points at t = %g: a smooth one has no jumps", user,
-                        a->time[i]);
-    if (i > 1 && a->time[i] == a->time[i - 2])
-      return corot_fail(COROT_EINVAL,
-                        "%sthe amplitude has more than two points at t = %g: a jump has a value "
-                        "before it and one after it",
-                        user, a->time[i]);
+    double t = a->time[i];
+    const corot_fault at = {
+        .entry = of->entry, .index = of->index, .field = "amplitude.time", .point = i};
+    if (!isfinite(t) || !isfinite(a->value[i]))
+      return corot_fail_about(&at, "point %d of the amplitude is not finite", i);
+    if (i > 0 && !(t >= a->time[i - 1]))
+      return corot_fail_about(&at,
+                              "the amplitude's times do not increase at point %d: %g follows %g", i,
+                              t, a->time[i - 1]);
+    if (i > 0 && t == a->time[i - 1] && a->curve == COROT_CURVE_SMOOTH)
+      return corot_fail_about(
+          &at, "the amplitude has two points at t = %g: a smooth one has no jumps", t);
+    if (i > 1 && t == a->time[i - 2])
+      return corot_fail_about(&at,
+                              "the amplitude has more than two points at t = %g: a jump has a "
+                              "value before it and one after it",
+                              t);
   }
   return COROT_OK;
 }
 
-static corot_status copy_points(const corot_amplitude *from, const char *user, amplitude *to) {
+static corot_status copy_points(const corot_amplitude *from, amplitude *to) {
   size_t n = (size_t)from->n;
   to->time = malloc(n * sizeof *to->time);
   to->value = malloc(n * sizeof *to->value);
   if (!to->time || !to->value)
-    return corot_fail(COROT_ENOMEM, "%sno memory for an amplitude of %d points", user, from->n);
+    return corot_fail(COROT_ENOMEM, "no memory for an amplitude of %d points", from->n);
   memcpy(to->time, from->time, n * sizeof *to->time);
   memcpy(to->value, from->value, n * sizeof *to->value);
   to->n = from->n;
@@ -155,38 +166,39 @@ static void find_runs(amplitude *a, int n, const double (*e)[2]) {
   if (to != from) add_run(a, e, from, to, little);
 }
 
-static corot_status find_shape(amplitude *a, const char *user, double *above, double (*e)[2]) {
+static corot_status find_shape(amplitude *a, const user *of, double *above, double (*e)[2]) {
   find_slopes(a, above);
   int n = list_extremes(a, e);
   double least = a->least, most = a->most;
   for (int i = 0; i < n; i++) {
     if (!isfinite(e[i][1]) || !isfinite(e[i][0]))
-      return corot_fail(COROT_EINVAL, "%sthe spline through the amplitude's points overflows",
-                        user);
+      return corot_fail_at(of->entry, of->index, "amplitude",
+                           "the spline through the amplitude's points overflows");
     least = fmin(least, e[i][1]), most = fmax(most, e[i][1]);
     double beyond = fmax(a->least - e[i][1], e[i][1] - a->most);
     if (beyond > a->most - a->least)
-      return corot_fail(COROT_EINVAL,
-                        "%sthe spline through the amplitude's points swings out to %g at t = %g, "
-                        "far beyond them, %g to %g: give more points there, or let a rest before "
-                        "the first or after the last point go without any",
-                        user, e[i][1], e[i][0], a->least, a->most);
+      return corot_fail_at(
+          of->entry, of->index, "amplitude",
+          "the spline through the amplitude's points swings out to %g at t = %g, "
+          "far beyond them, %g to %g: give more points there, or let a rest before "
+          "the first or after the last point go without any",
+          e[i][1], e[i][0], a->least, a->most);
   }
   a->least = least, a->most = most;
   find_runs(a, n, (const double(*)[2])e);
   return COROT_OK;
 }
 
-static corot_status make_spline(amplitude *a, const char *user) {
+static corot_status make_spline(amplitude *a, const user *of) {
   size_t n = (size_t)a->n;
   double *above = malloc(n * sizeof *above), (*extreme)[2] = malloc(3 * n * sizeof *extreme);
   a->slope = malloc(n * sizeof *a->slope);
   a->run = malloc(3 * n * sizeof *a->run);
   corot_status status = COROT_OK;
   if (!above || !extreme || !a->slope || !a->run)
-    status = corot_fail(COROT_ENOMEM, "%sno memory for a spline of %d points", user, a->n);
+    status = corot_fail(COROT_ENOMEM, "no memory for a spline of %d points", a->n);
   else
-    status = find_shape(a, user, above, extreme);
+    status = find_shape(a, of, above, extreme);
   free(above);
   free(extreme);
   return status;
@@ -194,12 +206,14 @@ static corot_status make_spline(amplitude *a, const char *user) {
 
 /* --- All of them ----------------------------------------------------------------------------- */
 
-static corot_status make_sine(const corot_amplitude *from, const char *user, amplitude *to) {
+static corot_status make_sine(const corot_amplitude *from, const user *of, amplitude *to) {
   if (!(from->frequency > 0) || !isfinite(from->frequency))
-    return corot_fail(COROT_EINVAL, "%sthe amplitude's frequency = %g is not positive and finite",
-                      user, from->frequency);
+    return corot_fail_at(of->entry, of->index, "amplitude.frequency",
+                         "the amplitude's frequency = %g is not positive and finite",
+                         from->frequency);
   if (!isfinite(from->phase) || !isfinite(from->offset))
-    return corot_fail(COROT_EINVAL, "%sthe amplitude's phase or offset is not finite", user);
+    return corot_fail_at(of->entry, of->index, "amplitude.phase",
+                         "the amplitude's phase or offset is not finite");
   to->frequency = from->frequency;
   to->phase = from->phase;
   to->offset = from->offset;
@@ -207,22 +221,23 @@ static corot_status make_sine(const corot_amplitude *from, const char *user, amp
   return COROT_OK;
 }
 
-static corot_status make(const corot_amplitude *from, const char *user, amplitude *to) {
+static corot_status make(const corot_amplitude *from, const user *of, amplitude *to) {
   to->curve = from->curve;
   to->least = to->most = 1;
-  if (from->curve == COROT_CURVE_SINE) return make_sine(from, user, to);
+  if (from->curve == COROT_CURVE_SINE) return make_sine(from, of, to);
   if (from->curve != COROT_CURVE_LINEAR && from->curve != COROT_CURVE_SMOOTH)
-    return corot_fail(COROT_EINVAL, "%sno kind of amplitude has the number %d", user,
-                      (int)from->curve);
-  COROT_TRY(check_points(from, user));
+    return corot_fail_at(of->entry, of->index, "amplitude",
+                         "no kind of amplitude has the number %d", (int)from->curve);
+  COROT_TRY(check_points(from, of));
   if (from->n <= 0) return COROT_OK;
-  COROT_TRY(copy_points(from, user, to));
-  return from->curve == COROT_CURVE_SMOOTH ? make_spline(to, user) : COROT_OK;
+  COROT_TRY(copy_points(from, to));
+  return from->curve == COROT_CURVE_SMOOTH ? make_spline(to, of) : COROT_OK;
 }
 
-corot_status corot_amplitude_create(const corot_amplitude *from, const char *user, amplitude *to) {
+corot_status corot_amplitude_create(const corot_amplitude *from, const char *entry, int index,
+                                    amplitude *to) {
   amplitude a = {0};
-  corot_status status = make(from, user, &a);
+  corot_status status = make(from, &(user){entry, index}, &a);
   if (status)
     corot_amplitude_clear(&a);
   else

@@ -21,9 +21,11 @@ typedef struct amplitude {
   double frequency, phase, offset; /* of a sine */
 } amplitude;
 
-/* COROT_EINVAL, the message begun by `user`, "load 3: ": a number is not finite, times fall back,
-   or the spline through the points swings far beyond them. */
-corot_status corot_amplitude_create(const corot_amplitude *from, const char *user, amplitude *to);
+/* Of entry `index` of the list `entry`, "load" or "motion". COROT_EINVAL, with a fault (fault.h): a
+   number is not finite, times fall back, or the spline through the points swings far beyond them.
+ */
+corot_status corot_amplitude_create(const corot_amplitude *from, const char *entry, int index,
+                                    amplitude *to);
 
 /* Frees what it holds. */
 void corot_amplitude_clear(amplitude *a);

@@ -3,7 +3,9 @@
 
 #include <corot/hierarchy.h>
 
+#include "core/base/fault.h"
 #include "core/solid/measures.h"
+#include "definition.h"
 #include "model.h"
 
 corot_model_def corot_model_defaults(void) {
@@ -30,7 +32,7 @@ corot_status corot_model_restrict(const corot_model_def *def, int nnode, double 
 static corot_status hold_fixed(const corot_model_def *def, const corot_model *m, char (*held)[3]) {
   for (int k = 0; k < def->nfix; k++) {
     const corot_group *group;
-    COROT_TRY(corot_model_find_group(m->mesh, def->fix[k].group, "fix", &group));
+    COROT_TRY(corot_definition_nodes(m->mesh, "fix", k, def->fix[k].group, &group));
     for (int i = 0; i < group->nnode; i++)
       for (int c = 0; c < 3; c++)
         if (def->fix[k].component[c]) held[group->node[i]][c] = 1;
@@ -52,7 +54,9 @@ static corot_status number_dofs(const corot_model_def *def, corot_model *m) {
       for (int c = 0; c < 3; c++) m->dof[n][c] = held[n][c] ? -1 : m->ndof++;
   free(held);
   COROT_TRY(status);
-  if (m->ndof == 0) return corot_fail(COROT_EINVAL, "every node is fixed: nothing can move");
+  if (m->ndof == 0)
+    return corot_fail_at("model", 0, "fix",
+                         "all components of all %d nodes are held: nothing can move", nnode);
   int level_0 = m->system.term[0].from; /* one way, a body of its own */
   m->body_nnode = level_0 > 0 ? level_0 : nnode;
   for (int n = 0; n < m->body_nnode; n++)
@@ -140,9 +144,6 @@ static void find_scales(corot_model *m) {
    moduli. */
 static corot_status share_lambda(const corot_model_def *def, corot_model *m) {
   if (def->dilatation == COROT_DILATATION_LOCAL) return COROT_OK;
-  if (!(def->dilatation_local >= 0) || !isfinite(def->dilatation_local))
-    return corot_fail(COROT_EINVAL, "dilatation_local = %g is not a number of shear moduli >= 0",
-                      def->dilatation_local);
   for (int k = 0; k < m->nmaterial; k++) {
     material *a = &m->material[k];
     double local = def->dilatation_local * a->mu;
@@ -164,19 +165,12 @@ static const corot_hierarchy_def *refined(const corot_model_def *def) {
 static corot_status choose_strain(const corot_model_def *def, system_def *of) {
   const corot_hierarchy_def *h = def->hierarchy;
   if (h) COROT_TRY(corot_system_check(h, def->mesh));
-  if (refined(def) && def->dilatation != COROT_DILATATION_LOCAL)
-    return corot_fail(COROT_EINVAL,
-                      "hierarchy: dilatations averaged at nodes are not provided for");
+  COROT_TRY(corot_definition_check(def, h ? h->refinement->nlevel : 0));
   const char *name = h && !refined(def) ? h->coarse_strain : def->strain;
   COROT_TRY(corot_strain_index(name, &of->strain));
   bool polar = corot_strain_traits(of->strain)->polar;
-  if ((unsigned)def->viscosity > COROT_VISCOSITY_AUTO)
-    return corot_fail(COROT_EINVAL, "there is no viscous law %d", (int)def->viscosity);
   of->objective = def->viscosity == COROT_OBJECTIVE;
   if (def->viscosity == COROT_VISCOSITY_AUTO) of->objective = polar && !h;
-  if (of->objective && !polar)
-    return corot_fail(COROT_EINVAL, "the objective viscous law needs a polar frame, not strain %s",
-                      name);
   return COROT_OK;
 }
 

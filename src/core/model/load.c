@@ -1,7 +1,8 @@
 /* Loads: constant forces and pressures that follow the surface, each with an amplitude in time. */
-#include <stdio.h>
 #include <stdlib.h>
 
+#include "core/base/fault.h"
+#include "definition.h"
 #include "model.h"
 
 static void add_force(const corot_model *m, double *force, int node, const double value[3],
@@ -10,12 +11,21 @@ static void add_force(const corot_model *m, double *force, int node, const doubl
     if (m->dof[node][c] >= 0) force[m->dof[node][c]] += factor * value[c];
 }
 
-/* The faces of a load's group. */
-static corot_status find_faces(const corot_model *m, const char *name, const char *user,
+static const char *const kind_words[] = {
+    [COROT_TRACTION] = "traction",
+    [COROT_GRAVITY] = "gravity",
+    [COROT_FORCE] = "force",
+    [COROT_PRESSURE] = "pressure",
+};
+
+/* The faces that load k acts on. */
+static corot_status find_faces(const corot_model *m, const corot_load *from, int k,
                                const corot_group **group) {
-  COROT_TRY(corot_model_find_group(m->mesh, name, user, group));
-  if (!(*group)->ntri) return corot_fail(COROT_EINVAL, "%s: group '%s' has no faces", user, name);
-  return COROT_OK;
+  COROT_TRY(corot_definition_group(m->mesh, "load", k, from->group, group));
+  if ((*group)->ntri) return COROT_OK;
+  return corot_fail_at("load", k, "group",
+                       "group '%s' has no faces for a %s to act on (%d nodes, %d tets)",
+                       from->group, kind_words[from->kind], (*group)->nnode, (*group)->ntet);
 }
 
 /* Half the cross product of two edges: the area, along the normal of the winding. */
@@ -36,9 +46,10 @@ static void edges(const corot_model *m, const double (*u)[4], const int n[3], do
 }
 
 /* A third of each face's traction to each of its nodes. */
-static corot_status add_traction(const corot_model *m, const corot_load *from, double (*f)[3]) {
+static corot_status add_traction(const corot_model *m, const corot_load *from, int number,
+                                 double (*f)[3]) {
   const corot_group *group;
-  COROT_TRY(find_faces(m, from->group, "traction", &group));
+  COROT_TRY(find_faces(m, from, number, &group));
   for (int k = 0; k < group->ntri; k++) {
     const int *n = group->tri[k];
     double a[3], b[3], area[3];
@@ -51,9 +62,10 @@ static corot_status add_traction(const corot_model *m, const corot_load *from, d
   return COROT_OK;
 }
 
-static corot_status add_point_force(const corot_model *m, const corot_load *from, double (*f)[3]) {
+static corot_status add_point_force(const corot_model *m, const corot_load *from, int number,
+                                    double (*f)[3]) {
   const corot_group *group;
-  COROT_TRY(corot_model_find_group(m->mesh, from->group, "force", &group));
+  COROT_TRY(corot_definition_nodes(m->mesh, "load", number, from->group, &group));
   for (int i = 0; i < group->nnode; i++)
     for (int c = 0; c < 3; c++) f[group->node[i]][c] += 1.0 / group->nnode * from->value[c];
   return COROT_OK;
@@ -80,16 +92,17 @@ static corot_status keep_held(const corot_model *m, const double (*f)[3], load *
 }
 
 /* Gravity, a traction or a total force. */
-static corot_status add_constant(const corot_model_def *def, const corot_model *m,
-                                 const corot_load *from, load *to) {
+static corot_status add_constant(const corot_model_def *def, const corot_model *m, int number,
+                                 load *to) {
+  const corot_load *from = &def->load[number];
   int nnode = m->mesh->nnode;
   double(*f)[3] = calloc(nnode, sizeof *f);
   if (!f) return corot_fail(COROT_ENOMEM, "no memory for the forces on %d nodes", nnode);
   corot_status status = COROT_OK;
   if (from->kind == COROT_TRACTION)
-    status = add_traction(m, from, f);
+    status = add_traction(m, from, number, f);
   else if (from->kind == COROT_FORCE)
-    status = add_point_force(m, from, f);
+    status = add_point_force(m, from, number, f);
   else
     corot_mass_lump(m, f);
   if (!status) status = corot_model_restrict(def, nnode, f);
@@ -100,14 +113,10 @@ static corot_status add_constant(const corot_model_def *def, const corot_model *
   return status;
 }
 
-static corot_status add_pressure(const corot_model *m, const corot_load *from, load *to) {
+static corot_status add_pressure(const corot_model *m, const corot_load *from, int number,
+                                 load *to) {
   const corot_group *group;
-  COROT_TRY(find_faces(m, from->group, "pressure", &group));
-  if (m->body_nnode < m->mesh->nnode)
-    return corot_fail(COROT_EINVAL,
-                      "pressure on group '%s': it follows the fine surface, which level 0 of a "
-                      "one-way hierarchy does not have",
-                      from->group);
+  COROT_TRY(find_faces(m, from, number, &group));
   to->tri = malloc(group->ntri * sizeof *to->tri);
   if (!to->tri) return corot_fail(COROT_ENOMEM, "no memory for %d faces", group->ntri);
   memcpy(to->tri, group->tri, group->ntri * sizeof *to->tri);
@@ -116,26 +125,26 @@ static corot_status add_pressure(const corot_model *m, const corot_load *from, l
   return COROT_OK;
 }
 
-static corot_status create(const corot_model_def *def, const corot_model *m, int k, load *to) {
+corot_status corot_load_check(const corot_model_def *def, int k) {
   const corot_load *from = &def->load[k];
+  amplitude made;
+  if ((unsigned)from->kind > COROT_PRESSURE)
+    return corot_fail_at("load", k, "kind", "no kind of load has the number %d", (int)from->kind);
   for (int c = 0; c < 3; c++)
     if (!isfinite(from->value[c]))
-      return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);
-  char user[32];
-  snprintf(user, sizeof user, "load %d: ", k);
-  COROT_TRY(corot_amplitude_create(&from->amplitude, user, &to->amplitude));
-  if (from->kind == COROT_PRESSURE) return add_pressure(m, from, to);
+      return corot_fail_at("load", k, "value", "component %d is not finite", c);
+  COROT_TRY(corot_amplitude_create(&from->amplitude, "load", k, &made));
+  corot_amplitude_clear(&made);
+  return COROT_OK;
+}
+
+static corot_status create(const corot_model_def *def, const corot_model *m, int k, load *to) {
+  const corot_load *from = &def->load[k];
+  COROT_TRY(corot_amplitude_create(&from->amplitude, "load", k, &to->amplitude));
+  if (from->kind == COROT_PRESSURE) return add_pressure(m, from, k, to);
   to->force = calloc(m->ndof, sizeof *to->force);
   if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
-  switch (from->kind) {
-    case COROT_GRAVITY:
-    case COROT_TRACTION:
-    case COROT_FORCE:
-      return add_constant(def, m, from, to);
-    default:
-      return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
-                        (int)from->kind);
-  }
+  return add_constant(def, m, k, to);
 }
 
 corot_status corot_loads_create(const corot_model_def *def, corot_model *m) {

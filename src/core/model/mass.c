@@ -69,20 +69,8 @@ static corot_status couple(corot_model *m) {
 }
 
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m) {
-  if (def->mass != COROT_MASS_LUMPED && def->mass != COROT_MASS_CONSISTENT)
-    return corot_fail(COROT_EINVAL, "no kind of mass has the number %d", (int)def->mass);
   COROT_TRY(lump(def, m));
-  if (def->mass == COROT_MASS_LUMPED) return COROT_OK;
-  if (m->body_nnode < m->mesh->nnode)
-    return corot_fail(COROT_EINVAL,
-                      "consistent mass: it would couple the finer nodes of a one-way hierarchy to "
-                      "level 0, which has a mass of its own");
-  if (m->nmotion)
-    return corot_fail(COROT_EINVAL,
-                      "consistent mass: group '%s' is a moving support, and its sudden start would "
-                      "be an impulse on its neighbours; lumped mass has no such coupling",
-                      m->motion[0].group);
-  return couple(m);
+  return def->mass == COROT_MASS_LUMPED ? COROT_OK : couple(m);
 }
 
 corot_mass corot_model_mass_kind(const corot_model *m) {

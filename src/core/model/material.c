@@ -1,25 +1,69 @@
 /* Materials: each checked, and which tets are made of which. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "core/base/fault.h"
+#include "definition.h"
 #include "model.h"
 
-static corot_status check_material(const corot_material *m, int k) {
-  if (!(m->mu > 0) || !isfinite(m->mu))
-    return corot_fail(COROT_EINVAL, "material %d: mu = %g is not positive", k, m->mu);
+/* A coefficient that must be > 0 or, if it may be, 0. */
+static corot_status check_sign(int k, const char *name, double value, bool zero) {
+  if (isfinite(value) && (value > 0 || (zero && value == 0))) return COROT_OK;
+  return corot_fail_at(
+      "material", k, name, "%s = %g %s", name, value,
+      isfinite(value) ? (zero ? "is negative" : "is not positive") : "is not finite");
+}
+
+/* One entry may go without a group, and each group has one. */
+static corot_status check_group(const corot_model_def *def, int k) {
+  const char *group = def->material[k].group;
+  for (int i = 0; i < k; i++) {
+    const char *other = def->material[i].group;
+    const corot_fault at = {
+        .entry = "material", .index = k, .field = "group", .other = "material", .other_index = i};
+    if (!group && !other)
+      return corot_fail_about(&at, "group is missing: one entry only may go without");
+    if (group && other && strcmp(group, other) == 0)
+      return corot_fail_about(&at, "group '%s' has a material already", group);
+  }
+  return COROT_OK;
+}
+
+corot_status corot_material_check(const corot_model_def *def, int k) {
+  const corot_material *m = &def->material[k];
+  COROT_TRY(check_sign(k, "mu", m->mu, false));
   if (!(3 * m->lambda + 2 * m->mu > 0) || !isfinite(m->lambda))
-    return corot_fail(COROT_EINVAL, "material %d: 3 lambda + 2 mu = %g is not positive", k,
-                      3 * m->lambda + 2 * m->mu);
-  if (!(m->density > 0) || !isfinite(m->density))
-    return corot_fail(COROT_EINVAL, "material %d: density = %g is not positive", k, m->density);
-  if (!(m->damping_lambda >= 0) || !isfinite(m->damping_lambda))
-    return corot_fail(COROT_EINVAL, "material %d: damping_lambda = %g is negative", k,
-                      m->damping_lambda);
-  if (!(m->damping_mu >= 0) || !isfinite(m->damping_mu))
-    return corot_fail(COROT_EINVAL, "material %d: damping_mu = %g is negative", k, m->damping_mu);
-  if (!(m->damping_mass >= 0) || !isfinite(m->damping_mass))
-    return corot_fail(COROT_EINVAL, "material %d: damping_mass = %g is negative", k,
-                      m->damping_mass);
+    return corot_fail_at("material", k, "lambda",
+                         "3 lambda + 2 mu must be > 0, otherwise the solid has no resistance to a "
+                         "change of volume; lambda = %g, mu = %g",
+                         m->lambda, m->mu);
+  COROT_TRY(check_sign(k, "density", m->density, false));
+  COROT_TRY(check_sign(k, "damping_lambda", m->damping_lambda, true));
+  COROT_TRY(check_sign(k, "damping_mu", m->damping_mu, true));
+  COROT_TRY(check_sign(k, "damping_mass", m->damping_mass, true));
+  return check_group(def, k);
+}
+
+/* of_tet = k on the tets of a group. */
+static corot_status fill_group(const corot_mesh *mesh, const char *name, int k, int *of_tet) {
+  const corot_group *group;
+  COROT_TRY(corot_definition_group(mesh, "material", k, name, &group));
+  if (!group->ntet)
+    return corot_fail_at("material", k, "group",
+                         "group '%s' has no tets for a material to fill (%d nodes, %d faces)", name,
+                         group->nnode, group->ntri);
+  for (int i = 0; i < group->ntet; i++) {
+    int e = group->tet[i];
+    if (of_tet[e] >= 0)
+      return corot_fail_about(&(corot_fault){.entry = "material",
+                                             .index = k,
+                                             .field = "group",
+                                             .other = "material",
+                                             .other_index = of_tet[e]},
+                              "tet %d belongs to materials %d and %d", e, of_tet[e], k);
+    of_tet[e] = k;
+  }
   return COROT_OK;
 }
 
@@ -34,7 +78,6 @@ corot_status corot_materials_create(const corot_model_def *def, corot_model *m, 
   for (int e = 0; e < ntet; e++) of_tet[e] = -1;
   for (int k = 0; k < def->nmaterial; k++) {
     const corot_material *from = &def->material[k];
-    COROT_TRY(check_material(from, k));
     m->material[k] = (material){.lambda = from->lambda,
                                 .mu = from->mu,
                                 .damping_lambda = from->damping_lambda,
@@ -45,26 +88,14 @@ corot_status corot_materials_create(const corot_model_def *def, corot_model *m, 
                                 .own_share = 1};
     *damped |= from->damping_lambda > 0 || from->damping_mu > 0;
     m->mass_damped |= from->damping_mass > 0;
-    if (!from->group) {
-      if (rest >= 0)
-        return corot_fail(COROT_EINVAL, "materials %d and %d both have no group", rest, k);
+    if (from->group)
+      COROT_TRY(fill_group(m->mesh, from->group, k, of_tet));
+    else
       rest = k;
-      continue;
-    }
-    const corot_group *group;
-    COROT_TRY(corot_model_find_group(m->mesh, from->group, "material", &group));
-    if (!group->ntet)
-      return corot_fail(COROT_EINVAL, "material: group '%s' has no tets", from->group);
-    for (int i = 0; i < group->ntet; i++) {
-      int e = group->tet[i];
-      if (of_tet[e] >= 0)
-        return corot_fail(COROT_EINVAL, "tet %d belongs to materials %d and %d", e, of_tet[e], k);
-      of_tet[e] = k;
-    }
   }
   for (int e = 0; e < ntet; e++) {
     if (of_tet[e] < 0) of_tet[e] = rest;
-    if (of_tet[e] < 0) return corot_fail(COROT_EINVAL, "tet %d has no material", e);
+    if (of_tet[e] < 0) return corot_fail_at("model", 0, "material", "tet %d has no material", e);
   }
   return COROT_OK;
 }

@@ -4,13 +4,6 @@
 #include "core/mesh/mesh.h"
 #include "model.h"
 
-corot_status corot_model_find_group(const corot_mesh *mesh, const char *name, const char *user,
-                                    const corot_group **group) {
-  *group = name ? corot_mesh_find_group(mesh, name) : NULL;
-  if (*group) return COROT_OK;
-  return corot_fail(COROT_EINVAL, "%s: the mesh has no group '%s'", user, name ? name : "");
-}
-
 void corot_model_destroy(corot_model *m) {
   if (!m) return;
   corot_loads_destroy(m);

@@ -82,10 +82,6 @@ struct corot_model {
 /* The solid on the mesh itself, whose pattern the matrices have. */
 static inline const solid *solid_of(const corot_model *m) { return &m->system.term[0].body; }
 
-/* COROT_EINVAL if the mesh has no such group; `user` says who asked. */
-corot_status corot_model_find_group(const corot_mesh *mesh, const char *name, const char *user,
-                                    const corot_group **group);
-
 /* m->material from the definition; of_tet [ntet] = the material that fills each tet. *damped: some
    viscous coefficient is not zero. */
 corot_status corot_materials_create(const corot_model_def *def, corot_model *m, int *of_tet,

@@ -1,7 +1,9 @@
 /* Prescribed motion of supports. */
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "core/base/fault.h"
+#include "definition.h"
 #include "model.h"
 
 static bool turns(const corot_motion *from) {
@@ -13,67 +15,138 @@ static bool has_span(const corot_motion *from) {
   return from->kind == COROT_ROTATE || from->kind == COROT_TRANSLATE;
 }
 
-static corot_status check(const corot_motion *from, int k) {
-  double length = 0, size = 0;
-  for (int c = 0; c < 3; c++) {
-    length += from->axis[c] * from->axis[c];
-    size += fabs(from->center[c]) + fabs(from->velocity[c]) + fabs(from->direction[c]);
-  }
-  if (from->kind < COROT_ROTATE || from->kind > COROT_MOVE)
-    return corot_fail(COROT_EINVAL, "motion %d: no kind of motion has the number %d", k,
-                      (int)from->kind);
-  if (turns(from) && !(length > 0 && isfinite(length)))
-    return corot_fail(COROT_EINVAL, "motion %d: the axis has no direction", k);
-  if (!isfinite(size + from->rate + from->angle))
-    return corot_fail(COROT_EINVAL, "motion %d: a number is not finite", k);
-  if (has_span(from) && (!isfinite(from->from) || !(from->from < from->to)))
-    return corot_fail(COROT_EINVAL, "motion %d: it goes from t = %g to t = %g", k, from->from,
-                      from->to);
-  return COROT_OK;
-}
-
-/* A node may be held by one condition only. */
-static corot_status claim(const corot_group *group, int k, char (*held)[3]) {
-  for (int i = 0; i < group->nnode; i++) {
-    int n = group->node[i];
-    for (int c = 0; c < 3; c++) {
-      if (held[n][c])
-        return corot_fail(COROT_EINVAL, "motion %d: node %d of group '%s' is already held in %c", k,
-                          n, group->name, "xyz"[c]);
-      held[n][c] = 1;
-    }
-  }
-  return COROT_OK;
-}
-
 static void unit_axis(const corot_motion *from, double axis[3]) {
   double length = sqrt(from->axis[0] * from->axis[0] + from->axis[1] * from->axis[1] +
                        from->axis[2] * from->axis[2]);
   for (int c = 0; c < 3; c++) axis[c] = turns(from) ? from->axis[c] / length : 0;
 }
 
-/* The motion on the same group that `from` is a part of: any translation, or a turn about the same
-   axis; NULL if it starts one of its own. */
-static motion *joined(const corot_model *m, const corot_motion *from) {
-  double axis[3];
-  unit_axis(from, axis);
-  for (int k = 0; k < m->nmotion; k++) {
-    motion *a = &m->motion[k];
-    if (a->turns != turns(from) || strcmp(a->group, from->group) != 0) continue;
-    double off = 0;
-    for (int c = 0; c < 3; c++)
-      off += fabs(a->axis[c] - axis[c]) + fabs(a->center[c] - from->center[c]);
-    if (!a->turns || off == 0) return a;
+/* Kind, numbers and times of one motion alone. */
+static corot_status check_numbers(const corot_motion *from, int k) {
+  double length = 0, size = 0;
+  for (int c = 0; c < 3; c++) {
+    length += from->axis[c] * from->axis[c];
+    size += fabs(from->center[c]) + fabs(from->velocity[c]) + fabs(from->direction[c]);
   }
+  if (from->kind < COROT_ROTATE || from->kind > COROT_MOVE)
+    return corot_fail_at("motion", k, "kind", "no kind of motion has the number %d",
+                         (int)from->kind);
+  if (turns(from) && !(length > 0 && isfinite(length)))
+    return corot_fail_at("motion", k, "axis", "the axis has no direction: it is [%g, %g, %g]",
+                         from->axis[0], from->axis[1], from->axis[2]);
+  if (!isfinite(size + from->rate + from->angle))
+    return corot_fail_at("motion", k, "", "a number is not finite");
+  if (has_span(from) && (!isfinite(from->from) || !(from->from < from->to)))
+    return corot_fail_at("motion", k, "to",
+                         "it goes from t = %g to t = %g s: to must be later than from", from->from,
+                         from->to);
+  return COROT_OK;
+}
+
+/* Whether two motions of one group add up: any translations, or turns about the same axis. */
+static bool adds_up(const corot_motion *a, const corot_motion *b) {
+  double of_a[3], of_b[3], off = 0;
+  if (turns(a) != turns(b)) return false;
+  if (!turns(a)) return true;
+  unit_axis(a, of_a);
+  unit_axis(b, of_b);
+  for (int c = 0; c < 3; c++) off += fabs(of_a[c] - of_b[c]) + fabs(a->center[c] - b->center[c]);
+  return off == 0;
+}
+
+/* Motions of one group add up; those of constant rate follow one another. */
+static corot_status check_sequence(const corot_model_def *def, int k) {
+  const corot_motion *from = &def->motion[k];
+  for (int i = 0; i < k; i++) {
+    const corot_motion *before = &def->motion[i];
+    const corot_fault at = {
+        .entry = "motion", .index = k, .field = "", .other = "motion", .other_index = i};
+    if (!from->group || !before->group || strcmp(before->group, from->group) != 0) continue;
+    if (!adds_up(before, from))
+      return corot_fail_about(&at, "does not continue the other motion of %s: it has to %s",
+                              from->group,
+                              turns(before) ? "turn about the same axis" : "translate");
+    if (has_span(before) && has_span(from) && from->from < before->to && before->from < from->to)
+      return corot_fail_about(&at, "group '%s' is already moving from t = %g to t = %g s",
+                              from->group, before->from, before->to);
+  }
+  return COROT_OK;
+}
+
+/* The amplitude of a motion, which takes its time. */
+static corot_status make_amplitude(const corot_motion *from, int k, amplitude *to) {
+  COROT_TRY(corot_amplitude_create(&from->amplitude, "motion", k, to));
+  double jump = corot_amplitude_jump(to);
+  if (isnan(jump)) return COROT_OK;
+  int point = 1;
+  while (to->time[point - 1] != jump || to->time[point] != jump) point++;
+  corot_amplitude_clear(to);
+  return corot_fail_about(
+      &(corot_fault){.entry = "motion", .index = k, .field = "amplitude.time", .point = point},
+      "its amplitude jumps at t = %g, and group '%s' cannot be in two places: let it take a time",
+      jump, from->group ? from->group : "");
+}
+
+corot_status corot_motion_check(const corot_model_def *def, int k) {
+  const corot_motion *from = &def->motion[k];
+  COROT_TRY(check_numbers(from, k));
+  COROT_TRY(check_sequence(def, k));
+  if (has_span(from)) return COROT_OK;
+  amplitude made;
+  COROT_TRY(make_amplitude(from, k, &made));
+  corot_amplitude_clear(&made);
+  return COROT_OK;
+}
+
+static bool has_node(const corot_mesh *mesh, const char *name, int node) {
+  const corot_group *group = corot_mesh_find_group(mesh, name);
+  for (int i = 0; i < group->nnode; i++)
+    if (group->node[i] == node) return true;
+  return false;
+}
+
+/* Motion k cannot have component c of a node, which a fix or an earlier motion has. */
+static corot_status refuse_held(const corot_model_def *def, const corot_mesh *mesh, int k, int node,
+                                int c) {
+  corot_fault at = {.entry = "motion", .index = k, .field = "group", .other = "motion"};
+  const char *group = def->motion[k].group, *other = NULL;
+  for (int i = 0; i < def->nfix && !other; i++)
+    if (def->fix[i].component[c] && has_node(mesh, def->fix[i].group, node))
+      at.other = "fix", at.other_index = i, other = def->fix[i].group;
+  for (int i = 0; i < k && !other; i++)
+    if (has_node(mesh, def->motion[i].group, node))
+      at.other_index = i, other = def->motion[i].group;
+  return corot_fail_about(&at, "node %d of group '%s' is already held in %c: it is in '%s', too",
+                          node, group, "xyz"[c], other);
+}
+
+/* A node may be held by one condition only. */
+static corot_status claim(const corot_model_def *def, const corot_mesh *mesh,
+                          const corot_group *group, int k, char (*held)[3]) {
+  for (int i = 0; i < group->nnode; i++) {
+    int n = group->node[i];
+    for (int c = 0; c < 3; c++) {
+      if (held[n][c]) return refuse_held(def, mesh, k, n, c);
+      held[n][c] = 1;
+    }
+  }
+  return COROT_OK;
+}
+
+/* The motion on the same group, of which `from` is a part; NULL if it starts one of its own. */
+static motion *joined(const corot_model *m, const corot_motion *from) {
+  for (int k = 0; k < m->nmotion; k++)
+    if (strcmp(m->motion[k].group, from->group) == 0) return &m->motion[k];
   return NULL;
 }
 
 /* A motion without spans or laws yet, of which it may have as many as there are motions. */
-static corot_status start(corot_model *m, const corot_motion *from, int k, int most,
-                          char (*held)[3]) {
+static corot_status start(const corot_model_def *def, corot_model *m, int k, char (*held)[3]) {
+  const corot_motion *from = &def->motion[k];
   const corot_group *group;
-  COROT_TRY(corot_model_find_group(m->mesh, from->group, "motion", &group));
-  COROT_TRY(claim(group, k, held));
+  size_t most = (size_t)def->nmotion;
+  COROT_TRY(corot_definition_nodes(m->mesh, "motion", k, from->group, &group));
+  COROT_TRY(claim(def, m->mesh, group, k, held));
   motion *to = &m->motion[m->nmotion++];
   to->turns = turns(from);
   unit_axis(from, to->axis);
@@ -91,31 +164,16 @@ static corot_status start(corot_model *m, const corot_motion *from, int k, int m
   return COROT_OK;
 }
 
-static corot_status add_span(motion *to, const corot_motion *from, int k) {
-  motion_span *span = &to->span[to->nspan];
-  for (int i = 0; i < to->nspan; i++)
-    if (from->from < to->span[i].to && to->span[i].from < from->to)
-      return corot_fail(COROT_EINVAL,
-                        "motion %d: group '%s' is already moving from t = %g to t = %g", k,
-                        from->group, to->span[i].from, to->span[i].to);
+static void add_span(motion *to, const corot_motion *from) {
+  motion_span *span = &to->span[to->nspan++];
   *span = (motion_span){.rate = from->rate, .from = from->from, .to = from->to};
   for (int c = 0; c < 3; c++) span->velocity[c] = from->velocity[c];
-  to->nspan++;
-  return COROT_OK;
 }
 
 static corot_status add_law(motion *to, const corot_motion *from, int k) {
   motion_law *law = &to->law[to->nlaw];
-  char user[32];
-  snprintf(user, sizeof user, "motion %d: ", k);
-  COROT_TRY(corot_amplitude_create(&from->amplitude, user, &law->amplitude));
+  COROT_TRY(make_amplitude(from, k, &law->amplitude));
   to->nlaw++;
-  double jump = corot_amplitude_jump(&law->amplitude);
-  if (!isnan(jump))
-    return corot_fail(COROT_EINVAL,
-                      "motion %d: its amplitude jumps at t = %g, and group '%s' cannot be in two "
-                      "places: let it take a time",
-                      k, jump, from->group);
   law->angle = from->angle;
   for (int c = 0; c < 3; c++) law->direction[c] = from->direction[c];
   return COROT_OK;
@@ -126,13 +184,15 @@ corot_status corot_motions_create(const corot_model_def *def, corot_model *m, ch
   if (!m->motion) return corot_fail(COROT_ENOMEM, "no memory for %d motions", def->nmotion);
   for (int k = 0; k < def->nmotion; k++) {
     const corot_motion *from = &def->motion[k];
-    COROT_TRY(check(from, k));
     motion *to = from->group ? joined(m, from) : NULL;
     if (!to) {
-      COROT_TRY(start(m, from, k, def->nmotion, held));
+      COROT_TRY(start(def, m, k, held));
       to = &m->motion[m->nmotion - 1];
     }
-    COROT_TRY(has_span(from) ? add_span(to, from, k) : add_law(to, from, k));
+    if (has_span(from))
+      add_span(to, from);
+    else
+      COROT_TRY(add_law(to, from, k));
   }
   return COROT_OK;
 }

@@ -36,9 +36,6 @@ corot_status corot_system_check(const corot_hierarchy_def *def, const corot_mesh
                       "hierarchy: the refinement is of %d nodes and %d tets, the mesh has %d and "
                       "%d",
                       r->nnode[r->nlevel], r->ntet[r->nlevel], mesh->nnode, mesh->ntet);
-  if (def->frame_level < 0 || def->frame_level > r->nlevel)
-    return corot_fail(COROT_EINVAL, "hierarchy: frame level %d, where the levels are 0 to %d",
-                      def->frame_level, r->nlevel);
   return check_middles(r, mesh);
 }
 
@@ -53,30 +50,6 @@ static corot_status check_materials(const corot_refinement *r, const int *of_tet
                         "materials %d and %d",
                         first, e, e >> shift, of_tet[first], of_tet[e]);
   }
-  return COROT_OK;
-}
-
-static corot_status check_choices(const corot_hierarchy_def *def, const system_def *of) {
-  const strain_measure *s = &strain_measures[of->strain];
-  if (def->coupling < COROT_COUPLING_MEAN || def->coupling > COROT_COUPLING_ONE_WAY)
-    return corot_fail(COROT_EINVAL, "hierarchy: no coupling has the number %d", (int)def->coupling);
-  if (s->pressure != BY_FRAME || s->shear != BY_FRAME)
-    return corot_fail(COROT_EINVAL,
-                      "hierarchy: strain %s is not linear in a given frame; cauchy, warp and polar "
-                      "are",
-                      s->name);
-  if (of->objective)
-    return corot_fail(COROT_EINVAL, "hierarchy: the viscous law must be the corotated one");
-  if (def->conservative && s->frame == FRAME_WARP)
-    return corot_fail(COROT_EINVAL,
-                      "hierarchy: strain warp has no conservative force: use polar, or set "
-                      "conservative to false");
-  if (def->frame_level > 0 && s->frame == FRAME_WARP)
-    return corot_fail(
-        COROT_EINVAL,
-        "hierarchy: frame level %d, but warp frames depend on the edges of a tet, and "
-        "those of level 0 alone fit the coarse motion: use polar, or frame level 0",
-        def->frame_level);
   return COROT_OK;
 }
 
@@ -190,7 +163,6 @@ static corot_status create_hierarchy(const system_def *def, solid_system *y) {
   bool polar = strain_measures[def->strain].frame == FRAME_POLAR;
   int coarse;
   COROT_TRY(corot_strain_index(h->coarse_strain, &coarse));
-  COROT_TRY(check_choices(h, def));
   COROT_TRY(check_materials(r, def->of_tet));
   snprintf(y->name, sizeof y->name, "%s+%s", strain_measures[coarse].name,
            strain_measures[def->strain].name);

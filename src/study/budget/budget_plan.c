@@ -99,14 +99,14 @@ static void plan_time(const scenario *s, budget_plan *plan) {
 /* Frames that are renewed after steps are as old as the steps are long: their error would vanish
    with that of time, and count as such, if it were not looked at before. */
 static void plan_time_and_frame_age(const scenario *s, bool hierarchy, budget_plan *plan) {
-  bool aged = s->frames.frames != COROT_FRAMES_EXACT && (has_frames(s->strain) || hierarchy);
+  bool aged = s->frames.frames != COROT_FRAMES_EXACT && (has_frames(s->model.strain) || hierarchy);
   bool by_step = aged && (s->frames.every_step || s->frames.max_angle > 0);
   if (!by_step) plan_time(s, plan);
   if (aged) add(begin(plan, BUDGET_FRAME_AGE), "frames={policy: exact}");
   if (by_step) plan_time(s, plan);
 }
 
-static bool has_hierarchy(const scenario *s) { return s->coarse_strain && s->refine > 0; }
+static bool has_hierarchy(const scenario *s) { return s->model.hierarchy && s->refine > 0; }
 
 /* The viscous law stays as it is under warp and a hierarchy, where by default another one would
    take its place: it is no approximation. */
@@ -118,12 +118,13 @@ static void add_with_its_damping(budget_part *part, const char *set) {
 /* What the model itself leaves out, in the order of budget_kind. */
 static void plan_model(const scenario *s, budget_plan *plan) {
   bool hierarchy = has_hierarchy(s);
-  if (is(s->strain, "warp")) add_with_its_damping(begin(plan, BUDGET_FRAME_RULE), "strain=polar");
+  if (is(s->model.strain, "warp"))
+    add_with_its_damping(begin(plan, BUDGET_FRAME_RULE), "strain=polar");
   if (hierarchy) add_with_its_damping(begin(plan, BUDGET_HIERARCHY), "hierarchy=null");
-  if (!is(s->strain, "green")) {
+  if (!is(s->model.strain, "green")) {
     budget_part *part = begin(plan, BUDGET_STRAIN);
     add(part, "strain=green");
-    if (s->viscosity == COROT_OBJECTIVE) add(part, "viscosity=corotated");
+    if (s->model.viscosity == COROT_OBJECTIVE) add(part, "viscosity=corotated");
     if (hierarchy) add(part, "hierarchy=null");
   }
   budget_plan_refine(s, 1, begin(plan, BUDGET_SPACE));

@@ -19,8 +19,8 @@ static const char header[] =
 /* Forces of known size act on every degree of freedom, and nothing else from outside. */
 static bool has_known_impulse(const corot_model *model, const scenario *s) {
   bool known = corot_model_ndof(model) == 3 * corot_model_mesh(model)->nnode;
-  for (int i = 0; i < s->nload; i++) known &= s->load[i].kind != COROT_PRESSURE;
-  for (int i = 0; i < s->nmaterial; i++) known &= s->material[i].damping_mass == 0;
+  for (int i = 0; i < s->model.nload; i++) known &= s->model.load[i].kind != COROT_PRESSURE;
+  for (int i = 0; i < s->model.nmaterial; i++) known &= s->model.material[i].damping_mass == 0;
   return known;
 }
 

@@ -6,6 +6,8 @@
 
 #include "app/config/schema.h"
 #include "box_split.h"
+#include "core/model/definition.h"
+#include "scenario_fault.h"
 #include "scenario_parts.h"
 
 /* --- Mesh and groups --- */
@@ -104,10 +106,6 @@ static corot_status read_material(config *tree, config_node *node, corot_materia
       .damping_mu = number_at(node, "damping.mu"),
       .damping_mass = number_at(node, "damping.mass"),
   };
-  if (!(3 * material->lambda + 2 * material->mu > 0))
-    return config_fail(config_find(node, "lambda"),
-                       "3 lambda + 2 mu must be > 0, otherwise the solid has no resistance to a "
-                       "change of volume");
   return COROT_OK;
 }
 
@@ -117,17 +115,9 @@ static corot_status read_materials(scenario *s) {
   int n = list ? node->nchild : 1;
   corot_material *material = config_alloc(s->source, (size_t)n, sizeof *material);
   if (!material) return no_memory();
-  s->material = material;
-  for (config_node *c = list ? node->child : node; c; c = list ? c->next : NULL) {
-    COROT_TRY(read_material(s->source, c, &material[s->nmaterial]));
-    for (int i = 0; i < s->nmaterial; i++) {
-      const char *a = material[i].group, *b = material[s->nmaterial].group;
-      if (!a && !b) return config_fail(c, "group is missing; one entry only may go without");
-      if (a && b && strcmp(a, b) == 0)
-        return config_fail(config_find(c, "group"), "%s has a material already", b);
-    }
-    s->nmaterial++;
-  }
+  s->model.material = material;
+  for (config_node *c = list ? node->child : node; c; c = list ? c->next : NULL)
+    COROT_TRY(read_material(s->source, c, &material[s->model.nmaterial++]));
   return COROT_OK;
 }
 
@@ -173,12 +163,12 @@ static corot_status read_compare(scenario *s) {
   const char **measure = config_alloc(s->source, (size_t)list->nchild + 1, sizeof *measure);
   if (!measure) return no_memory();
   s->compare = measure;
-  bool listed = strcmp(s->strain, "green") == 0;
+  bool listed = strcmp(s->model.strain, "green") == 0;
   for (const config_node *c = list->child; c; c = c->next) {
     measure[s->ncompare++] = c->text;
-    listed |= strcmp(c->text, s->strain) == 0;
+    listed |= strcmp(c->text, s->model.strain) == 0;
   }
-  if (!listed) measure[s->ncompare++] = s->strain;
+  if (!listed) measure[s->ncompare++] = s->model.strain;
   return COROT_OK;
 }
 
@@ -221,11 +211,12 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(read_mesh(s));
   COROT_TRY(read_groups(s));
   COROT_TRY(read_materials(s));
-  s->strain = text_at(s->source->root, "strain");
+  s->model.strain = text_at(s->source->root, "strain");
   COROT_TRY(scenario_read_conditions(s));
   COROT_TRY(read_time(s));
   COROT_TRY(scenario_read_method(s));
-  COROT_TRY(scenario_read_hierarchy(s));
+  scenario_read_hierarchy(s);
+  COROT_TRY(scenario_told(s, NULL, corot_definition_check(&s->model, s->refine)));
   COROT_TRY(scenario_read_statics(s));
   COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));
@@ -243,6 +234,8 @@ static corot_status from_tree(config *tree, const char *path, const overrides *o
     return no_memory();
   }
   s->source = tree;
+  s->model = corot_model_defaults();
+  s->hierarchy = corot_hierarchy_defaults();
   corot_status status = read_all(s, path, o);
   if (status == COROT_OK)
     *out = s;

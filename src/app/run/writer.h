@@ -1,0 +1,48 @@
+/* The files of a run that grow with it, each behind the same operations: a row of the table in
+   outputs.c. */
+#ifndef COROT_APP_RUN_WRITER_H
+#define COROT_APP_RUN_WRITER_H
+
+#include "app/folder/write_csv.h"
+#include "app/scenario/scenario.h"
+
+/* What is known before the first moment. It outlives the writers, but for `dir`. */
+typedef struct writer_source {
+  const char *dir;
+  const scenario *scenario;
+  const corot_model *model;
+  const int *node;         /* [scenario->nprobe] of the probes */
+  struct history *history; /* which writes history.csv by itself */
+} writer_source;
+
+/* A moment that is written. */
+typedef struct moment {
+  double t;                                        /* [s] */
+  long number;                                     /* from 0 */
+  bool last;                                       /* of the run */
+  corot_state *state;                              /* for evaluations */
+  const double *u, *v;                             /* [n] */
+  const double (*displacement)[3], (*velocity)[3]; /* [nnode] */
+  const ledger *ledger;
+  double factor;               /* of the loads, in statics */
+  const double (*internal)[3]; /* [nnode] elastic force, in statics [N] */
+} moment;
+
+/* Who begins it: a run, a search for an equilibrium, or both. */
+typedef enum writer_use { WRITER_COMMON, WRITER_OF_RUN, WRITER_OF_STATICS } writer_use;
+
+/* What `open` makes is handed to the others. All but `open` and `close` may be NULL: nothing. */
+typedef struct writer_ops {
+  const char *file; /* its name, as in app/folder/inventory.c */
+  writer_use use;
+  bool (*wanted)(const scenario *s); /* NULL: in any case */
+  corot_status (*open)(const writer_source *source, void **writer);
+  /* Everything that can fail by what the body does there, before any file is written. */
+  corot_status (*evaluate)(void *writer, const moment *now);
+  corot_status (*moment)(void *writer, const moment *now);
+  corot_status (*step)(void *writer, const step_row *row);
+  /* Ends the file, reports an error that shows up then, and frees the writer in any case. */
+  corot_status (*close)(void *writer);
+} writer_ops;
+
+#endif
