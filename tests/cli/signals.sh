@@ -3,11 +3,6 @@
 . "$(dirname "$0")/lib.sh"
 signals='INT:2 TERM:15 HUP:1 USR1:10 XCPU:24'
 
-# until_true COMMAND...: waits for it, half a minute at most.
-until_true() {
-  tries=0
-  until "$@" || [ $tries = 600 ]; do sleep 0.05; tries=$((tries + 1)); done
-}
 has() { [ -s "$1" ]; }
 # Whether a process catches SIGALRM, the last of those it begins to heed.
 heeds() {

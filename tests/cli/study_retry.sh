@@ -2,10 +2,6 @@
 # what ends a run that would not end.
 . "$(dirname "$0")/lib.sh"
 study() { printf '%s\n' "study: which one" "base: model.yaml" "set: {time.end: 0.02}" 'reference: none' "$@" >study.yaml; }
-until_true() {
-  tries=0
-  until "$@" || [ $tries = 600 ]; do sleep 0.05; tries=$((tries + 1)); done
-}
 
 # why DIR KIND RETRY: failure.json of the only run there that has one.
 why() {

@@ -11,7 +11,7 @@ faults.c. Accepted are but two outcomes:
   * a non-zero exit code, a message on stderr, no result on the disk that says "ok" though it is not
     what it would be without; and the same command, once more, repairs everything.
 
-Nothing may crash or hang, and what was there before stays as it was. Callbacks of SUNDIALS are
+Nothing may hang, and what was there before stays as it was. Callbacks of SUNDIALS are
 failed by unit/test_seams.c, for each integrator and each linear solver.
 
 Which calls. A site is a call with its eight innermost callers. By default the last call of each
@@ -27,9 +27,10 @@ that agree in this.
 
 Crashes. A library of someone else's may not bear a refused allocation: no caller can help it, it
 differs from version to version, and a crash leaves no wrong answer behind. A process that is ended
-by a signal inside a library (the innermost frame that is not the C library's lies there) is
-therefore excused from this one complaint, and listed, by function; the folder is judged all the
-same. A crash in a function of corot's own is a failure.
+by a signal inside a library (the innermost frame that is not the C library's lies there) has failed
+like any other: it must say so (src/main/crash.c), and its folder is judged the same. The functions
+are listed. A crash without the message is a failure, and so is every crash in a function of
+corot's own.
 """
 import argparse, collections, functools, hashlib, json, mmap, multiprocessing, os, random, re
 import select, shutil, signal, struct, subprocess, sys, tempfile, threading, time
@@ -95,8 +96,8 @@ CASES = {
 }
 
 # Crashes of libraries that corot cannot help: the innermost function of the library that has a
-# name. They are excused as any crash in a library is, but not news; what is never seen in a whole
-# run is reported, so that it can go. SUNDIALS 6.4 and libfyaml 0.7.12, of Debian 12.
+# name. They are told as any crash in a library is, but not news; what is never seen in a whole run
+# is reported, so that it can go. SUNDIALS 6.4 and libfyaml 0.7.12, of Debian 12.
 KNOWN_CRASHES = {
     "fy_parse_input_append": "uses an input that it could not allocate",
     "N_VClone": "uses the clone of a vector that it could not allocate",
@@ -105,6 +106,10 @@ KNOWN_CRASHES = {
     "SUNLogger_Create": "uses a logger that it could not allocate",
     "SUNLogger_Destroy": "releases a map of a logger that it could not allocate",
 }
+
+# What a crash says; a study repeats it.
+TOLD = re.compile(rb"corot: ended by (a fault inside the program|a library that gave up) "
+                  rb"\(SIG[A-Z]+( in [^)]+)?\); memory that has run out is a frequent cause; ")
 
 Outcome = collections.namedtuple("Outcome", "code out err tree")
 
@@ -323,8 +328,11 @@ def judge(name, kind, o, crash):
             wrong.append("exit code 0, and another stdout")
         return wrong
     excused = is_foreign(crash)
+    if crash and not excused:
+        wrong.append("a crash in corot itself")
+    if (o.code < 0 or b"killed by signal" in o.err) and not TOLD.search(o.err):
+        wrong.append("killed by a signal without a message")
     if o.code < 0:
-        wrong += [] if excused else ["killed by signal %d" % -o.code]
         wrong += judge_rest(case, before, plain, o)
     else:
         wrong += judge_failure(case, kind, before, plain, o)
@@ -375,6 +383,7 @@ Trial = collections.namedtuple("Trial", "name kind k code err where crash wrong"
 def key_of(o, crash, inner):
     """Outcomes of one key are judged alike."""
     words = [word in o.err for word in (b"standard output", b"killed by signal")]
+    words.append(bool(TOLD.search(o.err)))
     where = crash and blamed(crash) if inner else is_foreign(crash)
     said = digest({"": o.out}), bool(o.err.strip()), tuple(words)
     return inner, o.code, said, essence(o.tree), where
@@ -560,8 +569,6 @@ class Report:
         if t.wrong:
             self.failed.setdefault("%s: %s" % (t.name, "; ".join(t.wrong)), []).append(t)
         what = "equal bytes" if t.code == 0 else "a message"
-        if is_foreign(t.crash):
-            what = "a crash in a library"
         self.outcomes["FAILED" if t.wrong else what] += 1
         if is_foreign(t.crash):
             self.crashes[culprit(t.crash)] += 1
