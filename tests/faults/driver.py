@@ -72,6 +72,11 @@ axes:
 repeat: 1
 """
 
+# Of two runs the second one needs more steps than it may make.
+LIMIT = ("find-limit model.yaml -o out/limit -j 1 --set integrator.method=backward-euler"
+         " --set integrator.step=0.005 --set integrator.max_steps=3"
+         " --key time.end --from 0.01 --to 0.02 --scan 2 --precision 1")
+
 # Each: what has been done before (a case, or nothing), the command, and whether an "ok" beside a
 # failure is one of several runs, of which others may have failed.
 Case = collections.namedtuple("Case", "before command several")
@@ -81,6 +86,7 @@ CASES = {
     "check": Case(None, "check model.yaml", False),
     "mesh-box": Case(None, "mesh box --size 0.1,0.1,0.2 --cells 1,1,2 -o box.msh", False),
     "mesh-info": Case("mesh-box", "mesh info box.msh", False),
+    "mesh-refine": Case("mesh-box", "mesh refine box.msh -o fine.msh", False),
     "run-again": Case("run", "run model.yaml -o out/run --quiet", False),
     "report": Case("run", "report out/run", True),
     "study": Case(None, "study study.yaml -o out/study -j 1", True),
@@ -93,6 +99,8 @@ CASES = {
     "export": Case("study", "study export study.yaml --format slurm -o out/study", True),
     "budget": Case(None, "budget model.yaml -o out/budget -j 1 --skip space", True),
     "budget-again": Case("budget", "budget model.yaml -o out/budget -j 1 --skip space", True),
+    "find-limit": Case(None, LIMIT, True),
+    "find-limit-again": Case("find-limit", LIMIT, True),
 }
 
 # Crashes of libraries that corot cannot help: the innermost function of the library that has a
@@ -317,7 +325,7 @@ def judge(name, kind, o, crash):
     case = CASES[name]
     before, plain = fixture(name)
     wrong = ["%s was changed" % n for n in before
-             if n.startswith(("model", "study", "theirs", "out/re")) and o.tree.get(n) != before[n]]
+             if n.startswith(("model", "study", "box", "theirs", "out/re")) and o.tree.get(n) != before[n]]
     if o.code == "hangs":
         return wrong + ["it hangs"]
     if o.code == 0:
