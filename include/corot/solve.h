@@ -25,7 +25,7 @@ typedef enum corot_role { COROT_ROLE_DYNAMIC, COROT_ROLE_STATIC } corot_role;
    role: in a time step of a length that resolves the slow motion (at much shorter ones, where the
    mass outweighs the stiffness, "pcg" may be several times faster on compact bodies); in statics by
    a solver that can tell whether an equilibrium is stable, if one is built in. Rules:
-   src/solve/linsol_choose.c. */
+   src/solve/linsol/linsol_choose.c. */
 typedef struct corot_linear_def {
   const char *solver;         /* "auto", "klu", "cholmod" (if built in), "pcg" */
   const char *ordering;       /* of klu and cholmod: "auto", "amd", "metis" (if built in) */

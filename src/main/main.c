@@ -9,9 +9,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <app/cli.h>
-#include <report/commands.h>
-#include <study/command_study.h>
+#include "app/command/cli.h"
+#include "report/command/commands.h"
+#include "study/command/command_study.h"
 
 #include "crash.h"
 

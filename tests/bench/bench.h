@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "app/cli.h"
+#include "app/command/cli.h"
 
 int command_kernels(int argc, char **argv);
 int command_solvers(int argc, char **argv);

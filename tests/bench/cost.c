@@ -2,7 +2,7 @@
 
 #include <suitesparse/klu.h>
 
-#include "core/kernel.h"
+#include "core/solid/kernel.h"
 
 /* Operations of the pieces, each on one tet. */
 enum {
@@ -150,7 +150,7 @@ double cost_polar_steps(const solid *s) {
   double sum = 0;
   for (int b = 0; b < t->nblock; b++) {
     mat3 X = deformation(&t->block[b], (const double(*)[4])s->state->u);
-    for (int k = 0;; k++) { /* as in core/polar.h, strains this small being left unscaled */
+    for (int k = 0;; k++) { /* as in core/lanes/polar.h, strains this small being left unscaled */
       mat3 C = mat3_cofactor(X);
       vi rough = ~(mat3_dot(X, X) - 3 < 1e-8);
       X = mat3_sum(vd_all(0.5), X, 0.5 / mat3_det(X, C), C);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/clock.h"
+#include "app/run/run_clock.h"
 #include "bench.h"
 #include "cost.h"
 #include "report.h"

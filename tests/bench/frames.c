@@ -2,7 +2,7 @@
 #include <corot/integrate.h>
 #include <stdlib.h>
 
-#include "app/clock.h"
+#include "app/run/run_clock.h"
 #include "bench.h"
 #include "report.h"
 

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "bench.h"
-#include "core/strain.h"
+#include "core/element/strain.h"
 #include "report.h"
 #include "solvers.h"
 

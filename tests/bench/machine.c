@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/clock.h"
-#include "core/simd.h"
+#include "app/run/run_clock.h"
+#include "core/lanes/simd.h"
 
 const char *machine_cpu(void) {
   static char name[128] = "unknown";

@@ -1,6 +1,6 @@
 /* corot-bench memory: bytes of model and state. */
 #include "bench.h"
-#include "core/strain.h"
+#include "core/element/strain.h"
 #include "report.h"
 
 static const char help[] =

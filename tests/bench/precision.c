@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/clock.h"
+#include "app/run/run_clock.h"
 #include "bench.h"
 #include "report.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "core/simd.h"
+#include "core/lanes/simd.h"
 #include "machine.h"
 
 void report_object(json_t *object) {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/clock.h"
+#include "app/run/run_clock.h"
 #include "report.h"
 
 enum { KLU_MOST = 12000 };

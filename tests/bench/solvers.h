@@ -3,7 +3,7 @@
 #define BENCH_SOLVERS_H
 
 #include "solid.h"
-#include "solve/linsol.h"
+#include "solve/linsol/linsol.h"
 
 /* A solver with its matrix and a right-hand side. */
 typedef struct problem {

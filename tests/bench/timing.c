@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "app/clock.h"
+#include "app/run/run_clock.h"
 
 static int ascending(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/mesh_read.h"
+#include "core/mesh/read/mesh_read.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -5,15 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/curve_file.h"
-#include "app/folder_files.h"
-#include "app/folder_lock.h"
-#include "app/folder_owner.h"
-#include "app/json_text.h"
-#include "app/states.h"
-#include "report/budget.h"
-#include "report/fields.h"
-#include "report/report.h"
+#include "app/folder/folder_files.h"
+#include "app/folder/folder_lock.h"
+#include "app/folder/folder_owner.h"
+#include "app/folder/states.h"
+#include "app/scenario/curve_file.h"
+#include "app/text/json_text.h"
+#include "report/command/report.h"
+#include "report/read/fields_file.h"
+#include "report/run/budget_section.h"
 #include "scratch.h"
 #include "small_run.h"
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/scenario.h"
+#include "app/scenario/scenario.h"
 #include "resolved.h"
 
 int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size);

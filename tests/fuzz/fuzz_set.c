@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/config.h"
-#include "app/scenario.h"
+#include "app/config/config.h"
+#include "app/scenario/scenario.h"
 #include "resolved.h"
 #include "scratch.h"
 

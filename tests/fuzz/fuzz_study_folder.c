@@ -4,15 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/folder.h"
-#include "app/scenario.h"
-#include "report/report.h"
+#include "app/folder/folder.h"
+#include "app/scenario/scenario.h"
+#include "report/command/report.h"
 #include "scratch.h"
 #include "small_run.h"
-#include "study/collect.h"
-#include "study/json_file.h"
-#include "study/store.h"
-#include "study/table_text.h"
+#include "study/execute/store.h"
+#include "study/measure/collect.h"
+#include "study/plan/json_file.h"
+#include "study/tables/table_text.h"
 
 int LLVMFuzzerInitialize(int *argc, char ***argv);
 int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size);

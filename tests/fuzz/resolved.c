@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/json_text.h"
+#include "app/text/json_text.h"
 
 /* libfyaml 0.7.12 loses its buffer of a very long token that ends in an error. */
 const char *__lsan_default_suppressions(void);

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/json_text.h"
-#include "app/run.h"
-#include "app/static.h"
+#include "app/run/run.h"
+#include "app/run/static.h"
+#include "app/text/json_text.h"
 #include "scratch.h"
 
 static const char node[] = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";

@@ -1,5 +1,5 @@
 /* Orders of convergence: in space by a manufactured equilibrium, in time by the tolerance. */
-#include "core/polar.h"
+#include "core/lanes/polar.h"
 #include "solution.h"
 
 /* --- Space ---------------------------------------------------------------------------------- */

@@ -3,7 +3,7 @@
    them. A soft body moves on the scale of its steps; one a hundred thousand times stiffer is in
    balance with its load for all that can be seen, at steps of thousands of its periods. */
 #include "bar.h"
-#include "solve/runge_kutta.h"
+#include "solve/integrate/runge_kutta/runge_kutta.h"
 
 enum { NOUTPUT = 37 };
 

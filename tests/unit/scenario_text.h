@@ -2,11 +2,10 @@
 #ifndef SCENARIO_TEXT_H
 #define SCENARIO_TEXT_H
 
-#include "check.h"
-
 #include <stdio.h>
 
-#include "app/scenario.h"
+#include "app/scenario/scenario.h"
+#include "check.h"
 
 #define MESH "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2], split: kuhn}}\n"
 #define MATERIAL "material: {lambda: 1.0e5, mu: 1.0e4, density: 1000}\n"

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "check.h"
-#include "core/strain.h"
+#include "core/element/strain.h"
 
 /* A generator that is the same everywhere: splitmix64, uniform in [-1, 1). */
 static inline double noise(uint64_t *seed) {

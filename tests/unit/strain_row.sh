@@ -11,14 +11,14 @@ compile() { "$compiler" -std=c11 -D_POSIX_C_SOURCE=200809L -I. -I"$source/src" -
 
 row='  row(EXTRA, "extra", BY_FRAME, BY_GRADIENT, FRAME_POLAR) \\'
 sed "/#define STRAIN_MEASURES(row)/a\\
-$row" "$source/src/core/strain.h" >core/strain.h
-grep -q EXTRA core/strain.h || complain "no sixth row"
-compile -fsyntax-only "$source/src/core/model.c" || complain "a sixth row does not compile"
-compile -E "$source/src/core/kernel_force.c" | grep -q 'case EXTRA: return force_loop(&strain_measures\[EXTRA\]' ||
+$row" "$source/src/core/element/strain.h" >core/element/strain.h
+grep -q EXTRA core/element/strain.h || complain "no sixth row"
+compile -fsyntax-only "$source/src/core/model/model.c" || complain "a sixth row does not compile"
+compile -E "$source/src/core/solid/kernel_force.c" | grep -q 'case EXTRA: return force_loop(&strain_measures\[EXTRA\]' ||
   complain "the kernel of forces does not have the sixth row"
 
 sed 's/enum { STRAIN_MEASURES(STRAIN_INDEX) NSTRAIN }/enum { STRAIN_MEASURES(STRAIN_INDEX) EXTRA, NSTRAIN }/' \
-  "$source/src/core/strain.h" >core/strain.h
-grep -q 'EXTRA, NSTRAIN' core/strain.h || complain "no index without a row"
-compile -fsyntax-only "$source/src/core/model.c" 2>/dev/null && complain "an index without a row compiles"
+  "$source/src/core/element/strain.h" >core/element/strain.h
+grep -q 'EXTRA, NSTRAIN' core/element/strain.h || complain "no index without a row"
+compile -fsyntax-only "$source/src/core/model/model.c" 2>/dev/null && complain "an index without a row compiles"
 exit $failed

@@ -7,9 +7,9 @@
 #include <stdio.h>
 
 #include "check.h"
-#include "core/trial.h"
-#include "solve/linsol.h"
-#include "solve/pencil.h"
+#include "core/ode/trial.h"
+#include "solve/linsol/linsol.h"
+#include "solve/pencil/pencil.h"
 
 typedef enum seam {
   RESIDUAL,

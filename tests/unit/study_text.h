@@ -2,8 +2,7 @@
 #ifndef STUDY_TEXT_H
 #define STUDY_TEXT_H
 
-#include <study/plan.h>
-
+#include "study/plan/plan.h"
 #include "temporary.h"
 
 /* A free cube of two cells, of rest length sqrt(2) x ... : nothing holds it, so that any field is a

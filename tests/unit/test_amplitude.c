@@ -1,6 +1,6 @@
 /* Factors in time: jumps, splines and sines; what a model says of them, and how far a step may go.
  */
-#include "core/amplitude.h"
+#include "core/model/amplitude.h"
 #include "solid.h"
 
 static const double pi = 3.14159265358979323846;

@@ -3,8 +3,8 @@
 
 #include "alloc.h"
 #include "bar.h"
-#include "solve/explicit_limit.h"
-#include "solve/runge_kutta.h"
+#include "solve/integrate/runge_kutta/explicit_limit.h"
+#include "solve/integrate/runge_kutta/runge_kutta.h"
 
 static const char *const methods[] = {"arkode", "erk"};
 enum { NMETHOD = 2 };

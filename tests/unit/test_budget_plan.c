@@ -1,7 +1,7 @@
 /* Which runs an error budget needs, for scenarios that make one approximation or another. */
 #define TEST_NAME "test_budget_plan"
 #include "scenario_text.h"
-#include "study/budget_plan.h"
+#include "study/budget/budget_plan.h"
 
 static budget_plan plan_of(const char *text) {
   scenario *s = accept(text);

@@ -1,10 +1,10 @@
 /* Ticks, escaping, and charts of whatever comes. */
-#include <report/chart.h>
-#include <report/markup.h>
-#include <report/ticks.h>
 #include <stdio.h>
 
 #include "check.h"
+#include "report/chart/chart.h"
+#include "report/chart/ticks.h"
+#include "report/page/markup.h"
 
 static int labelled(int n, const tick *ticks) {
   int count = 0;

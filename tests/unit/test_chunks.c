@@ -1,6 +1,6 @@
 /* Meshes of many chunks, whose force buffer is used again and again, against sums over the tets one
    by one in an order of their own. */
-#include "core/model.h"
+#include "core/model/model.h"
 #include "solid.h"
 
 /* How the tets are spread over two materials and how the nodes are numbered: what decides which

@@ -1,7 +1,7 @@
 /* How coarser levels see a field: L against the means it stands for, and L' against L. */
 #include <stdio.h>
 
-#include "core/coarsening.h"
+#include "core/system/coarsening.h"
 #include "hierarchical.h"
 
 /* Two levels, and a map from the finest to `level`. */

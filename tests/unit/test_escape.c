@@ -2,9 +2,10 @@
    changed. */
 #include "check.h"
 
-#include <app/escape.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "app/text/escape.h"
 
 typedef void escape(const char *text, FILE *out);
 

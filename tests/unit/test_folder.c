@@ -1,12 +1,12 @@
 /* Files put in place as a whole, where the disk refuses at the last moment. */
 #include "check.h"
 
-#include <app/folder.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "app/folder/folder.h"
 #include "temporary.h"
 
 static int until_failure; /* calls of fsync that succeed; -1: all do */

@@ -1,5 +1,5 @@
 /* Frames between updates: spin, extrapolation, drift, and what a lag does to forces and energy. */
-#include "core/polar.h"
+#include "core/lanes/polar.h"
 #include "solid.h"
 
 /* A crooked box turned by `angle` about `axis` through the origin, stretched by S first, all free.

@@ -8,8 +8,8 @@
 #include <nvector/nvector_serial.h>
 
 #include "bar.h"
-#include "solve/pencil.h"
-#include "solve/sun_compat.h"
+#include "solve/pencil/pencil.h"
+#include "solve/pencil/sun_compat.h"
 #include "solver.h"
 
 static const double T_END = 0.2;

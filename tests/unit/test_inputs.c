@@ -4,8 +4,8 @@
 #include "scenario_text.h"
 
 #include "alloc.h"
-#include "app/hash.h"
-#include "app/json_text.h"
+#include "app/folder/hash.h"
+#include "app/text/json_text.h"
 #include "solid.h"
 #include "whole_run.h"
 

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "check.h"
-#include "study/limit.h"
+#include "study/measure/limit.h"
 
 typedef struct law {
   double limit;    /* stable up to it */

@@ -5,7 +5,7 @@
 #include <time.h>
 
 #include "bar.h"
-#include "solve/linsol.h"
+#include "solve/linsol/linsol.h"
 
 /* Every solver with every choice it has. */
 static const corot_linear_def table[] = {

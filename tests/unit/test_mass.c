@@ -6,7 +6,7 @@
 
 #include "alloc.h"
 #include "solid.h"
-#include "solve/sun_compat.h"
+#include "solve/pencil/sun_compat.h"
 
 /* A box of two materials, the upper half heavier and more damped. `hold`: one face held, two more
    in one component each, so that x, y and z have different free nodes. */

@@ -1,6 +1,6 @@
 /* Mesh files that are damaged, truncated or hostile: a message with the place, no crash. */
 #include "check.h"
-#include "core/mesh_read.h"
+#include "core/mesh/read/mesh_read.h"
 #include "temporary.h"
 
 #define DATA SOURCE_DIR "/tests/unit/data/"

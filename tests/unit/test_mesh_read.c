@@ -3,7 +3,7 @@
 
 #include "alloc.h"
 #include "check.h"
-#include "core/mesh_read.h"
+#include "core/mesh/read/mesh_read.h"
 #include "temporary.h"
 
 #define DATA SOURCE_DIR "/tests/unit/data/"

@@ -1,7 +1,7 @@
 /* Supports that move: their paths in time, and the work they do on a body. */
 #include <corot/integrate.h>
 
-#include "core/amplitude.h"
+#include "core/model/amplitude.h"
 #include "solid.h"
 
 static corot_mesh *bar_mesh(void) {

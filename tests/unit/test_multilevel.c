@@ -4,8 +4,8 @@
 
 #include "alloc.h"
 #include "solid.h"
-#include "solve/linsol_multilevel.h"
-#include "solve/pencil.h"
+#include "solve/linsol/iterative/linsol_multilevel.h"
+#include "solve/pencil/pencil.h"
 #include "solver.h"
 
 /* A refined body with its matrix, in blocks. */

@@ -1,7 +1,7 @@
 /* Numbers as text: to the last character what printf makes of them. */
-#include <number_text.h>
 #include <stdio.h>
 
+#include "app/text/number_text.h"
 #include "solid.h"
 
 static void assert_like_printf(double x) {

@@ -1,7 +1,7 @@
 /* Three levels of a quantity: the order, and where it is not believed. */
 #define TEST_NAME "test_observed_order"
 #include "check.h"
-#include "study/convergence.h"
+#include "study/measure/convergence.h"
 
 /* Errors e, e 2^-p, e 4^-p of three levels: what remains at the third is found exactly. */
 static void a_power_is_found(void **state) {

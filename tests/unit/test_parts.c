@@ -1,5 +1,5 @@
 /* Parts of a body that share no node, and what nothing holds of them. */
-#include <solve/rigid.h>
+#include "solve/statics/rigid.h"
 
 #include "alloc.h"
 #include "solid.h"

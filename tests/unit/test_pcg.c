@@ -3,9 +3,9 @@
 
 #include "alloc.h"
 #include "bar.h"
-#include "solve/linsol.h"
-#include "solve/linsol_nodes.h"
-#include "solve/pencil.h"
+#include "solve/linsol/iterative/linsol_nodes.h"
+#include "solve/linsol/linsol.h"
+#include "solve/pencil/pencil.h"
 #include "solver.h"
 
 /* A bent bar of which some nodes are held in one or two components, with inner nodes free. */

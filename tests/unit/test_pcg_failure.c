@@ -1,7 +1,7 @@
 /* Where conjugate gradients do not converge, and what is taken for convergence. */
 #include "alloc.h"
 #include "bar.h"
-#include "solve/pencil.h"
+#include "solve/pencil/pencil.h"
 #include "solver.h"
 
 /* A square plate of this thickness, held at one edge. */

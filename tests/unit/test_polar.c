@@ -6,7 +6,7 @@
    rounded, R is defined to eps s1 / (s2 + s3) only. */
 #include <float.h>
 
-#include "core/strain.h"
+#include "core/element/strain.h"
 #include "solid.h"
 
 static const double eps = DBL_EPSILON;

@@ -3,8 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "app/clock.h"
-#include "app/progress.h"
+#include "app/run/progress.h"
+#include "app/run/run_clock.h"
 #include "check.h"
 
 /* A terminal in the place of stderr. */

@@ -1,5 +1,5 @@
 /* Values at the ends of their ranges and of the file, and what messages show of what was found. */
-#include "core/reader.h"
+#include "core/mesh/read/reader.h"
 
 #include <stdio.h>
 

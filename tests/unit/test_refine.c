@@ -4,7 +4,7 @@
 
 #include "alloc.h"
 #include "check.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 #include "solid.h"
 
 /* A tet with no symmetry; the first is right-handed as it stands. */

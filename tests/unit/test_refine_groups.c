@@ -2,7 +2,7 @@
 #include <corot/mesh.h>
 
 #include "check.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 /* From (-1, 0, 5) to (0, 2, 8). */
 static corot_mesh *make_box(int nx, int ny, int nz) {

@@ -1,17 +1,17 @@
 /* Reading back what a run leaves, and the page made of it, whatever the files hold. */
-#include <app/read_csv.h>
-#include <app/write_vtu.h>
 #include <corot/mesh.h>
-#include <report/encode.h>
-#include <report/fields.h>
-#include <report/precision.h>
-#include <report/report.h>
-#include <report/surface.h>
-#include <report/thin.h>
 #include <stdio.h>
 #include <sys/stat.h>
 
 #include "alloc.h"
+#include "app/folder/read_csv.h"
+#include "app/folder/write_vtu.h"
+#include "report/chart/precision.h"
+#include "report/chart/thin.h"
+#include "report/command/report.h"
+#include "report/page/encode.h"
+#include "report/read/fields_file.h"
+#include "report/read/surface.h"
 #include "temporary.h"
 
 static void assert_cell(const csv *t, int row, int column, const char *expected) {

@@ -5,9 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <app/folder.h>
-#include <app/inventory.h>
-
+#include "app/folder/folder.h"
+#include "app/folder/inventory.h"
 #include "whole_run.h"
 
 static void a_run_leaves_its_books(void **state) {
@@ -46,8 +45,9 @@ static void a_run_leaves_its_books(void **state) {
 
 static void the_phases_make_up_the_time(void **state) {
   (void)state;
-  static const char *const phase[] = {"setup", "force", "assembly", "combine", "factor",
-                                      "solve", "work", "integrator", "frames", "output", "other"};
+  static const char *const phase[] = {"setup",  "force",  "assembly", "combine",
+                                      "factor", "solve",  "work",     "integrator",
+                                      "frames", "output", "other"};
   char *dir = temporary_folder();
   run_ok(dir, SET("frames={policy: hold, interval: 0.05}"));
   json_t *result = result_of(dir);
@@ -353,9 +353,9 @@ static void a_full_disk_is_an_exit_code_of_its_own(void **state) {
 static void the_inventory_is_complete(void **state) {
   (void)state;
   char *dir = temporary_folder();
-  forget(run_with(dir, (run_options){.quiet = true},
-                  SET("time.end=0.01", "output.states=binary", "output.fields=vtu",
-                      "compare=[polar]")));
+  forget(run_with(
+      dir, (run_options){.quiet = true},
+      SET("time.end=0.01", "output.states=binary", "output.fields=vtu", "compare=[polar]")));
   for (int i = 0; i < INVENTORY_SIZE; i++)
     if (inventory[i].listed) assert_true(inventory[i].cleaned);
   assert_true(exists(in(dir, "out/fields/fields_000000.vtu")));

@@ -3,9 +3,9 @@
 #include "scenario_text.h"
 
 #include "alloc.h"
-#include "app/json_text.h"
-#include "app/schema.h"
-#include "app/suggest.h"
+#include "app/config/schema.h"
+#include "app/text/json_text.h"
+#include "app/text/suggest.h"
 
 /* --- Defaults and accepted forms --- */
 

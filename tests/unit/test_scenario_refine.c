@@ -1,7 +1,7 @@
 /* Scenarios with mesh.refine: what it does to groups and probes, and how far it may go. */
 #define TEST_NAME "test_scenario_refine"
 #include "alloc.h"
-#include "app/refine.h"
+#include "app/scenario/refine.h"
 #include "check.h"
 #include "scenario_text.h"
 

@@ -1,8 +1,7 @@
 /* states.bin: what is written is read to the last bit, and what is damaged is refused. */
-#include <app/folder.h>
-#include <app/states.h>
-
 #include "alloc.h"
+#include "app/folder/folder.h"
+#include "app/folder/states.h"
 #include "bar.h"
 #include "temporary.h"
 

@@ -1,5 +1,5 @@
 /* Energies at the end of a step, as the integrators had them in it. */
-#include <solve/integrator.h>
+#include "solve/integrate/integrator.h"
 
 #include "bar.h"
 

@@ -5,7 +5,7 @@
 #include <nvector/nvector_serial.h>
 
 #include "bar.h"
-#include "solve/sun_compat.h"
+#include "solve/pencil/sun_compat.h"
 #include "solver.h"
 
 static bar quick_bar(void) {

@@ -1,7 +1,7 @@
 /* The five strain measures: closed forms, and the stress as the gradient of the energy. */
 #include <float.h>
 
-#include "core/strain.h"
+#include "core/element/strain.h"
 #include "solid.h"
 
 static const double lambda = 1.5, mu = 1;

@@ -1,12 +1,11 @@
 /* What a study makes of its runs, on runs whose errors are known beforehand. */
-#include <app/hash.h>
-#include <study/collect.h>
-#include <study/errors.h>
-#include <study/fit.h>
-#include <study/json_file.h>
-#include <study/store.h>
-
 #include "alloc.h"
+#include "app/folder/hash.h"
+#include "study/execute/store.h"
+#include "study/measure/collect.h"
+#include "study/measure/errors.h"
+#include "study/measure/fit.h"
+#include "study/plan/json_file.h"
 #include "study_text.h"
 
 /* --- Solutions made up: u = (1 + e) t a, v = (1 + 2 e) a --- */

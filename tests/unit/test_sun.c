@@ -7,8 +7,8 @@
 #include <sunlinsol/sunlinsol_klu.h>
 
 #include "full_system.h"
-#include "solve/sun_compat.h"
-#include "solve/vector.h"
+#include "solve/integrate/vector.h"
+#include "solve/pencil/sun_compat.h"
 #include "solver.h"
 
 static SUNContext context(void) {

@@ -1,6 +1,6 @@
 /* The clamped tangent: positive semidefinite, no less than the exact one, and the same where there
    is nothing to clamp. */
-#include "core/eigen.h"
+#include "core/lanes/eigen.h"
 #include "solid.h"
 
 /* --- dense symmetric matrices [n][n] -----------------------------------------------------------

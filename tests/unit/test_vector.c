@@ -1,11 +1,11 @@
 /* The vector operations are replaced by ones that mean the same. */
-#include "solve/vector.h"
+#include "solve/integrate/vector.h"
 
 #include <nvector/nvector_serial.h>
 
 #include "check.h"
 #include "solid.h"
-#include "solve/sun_compat.h"
+#include "solve/pencil/sun_compat.h"
 
 enum { NVECTOR = 4 };
 

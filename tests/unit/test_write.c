@@ -1,11 +1,10 @@
 /* The writers: tables, fields, result files. */
-#include <app/folder.h>
-#include <app/outputs.h>
-#include <app/schedule.h>
-#include <app/write_csv.h>
-#include <app/write_vtu.h>
-
 #include "alloc.h"
+#include "app/folder/folder.h"
+#include "app/folder/write_csv.h"
+#include "app/folder/write_vtu.h"
+#include "app/run/outputs.h"
+#include "app/run/schedule.h"
 #include "temporary.h"
 
 static void assert_file(const char *path, const char *expected) {

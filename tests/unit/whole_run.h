@@ -2,9 +2,9 @@
 #ifndef WHOLE_RUN_H
 #define WHOLE_RUN_H
 
-#include <app/run.h>
 #include <fcntl.h>
 
+#include "app/run/run.h"
 #include "temporary.h"
 
 static const char bar[] =

@@ -1,0 +1,101 @@
+/* `corot mesh refine`: octasection from file to file. */
+#include <corot/mesh.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/scenario/refine.h"
+#include "app/text/say.h"
+#include "cli.h"
+
+static const char program[] = "corot mesh refine";
+
+static const char help[] =
+    "usage: corot mesh refine FILE [--levels N] [--diagonal NAME] -o FILE.msh\n"
+    "\n"
+    "Cuts every tet into eight, N times, and writes gmsh 2.2 ASCII with all groups. Nodes keep\n"
+    "their numbers; the middles of the edges follow. Size and shape before and after are printed\n"
+    "to stderr; see also corot mesh info.\n"
+    "\n"
+    "      --levels N       how often; default: 1\n"
+    "      --diagonal NAME  shortest: better shapes on the average; consistent: at most three "
+    "shapes\n"
+    "                       of tets come from each, however often it is cut (Bey 1995); default:\n"
+    "                       shortest\n"
+    "  -o, --output FILE    the file to write\n"
+    "\n"
+    "example: corot mesh refine bar.msh --levels 2 -o fine.msh\n";
+
+static const struct option options[] = {
+    {"levels", required_argument, NULL, 'l'},
+    {"diagonal", required_argument, NULL, 'd'},
+    {"output", required_argument, NULL, 'o'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
+};
+
+typedef struct arguments {
+  const char *from, *to;
+  int nlevel;
+  corot_diagonal diagonal;
+} arguments;
+
+static int take_option(arguments *a, int answer, char **argv) {
+  char *end;
+  long n;
+  switch (answer) {
+    case 'l':
+      n = strtol(optarg, &end, 10);
+      if (end == optarg || *end || n < 0 || n > 100)
+        return usage_error(program, "--levels %s: expected a whole number >= 0", optarg);
+      a->nlevel = (int)n;
+      return EXIT_OK;
+    case 'd':
+      if (strcmp(optarg, "consistent") != 0 && strcmp(optarg, "shortest") != 0)
+        return usage_error(program, "--diagonal %s: expected consistent or shortest", optarg);
+      a->diagonal = *optarg == 's' ? COROT_DIAGONAL_SHORTEST : COROT_DIAGONAL_CONSISTENT;
+      return EXIT_OK;
+    case 'o':
+      a->to = optarg;
+      return EXIT_OK;
+    default:
+      return option_error(program, answer, argv, options);
+  }
+}
+
+static void report(const char *file, const corot_mesh *mesh) {
+  corot_mesh_quality q = corot_mesh_measure(mesh);
+  say("%s: %d nodes, %d tets; shape mean %.3f, worst %.3f\n", file, mesh->nnode, mesh->ntet,
+      q.shape_mean, q.shape_min);
+}
+
+static int refine(const arguments *a) {
+  corot_mesh *mesh = NULL;
+  corot_status status = corot_mesh_read(a->from, &mesh);
+  if (status != COROT_OK) return failure(read_failure(status, a->from));
+  report(a->from, mesh);
+  status = refine_mesh(a->nlevel, a->diagonal, &mesh, NULL);
+  if (status == COROT_EINVAL) corot_fail(status, "%s: %s", a->from, corot_error());
+  if (status == COROT_OK) status = corot_mesh_write(mesh, a->to);
+  if (status == COROT_OK) report(a->to, mesh);
+  corot_mesh_destroy(mesh);
+  return status == COROT_OK ? EXIT_OK : failure(status);
+}
+
+int command_mesh_refine(int argc, char **argv) {
+  arguments a = {.nlevel = 1, .diagonal = COROT_DIAGONAL_SHORTEST};
+  opterr = 0;
+  for (int answer; (answer = getopt_long(argc, argv, ":o:h", options, NULL)) != -1;) {
+    if (answer == 'h') {
+      fputs(help, stdout);
+      return EXIT_OK;
+    }
+    int code = take_option(&a, answer, argv);
+    if (code != EXIT_OK) return code;
+  }
+  if (argc - optind != 1)
+    return usage_error(program, "expected one mesh file, found %d", argc - optind);
+  if (!a.to) return usage_error(program, "-o FILE is missing");
+  a.from = argv[optind];
+  return refine(&a);
+}

@@ -1,0 +1,99 @@
+/* What a file may say: one table, from which come validation, defaults and documentation. */
+#ifndef COROT_APP_CONFIG_SCHEMA_H
+#define COROT_APP_CONFIG_SCHEMA_H
+
+#include <jansson.h>
+#include <stdio.h>
+
+#include "config.h"
+
+typedef enum schema_type {
+  SCHEMA_MAP,   /* keys as the table says */
+  SCHEMA_NAMED, /* keys are names given by the user, "groups.NAME" */
+  SCHEMA_LIST,  /* entries are maps, "loads[]", or those of the path in `words` */
+  SCHEMA_MAPS,  /* one map, or a list of such */
+  SCHEMA_SHORT, /* a map, or the value of its first key alone */
+  SCHEMA_TEXT,
+  SCHEMA_CHOICE,   /* one of `words` */
+  SCHEMA_NUMBER,   /* or the one of `words`, which stands for 0 */
+  SCHEMA_INTEGER,  /* the same */
+  SCHEMA_VECTOR,   /* three numbers */
+  SCHEMA_COUNTS,   /* three integers */
+  SCHEMA_INTEGERS, /* any number of integers */
+  SCHEMA_WORDS,    /* some of `words`, each once */
+  SCHEMA_CURVE,    /* pairs of time and value, at most two at one time, or a map */
+  SCHEMA_STATES,   /* one of `words`, a map, or a list of maps */
+  SCHEMA_TEXTS,    /* any number of texts; one may stand alone */
+  SCHEMA_VALUES,   /* any number of values of any kind */
+  SCHEMA_OPEN,     /* a map of keys that are not for this table to know */
+  SCHEMA_OPENS,    /* a list of such */
+} schema_type;
+
+typedef enum schema_status {
+  SCHEMA_OPTIONAL,
+  SCHEMA_REQUIRED,
+  SCHEMA_ONE_OF, /* exactly one of the keys so marked in a map is given */
+} schema_status;
+
+typedef enum schema_range {
+  SCHEMA_ANY,
+  SCHEMA_POSITIVE,     /* > 0 */
+  SCHEMA_NOT_NEGATIVE, /* >= 0 */
+  SCHEMA_FRACTION,     /* > 0 and < 1 */
+  SCHEMA_UNIT,         /* 0 to 1 */
+  SCHEMA_ORDER,        /* 1 to 5 */
+  SCHEMA_STAGE_ORDER,  /* 2 to 8 */
+  SCHEMA_POISSON,      /* > -1 and < 0.5 */
+} schema_range;
+
+typedef struct schema_key {
+  const char *path;
+  schema_type type;
+  schema_status status;
+  schema_range range;
+  const char *unit;     /* "" without one */
+  const char *fallback; /* the default in YAML; NULL: none */
+  const char *words;    /* "a|b|c", see schema_type */
+  const char *doc;
+} schema_key;
+
+/* In the order of a well-kept file, every parent before its children. */
+typedef struct schema {
+  const schema_key *key; /* [nkey] */
+  int nkey;
+} schema;
+
+extern const schema scenario_schema;
+
+/* The next key after `previous` (NULL: the first) in maps of this path ("" the root); NULL: no
+   more. */
+const schema_key *schema_child(const schema *table, const char *path, const schema_key *previous);
+
+/* The key of that path; NULL: there is none. */
+const schema_key *schema_find(const schema *table, const char *path);
+
+/* The path of what a SCHEMA_LIST, SCHEMA_NAMED or SCHEMA_MAPS holds. */
+void schema_inside(const schema_key *key, size_t size, char *path);
+
+/* Checks a tree against the table, notes the numbers in its nodes, drops keys without a value and
+   fills in defaults. */
+corot_status schema_apply(const schema *table, config *tree);
+
+/* Writes single values that stand for a map (SCHEMA_SHORT, SCHEMA_STATES) as one, so that its other
+   keys can be set. */
+corot_status schema_expand(const schema *table, config *tree);
+
+/* A checked scenario as JSON, its keys in the order of the table. NULL: no memory. */
+json_t *schema_resolve(const config *tree);
+
+/* The table for people, narrowed to the keys that begin with `prefix`; returns the number of keys
+   printed. */
+int schema_print(const schema *table, const char *prefix, FILE *out);
+
+/* That of scenarios as a JSON Schema, for programs. */
+json_t *schema_json(void);
+
+/* A range in words, "> 0"; "" for SCHEMA_ANY. */
+const char *schema_range_words(schema_range range);
+
+#endif

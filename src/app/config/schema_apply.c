@@ -1,0 +1,461 @@
+/* A tree held against the table: types, ranges, missing and unknown keys, defaults. */
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "app/text/suggest.h"
+#include "schema.h"
+
+enum { PATH = 128, LIST = 512 };
+
+/* A tree on its way through a table. */
+typedef struct application {
+  const schema *table;
+  config *tree;
+} application;
+
+static corot_status apply_map(const application *a, config_node *map, const char *path);
+
+/* --- Words for messages --- */
+
+/* What stands there, in words. */
+static void describe(const config_node *node, size_t size, char *text) {
+  if (node->kind == CONFIG_MAP)
+    snprintf(text, size, "a map");
+  else if (node->kind == CONFIG_LIST)
+    snprintf(text, size, "a list of %d", node->nchild);
+  else if (node->quoted)
+    snprintf(text, size, "the text \"%.40s\"", node->text);
+  else if (config_is_null(node))
+    snprintf(text, size, "nothing");
+  else
+    snprintf(text, size, "%.40s", node->text);
+}
+
+static corot_status expected(const config_node *node, const char *what) {
+  char found[PATH];
+  describe(node, sizeof found, found);
+  return config_fail(node, "expected %s, found %s", what, found);
+}
+
+static const char *last_segment(const char *path) {
+  const char *dot = strrchr(path, '.');
+  return dot ? dot + 1 : path;
+}
+
+/* "a|b|c" as "a, b, c". */
+static void comma_list(const char *words, size_t size, char *list) {
+  size_t used = 0;
+  for (; *words && used + 3 < size; words++) {
+    if (*words == '|') list[used++] = ',';
+    list[used++] = *words == '|' ? ' ' : *words;
+  }
+  list[used] = '\0';
+}
+
+/* The keys of a map as "a|b|c". */
+static void keys_of(const schema *table, const char *path, size_t size, char *words) {
+  size_t used = 0;
+  words[0] = '\0';
+  for (const schema_key *k = NULL; (k = schema_child(table, path, k)) && used < size;)
+    used +=
+        (size_t)snprintf(words + used, size - used, "%s%s", used ? "|" : "", last_segment(k->path));
+}
+
+static bool among(const char *word, const char *words) {
+  size_t length = strlen(word);
+  while (words && *words) {
+    size_t n = strcspn(words, "|");
+    if (n == length && memcmp(word, words, n) == 0) return true;
+    words += n + (words[n] == '|');
+  }
+  return false;
+}
+
+/* What people call keys of a scenario that have another name here. */
+static const struct {
+  const char *path, *key, *name;
+} synonyms[] = {
+    {"", "initial", "start"},
+    {"", "initial_conditions", "start"},
+    {"", "initial_velocity", "start.velocity"},
+    {"", "velocity", "start.velocity"},
+    {"", "spin", "start.spin"},
+    {"start", "angular_velocity", "spin"},
+    {"start", "omega", "spin"},
+    {"boundary[]", "displacement", "move"},
+    {"boundary[]", "displace", "move"},
+    {"boundary[]", "amplitude", "move.amplitude"},
+    {"boundary[].translate", "displacement", "boundary[].move.direction"},
+    {"boundary[].translate", "amplitude", "boundary[].move.amplitude"},
+    {"boundary[].rotate", "angle", "boundary[].move.rotate.angle"},
+    {"boundary[].rotate", "amplitude", "boundary[].move.amplitude"},
+    {"boundary[].move", "displacement", "direction"},
+    {"boundary[].move", "translate", "direction"},
+    {"boundary[].move.amplitude", "spline", "smooth"},
+    {"boundary[].move.amplitude", "table", "file"},
+    {"loads[].amplitude", "spline", "smooth"},
+    {"loads[].amplitude", "table", "file"},
+};
+
+static const char *synonym(const schema *table, const char *path, const char *key) {
+  if (table != &scenario_schema) return NULL;
+  for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
+    if (strcmp(synonyms[i].path, path) == 0 && strcmp(synonyms[i].key, key) == 0)
+      return synonyms[i].name;
+  return NULL;
+}
+
+static corot_status unknown_key(const schema *table, const config_node *node, const char *path) {
+  char words[LIST], list[LIST], near[PATH];
+  const char *meant = synonym(table, path, node->key);
+  if (meant) return config_fail_key(node, "unknown key; did you mean %s?", meant);
+  keys_of(table, path, sizeof words, words);
+  suggest_among(node->key, words, sizeof near, near);
+  if (*near) return config_fail_key(node, "unknown key; did you mean %s?", near);
+  for (int i = 0; i < table->nkey; i++)
+    if (strcmp(last_segment(table->key[i].path), node->key) == 0)
+      return config_fail_key(node, "unknown key here; did you mean %s?", table->key[i].path);
+  comma_list(words, sizeof list, list);
+  return config_fail_key(node, "unknown key; known here: %s", list);
+}
+
+/* --- Numbers --- */
+
+static bool in_range(double x, schema_range range) {
+  switch (range) {
+    case SCHEMA_POSITIVE:
+      return x > 0;
+    case SCHEMA_NOT_NEGATIVE:
+      return x >= 0;
+    case SCHEMA_FRACTION:
+      return x > 0 && x < 1;
+    case SCHEMA_UNIT:
+      return x >= 0 && x <= 1;
+    case SCHEMA_ORDER:
+      return x >= 1 && x <= 5;
+    case SCHEMA_STAGE_ORDER:
+      return x >= 2 && x <= 8;
+    case SCHEMA_POISSON:
+      return x > -1 && x < 0.5;
+    default:
+      return true;
+  }
+}
+
+static corot_status check_number(config_node *node, schema_range range) {
+  if (!config_parse_number(node, &node->number)) {
+    if (node->quoted) return expected(node, "a number (without quotes)");
+    bool digits = node->kind == CONFIG_SCALAR && strpbrk(node->text, "0123456789.");
+    return expected(node,
+                    digits ? "a finite number in decimal, such as 1.5 or 1.0e-3" : "a number");
+  }
+  if (!in_range(node->number, range))
+    return config_fail(node, "must be %s, found %s", schema_range_words(range), node->text);
+  return COROT_OK;
+}
+
+static corot_status check_integer(config_node *node, schema_range range) {
+  COROT_TRY(check_number(node, range));
+  if (node->number != floor(node->number)) return expected(node, "a whole number");
+  if (fabs(node->number) > INT_MAX) return config_fail(node, "must be at most %d", INT_MAX);
+  return COROT_OK;
+}
+
+typedef corot_status check_function(config_node *node, schema_range range);
+
+static corot_status check_entries(config_node *list, schema_range range, check_function *check) {
+  for (config_node *c = list->child; c; c = c->next) COROT_TRY(check(c, range));
+  return COROT_OK;
+}
+
+/* A number or whole number, or the one word that stands for zero. */
+static corot_status check_scalar(config_node *node, const schema_key *key, check_function *check) {
+  if (key->words && node->kind == CONFIG_SCALAR && strcmp(node->text, key->words) == 0)
+    return COROT_OK;
+  double ignored;
+  if (key->words && !config_parse_number(node, &ignored)) {
+    char what[64];
+    snprintf(what, sizeof what, "a number or %s", key->words);
+    return expected(node, what);
+  }
+  return check(node, key->range);
+}
+
+/* --- Other values --- */
+
+static corot_status check_text(const config_node *node) {
+  if (node->kind != CONFIG_SCALAR) return expected(node, "text");
+  return COROT_OK;
+}
+
+static corot_status check_choice(const config_node *node, const schema_key *key) {
+  char list[LIST], near[PATH];
+  comma_list(key->words, sizeof list, list);
+  if (node->kind != CONFIG_SCALAR) return expected(node, list);
+  if (among(node->text, key->words)) return COROT_OK;
+  suggest_among(node->text, key->words, sizeof near, near);
+  if (*near) return config_fail(node, "unknown: %.40s; did you mean %s?", node->text, near);
+  return config_fail(node, "expected one of %s; found %.40s", list, node->text);
+}
+
+static corot_status check_three(config_node *node, const schema_key *key, check_function *check) {
+  bool whole = key->type == SCHEMA_COUNTS;
+  if (node->kind != CONFIG_LIST || node->nchild != 3)
+    return expected(node, whole ? "three whole numbers, such as [2, 2, 12]"
+                                : "three numbers, such as [0.0, 0.0, -9.81]");
+  return check_entries(node, key->range, check);
+}
+
+static corot_status check_integers(config_node *node, schema_range range) {
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return expected(node, "a list of whole numbers, such as [3, 39, 64]");
+  return check_entries(node, range, check_integer);
+}
+
+static corot_status check_words(const config_node *node, const schema_key *key) {
+  if (node->kind != CONFIG_LIST || node->nchild == 0) {
+    char list[LIST], what[LIST + 32];
+    comma_list(key->words, sizeof list, list);
+    snprintf(what, sizeof what, "a list of words, such as [%s]", list);
+    return expected(node, what);
+  }
+  for (const config_node *c = node->child; c; c = c->next) {
+    COROT_TRY(check_choice(c, key));
+    for (const config_node *before = node->child; before != c; before = before->next)
+      if (strcmp(before->text, c->text) == 0) return config_fail(c, "%s is given twice", c->text);
+  }
+  return COROT_OK;
+}
+
+static corot_status check_pairs(config_node *node) {
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return expected(node, "a list of [time, value], such as [[0.0, 0.0], [10.0, 1.0]], or a map");
+  const config_node *before = NULL, *first = NULL;
+  for (config_node *c = node->child; c; c = c->next) {
+    if (c->kind != CONFIG_LIST || c->nchild != 2) return expected(c, "a pair [time, value]");
+    COROT_TRY(check_entries(c, SCHEMA_ANY, check_number));
+    config_node *time = c->child;
+    if (before && !(time->number >= before->number))
+      return config_fail(time, "times must increase, but %s follows %s", time->text, before->text);
+    if (first && time->number == first->number)
+      return config_fail(
+          time, "the third point at %s: a jump has a value before it and one after it", time->text);
+    first = before;
+    before = time;
+  }
+  return COROT_OK;
+}
+
+static corot_status check_values(const config_node *node) {
+  if (node->kind != CONFIG_LIST) return expected(node, "a list of values, such as [1, 2]");
+  if (node->nchild == 0) return config_fail(node, "the list is empty");
+  return COROT_OK;
+}
+
+static corot_status check_open(const config_node *node) {
+  if (node->kind != CONFIG_MAP) return expected(node, "a map");
+  for (const config_node *c = node->child; c; c = c->next)
+    if (!*c->key) return config_fail_key(c, "a key is empty");
+  return COROT_OK;
+}
+
+static corot_status check_opens(const config_node *node) {
+  if (node->kind != CONFIG_LIST) return expected(node, "a list of maps, each begun by \"- \"");
+  for (const config_node *c = node->child; c; c = c->next) COROT_TRY(check_open(c));
+  return COROT_OK;
+}
+
+/* A value that stands alone becomes the first in a list or map. */
+static corot_status wrap(const application *a, config_node *node, config_kind kind,
+                         const char *key) {
+  config_node *value = config_node_create(a->tree, CONFIG_SCALAR);
+  if (!value) return corot_fail(COROT_ENOMEM, "out of memory");
+  *value = *node;
+  value->key = key;
+  node->kind = kind;
+  config_append(node, value);
+  return COROT_OK;
+}
+
+static corot_status apply_texts(const application *a, config_node *node) {
+  if (node->kind == CONFIG_SCALAR) COROT_TRY(wrap(a, node, CONFIG_LIST, NULL));
+  if (node->kind != CONFIG_LIST || node->nchild == 0) return expected(node, "a text, or a list");
+  for (const config_node *c = node->child; c; c = c->next) COROT_TRY(check_text(c));
+  return COROT_OK;
+}
+
+/* --- Maps --- */
+
+static corot_status apply_named(const application *a, config_node *map, const char *path) {
+  if (map->kind != CONFIG_MAP) return expected(map, "a map of names");
+  for (config_node *c = map->child; c; c = c->next) {
+    if (!*c->key) return config_fail_key(c, "a name is empty");
+    COROT_TRY(apply_map(a, c, path));
+  }
+  return COROT_OK;
+}
+
+static corot_status apply_list(const application *a, config_node *list, const char *path) {
+  if (list->kind != CONFIG_LIST) return expected(list, "a list of maps, each begun by \"- \"");
+  for (config_node *c = list->child; c; c = c->next) COROT_TRY(apply_map(a, c, path));
+  return COROT_OK;
+}
+
+static corot_status apply_maps(const application *a, config_node *node, const char *path) {
+  if (node->kind == CONFIG_MAP) return apply_map(a, node, path);
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return expected(node, "a map or a list of maps");
+  return apply_list(a, node, path);
+}
+
+/* A single value becomes a map of its own with that value under the first key. */
+static corot_status expand_short(const application *a, config_node *node, const char *path) {
+  if (node->kind != CONFIG_SCALAR) return COROT_OK;
+  return wrap(a, node, CONFIG_MAP, last_segment(schema_child(a->table, path, NULL)->path));
+}
+
+static corot_status apply_curve(const application *a, config_node *node, const char *path) {
+  return node->kind == CONFIG_MAP ? apply_map(a, node, path) : check_pairs(node);
+}
+
+static corot_status apply_states(const application *a, config_node *node, const schema_key *key) {
+  return node->kind == CONFIG_SCALAR ? check_choice(node, key) : apply_maps(a, node, key->path);
+}
+
+static corot_status apply_short(const application *a, config_node *node, const char *path) {
+  COROT_TRY(expand_short(a, node, path));
+  return apply_map(a, node, path);
+}
+
+corot_status schema_expand(const schema *table, config *tree) {
+  application a = {.table = table, .tree = tree};
+  const schema_key *key = NULL;
+  while ((key = schema_child(table, "", key))) {
+    bool expands = key->type == SCHEMA_SHORT || key->type == SCHEMA_STATES;
+    config_node *node = expands ? config_find(tree->root, key->path) : NULL;
+    char inside[PATH];
+    schema_inside(key, sizeof inside, inside);
+    if (node && !config_is_null(node)) COROT_TRY(expand_short(&a, node, inside));
+  }
+  return COROT_OK;
+}
+
+static corot_status apply_value(const application *a, config_node *node, const schema_key *key) {
+  char inside[PATH];
+  schema_inside(key, sizeof inside, inside);
+  switch (key->type) {
+    case SCHEMA_MAP:
+      return apply_map(a, node, inside);
+    case SCHEMA_NAMED:
+      return apply_named(a, node, inside);
+    case SCHEMA_LIST:
+      return apply_list(a, node, inside);
+    case SCHEMA_MAPS:
+      return apply_maps(a, node, inside);
+    case SCHEMA_SHORT:
+      return apply_short(a, node, inside);
+    case SCHEMA_TEXT:
+      return check_text(node);
+    case SCHEMA_CHOICE:
+      return check_choice(node, key);
+    case SCHEMA_NUMBER:
+      return check_scalar(node, key, check_number);
+    case SCHEMA_INTEGER:
+      return check_scalar(node, key, check_integer);
+    case SCHEMA_VECTOR:
+      return check_three(node, key, check_number);
+    case SCHEMA_COUNTS:
+      return check_three(node, key, check_integer);
+    case SCHEMA_INTEGERS:
+      return check_integers(node, key->range);
+    case SCHEMA_WORDS:
+      return check_words(node, key);
+    case SCHEMA_CURVE:
+      return apply_curve(a, node, inside);
+    case SCHEMA_STATES:
+      return apply_states(a, node, key);
+    case SCHEMA_TEXTS:
+      return apply_texts(a, node);
+    case SCHEMA_VALUES:
+      return check_values(node);
+    case SCHEMA_OPEN:
+      return check_open(node);
+    case SCHEMA_OPENS:
+      return check_opens(node);
+  }
+  return COROT_OK;
+}
+
+static corot_status apply_given(const application *a, config_node *map, const char *path) {
+  for (config_node *c = map->child, *next; c; c = next) {
+    next = c->next;
+    const schema_key *key = NULL;
+    while ((key = schema_child(a->table, path, key)) &&
+           strcmp(last_segment(key->path), c->key) != 0)
+      continue;
+    if (!key) return unknown_key(a->table, c, path);
+    if (config_is_null(c))
+      config_remove(c);
+    else
+      COROT_TRY(apply_value(a, c, key));
+  }
+  return COROT_OK;
+}
+
+static corot_status add_default(const application *a, config_node *map, const schema_key *key) {
+  static const config_source table = {.name = "default"};
+  config_source *source = config_alloc(a->tree, 1, sizeof *source);
+  if (!source) return corot_fail(COROT_ENOMEM, "out of memory");
+  *source = table;
+  source->text = key->fallback;
+  source->size = strlen(key->fallback);
+  config_node *node = NULL;
+  COROT_TRY(config_parse(a->tree, source, false, &node));
+  node->source = NULL;
+  for (config_node *c = node->child; c; c = c->next) c->source = NULL;
+  node->key = last_segment(key->path);
+  config_append(map, node);
+  return apply_value(a, node, key);
+}
+
+/* Exactly one of the keys marked so. */
+static corot_status check_one_of(const schema *table, const config_node *map, const char *path) {
+  const config_node *found = NULL;
+  char words[LIST] = "";
+  size_t used = 0;
+  for (const schema_key *k = NULL; (k = schema_child(table, path, k));) {
+    if (k->status != SCHEMA_ONE_OF) continue;
+    const char *name = last_segment(k->path);
+    used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", used ? " or " : "", name);
+    for (const config_node *c = map->child; c; c = c->next) {
+      if (strcmp(c->key, name) != 0) continue;
+      if (found) return config_fail_key(c, "%s and %s exclude each other", found->key, c->key);
+      found = c;
+    }
+  }
+  if (used && !found) return config_fail_key(map, "%s is missing", words);
+  return COROT_OK;
+}
+
+static corot_status apply_map(const application *a, config_node *map, const char *path) {
+  if (map->kind != CONFIG_MAP) return expected(map, "a map");
+  COROT_TRY(apply_given(a, map, path));
+  COROT_TRY(check_one_of(a->table, map, path));
+  for (const schema_key *k = NULL; (k = schema_child(a->table, path, k));) {
+    const char *name = last_segment(k->path);
+    bool given = false;
+    for (const config_node *c = map->child; c; c = c->next) given |= strcmp(c->key, name) == 0;
+    if (given) continue;
+    if (k->status == SCHEMA_REQUIRED)
+      return config_fail_key(map, "%s is missing (%s)", name, k->doc);
+    if (k->fallback) COROT_TRY(add_default(a, map, k));
+  }
+  return COROT_OK;
+}
+
+corot_status schema_apply(const schema *table, config *tree) {
+  application a = {table, tree};
+  return apply_map(&a, tree->root, "");
+}

@@ -1,0 +1,288 @@
+/* One function opens each table with its header, another adds a row. */
+#include "write_csv.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include "app/text/escape.h"
+#include "app/text/no_memory.h"
+#include "app/text/number_text.h"
+#include "app/text/text_stream.h"
+#include "folder.h"
+
+enum {
+  CELL = NUMBER_TEXT, /* with its comma */
+  ROW = 1024,         /* a row of a fixed number of columns, to spare */
+  BATCH = 8192        /* bytes of rows of every step that are handed on together */
+};
+
+struct table {
+  int fd;
+  char *path;
+  char *row; /* rows not handed on, and the one in the making: a comma follows each cell */
+  size_t length;
+  size_t batch; /* rows are handed on when they are this long together; 0: each */
+  off_t size;   /* of the file's whole rows */
+};
+
+/* Hands whole rows to the system. */
+static corot_status flush(table *t) {
+  corot_status status = file_write(t->fd, t->path, t->row, t->length);
+  if (status == COROT_OK)
+    t->size += (off_t)t->length;
+  else if (ftruncate(t->fd, t->size) == 0) /* fails where there is no length, as on a terminal */
+    lseek(t->fd, t->size, SEEK_SET);
+  t->length = 0;
+  return status;
+}
+
+corot_status table_close(table *t) {
+  if (!t) return COROT_OK;
+  corot_status status = t->length > 0 ? flush(t) : COROT_OK;
+  corot_status closed = file_close(t->fd, t->path);
+  if (status == COROT_OK) status = closed;
+  free(t->path);
+  free(t->row);
+  free(t);
+  return status;
+}
+
+static corot_status table_open(const char *dir, const char *name, size_t capacity, table **out) {
+  table *t = calloc(1, sizeof *t);
+  if (!t) return corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
+  t->fd = -1;
+  t->path = folder_path(dir, name);
+  t->row = malloc(capacity);
+  corot_status status = COROT_OK;
+  if (!t->path || !t->row)
+    status = corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
+  else
+    status = file_create(t->path, &t->fd);
+  if (status != COROT_OK) {
+    table_close(t);
+    return status;
+  }
+  *out = t;
+  return COROT_OK;
+}
+
+/* A cell as it is. The capacity given to table_open has room for all cells of a row. */
+static void add_text(table *t, const char *text) {
+  size_t length = strlen(text);
+  memcpy(t->row + t->length, text, length);
+  t->row[t->length + length] = ',';
+  t->length += length + 1;
+}
+
+static void add_number(table *t, double x) {
+  t->length += number_text(x, t->row + t->length);
+  t->row[t->length++] = ',';
+}
+
+static void add_integer(table *t, int i) {
+  char cell[CELL];
+  snprintf(cell, sizeof cell, "%d", i);
+  add_text(t, cell);
+}
+
+static corot_status end_row(table *t) {
+  t->row[t->length - 1] = '\n';
+  return t->length < t->batch ? COROT_OK : flush(t);
+}
+
+/* "t", NAME.COMPONENT for each name and component, and the columns that `after` lists, if any; the
+   caller's to free. */
+static corot_status make_header(int n, const char *const *name, const char *const component[3],
+                                const char *after, char **header) {
+  char *title = NULL;
+  size_t size = 0, longest = 0;
+  for (int i = 0; i < n; i++) longest = strlen(name[i]) > longest ? strlen(name[i]) : longest;
+  title = malloc(longest + CELL);
+  FILE *out = title ? text_open(header, &size) : NULL;
+  if (out) fputc('t', out);
+  for (int i = 0; out && i < n; i++)
+    for (int c = 0; c < 3; c++) {
+      snprintf(title, longest + CELL, "%s.%s", name[i], component[c]);
+      fputc(',', out);
+      escape_csv(title, out);
+    }
+  if (out && *after) fprintf(out, ",%s", after);
+  free(title);
+  if (out && text_close(out) == 0) return COROT_OK;
+  free(*header);
+  *header = NULL;
+  return no_memory();
+}
+
+/* Opens a table with this header, for rows of up to `capacity` bytes. */
+static corot_status open_with_header(const char *dir, const char *name, const char *header,
+                                     size_t capacity, table **out) {
+  table *t = NULL;
+  size_t needed = strlen(header) + 2;
+  COROT_TRY(table_open(dir, name, BATCH + (needed > capacity ? needed : capacity), &t));
+  add_text(t, header);
+  corot_status status = end_row(t);
+  if (status != COROT_OK) {
+    table_close(t);
+    return status;
+  }
+  *out = t;
+  return COROT_OK;
+}
+
+/* Bytes for t, three numbers a name, and those of the columns `after`. */
+static size_t room_for(int n, const char *after) {
+  size_t cells = 1 + 3 * (size_t)n;
+  for (const char *c = after; *c; c++) cells += *c == ',';
+  return CELL * (*after ? cells + 1 : cells);
+}
+
+/* Opens a table of t, three columns for each name, and those that `after` lists, if any. */
+static corot_status open_with_names(const char *dir, const char *file, int n,
+                                    const char *const *name, const char *const component[3],
+                                    const char *after, table **out) {
+  char *header = NULL;
+  COROT_TRY(make_header(n, name, component, after, &header));
+  corot_status status = open_with_header(dir, file, header, room_for(n, after), out);
+  free(header);
+  return status;
+}
+
+static const char *const displacement_words[] = {"ux", "uy", "uz"};
+
+#define ENERGY_COLUMNS \
+  "kinetic,elastic,dissipated,external_work,balance,frame_energy,px,py,pz,lx,ly,lz"
+
+corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **probes) {
+  return open_with_names(dir, "probes.csv", nprobe, name, displacement_words, "", probes);
+}
+
+corot_status history_table_open(const char *dir, int nprobe, const char *const *name,
+                                table **history) {
+  COROT_TRY(open_with_names(dir, "history.csv", nprobe, name, displacement_words, ENERGY_COLUMNS,
+                            history));
+  (*history)->batch = BATCH;
+  return COROT_OK;
+}
+
+static void add_displacements(table *t, int nprobe, const int *node,
+                              const double (*displacement)[3]) {
+  for (int i = 0; i < nprobe; i++)
+    for (int c = 0; c < 3; c++) add_number(t, displacement[node[i]][c]);
+}
+
+corot_status probes_row(table *probes, double t, int nprobe, const int *node,
+                        const double (*displacement)[3]) {
+  add_number(probes, t);
+  add_displacements(probes, nprobe, node, displacement);
+  return end_row(probes);
+}
+
+corot_status compare_open(const char *dir, int nmeasure, const char *const *measure,
+                          table **compare) {
+  static const char *const part[] = {"total", "pressure", "shear"};
+  return open_with_names(dir, "compare.csv", nmeasure, measure, part, "", compare);
+}
+
+corot_status reactions_open(const char *dir, int ngroup, const char *const *name,
+                            table **reactions) {
+  static const char *const component[] = {"fx", "fy", "fz"};
+  return open_with_names(dir, "reactions.csv", ngroup, name, component, "", reactions);
+}
+
+corot_status reactions_row(table *reactions, double t, int ngroup, const double (*force)[3]) {
+  add_number(reactions, t);
+  for (int i = 0; i < ngroup; i++)
+    for (int c = 0; c < 3; c++) add_number(reactions, force[i][c]);
+  return end_row(reactions);
+}
+
+static void add_if_number(table *t, double x) {
+  if (x == x)
+    add_number(t, x);
+  else
+    add_text(t, "");
+}
+
+corot_status compare_row(table *compare, double t, int nmeasure, const force_error *error) {
+  add_number(compare, t);
+  for (int i = 0; i < nmeasure; i++) {
+    add_if_number(compare, error[i].total);
+    add_if_number(compare, error[i].pressure);
+    add_if_number(compare, error[i].shear);
+  }
+  return end_row(compare);
+}
+
+corot_status energy_open(const char *dir, table **energy) {
+  return open_with_header(dir, "energy.csv", "t," ENERGY_COLUMNS, ROW, energy);
+}
+
+static void add_energies(table *t, const ledger *row) {
+  add_number(t, row->kinetic);
+  add_number(t, row->elastic);
+  add_number(t, row->dissipated);
+  add_number(t, row->external_work);
+  add_number(t, row->balance);
+  add_number(t, row->frame_energy);
+  for (int c = 0; c < 3; c++) add_number(t, row->momentum[c]);
+  for (int c = 0; c < 3; c++) add_number(t, row->angular_momentum[c]);
+}
+
+corot_status energy_row(table *energy, const ledger *row) {
+  add_number(energy, row->t);
+  add_energies(energy, row);
+  return end_row(energy);
+}
+
+corot_status history_row(table *history, const ledger *row, int nprobe, const int *node,
+                         const double (*displacement)[3]) {
+  add_number(history, row->t);
+  add_displacements(history, nprobe, node, displacement);
+  add_energies(history, row);
+  return end_row(history);
+}
+
+corot_status steps_open(const char *dir, table **steps) {
+  return open_with_header(dir, "steps.csv",
+                          "t,h,order,error,newton,event,angle_max,angle_mean,frame_energy,reason",
+                          ROW, steps);
+}
+
+const char *const frame_reason_words[FRAME_REASONS] = {
+    [COROT_FRAMES_BY_STEP] = "step",   [COROT_FRAMES_BY_INTERVAL] = "interval",
+    [COROT_FRAMES_BY_ANGLE] = "angle", [COROT_FRAMES_BY_CAP] = "cap",
+    [COROT_FRAMES_BY_HOOK] = "hook",
+};
+
+static void add_events(table *t, unsigned events) {
+  static const char *const word[] = {"kink", "frames", "restart", "failed", "rejected"};
+  char cell[64] = "";
+  for (int i = 0; i < 5; i++) {
+    if (!(events & 1u << i)) continue;
+    if (cell[0]) strcat(cell, "+");
+    strcat(cell, word[i]);
+  }
+  add_text(t, cell);
+}
+
+corot_status steps_add(table *steps, const step_row *row) {
+  add_number(steps, row->t);
+  add_number(steps, row->h);
+  add_integer(steps, row->order);
+  add_number(steps, row->error);
+  add_integer(steps, row->newton);
+  add_events(steps, row->events);
+  if (row->events & EVENT_FRAMES) {
+    add_number(steps, row->update.change.angle_max);
+    add_number(steps, row->update.change.angle_mean);
+    add_number(steps, row->update.change.energy);
+    add_text(steps, frame_reason_words[row->update.reason]);
+  } else {
+    for (int i = 0; i < 4; i++) add_text(steps, "");
+  }
+  return end_row(steps);
+}

@@ -1,0 +1,47 @@
+/* Fields for ParaView and VTK: one .vtu file a frame, and a .pvd file that lists them by time.
+
+   Points stand at rest; the deformed shape is theirs plus the point vector `displacement`
+   (ParaView: Warp By Vector, scale 1), so that fields over the rest shape stay available.
+
+     point data  displacement [m], velocity [m/s]
+     cell data   frame      R, row-major, 9 components
+                 strain     6 components in VTK's order XX YY ZZ XY YZ XZ, off-diagonal not doubled;
+                            in the frame or in material axes as the strain measure has it
+                 von_mises  of the Cauchy stress [Pa]
+                 det        volume over rest volume
+                 material   number of the tet's entry in the scenario's list of materials, from 0
+     field data  TimeValue [s]
+
+   Numbers are Float64 as they stand in memory ("appended raw", UInt64 sizes), each array at a
+   multiple of 8 bytes. A frame appears as a whole, by renaming, and is listed after that: whenever
+   the program is killed, the folder can be opened. */
+#ifndef COROT_APP_FOLDER_WRITE_VTU_H
+#define COROT_APP_FOLDER_WRITE_VTU_H
+
+#include <corot/mesh.h>
+
+typedef struct vtu vtu;
+
+/* Where the next frame's values are put; the arrays belong to the writer and stay where they are.
+ */
+typedef struct vtu_fields {
+  double (*displacement)[3], (*velocity)[3]; /* [nnode] */
+  double (*frame)[9], (*strain)[6];          /* [ntet] */
+  double *von_mises, *det;                   /* [ntet] */
+} vtu_fields;
+
+/* Makes DIR/fields and an empty DIR/fields.pvd. material: [ntet]. All memory is taken here. */
+corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out);
+
+vtu_fields vtu_arrays(vtu *w);
+
+/* Writes the arrays as they are now to DIR/fields/fields_NNNNNN.vtu, counting from 0. */
+corot_status vtu_write(vtu *w, double t);
+
+/* Ends the list of frames and reports an error that shows up on closing; the arrays stay. */
+corot_status vtu_finish(vtu *w);
+
+/* Takes NULL. */
+void vtu_destroy(vtu *w);
+
+#endif

@@ -1,0 +1,81 @@
+/* The files of a run that grow with it: probes.csv, energy.csv, history.csv, steps.csv,
+   compare.csv, states.bin, fields. */
+#ifndef COROT_APP_RUN_OUTPUTS_H
+#define COROT_APP_RUN_OUTPUTS_H
+
+#include "app/folder/write_csv.h"
+#include "app/scenario/scenario.h"
+#include "history.h"
+
+typedef struct outputs outputs;
+
+/* What the run knows of one moment. */
+typedef struct instant {
+  double t;
+  const double *u, *v;              /* [n] */
+  double dissipated, external_work; /* from the start to t [J] */
+  double frame_energy;              /* put in by frame updates so far [J] */
+  bool still;                       /* nothing moves, whatever supports do at t */
+} instant;
+
+/* Makes `dir`, removes what an earlier run left there, and begins the files but
+   history.csv. Scenario and model must outlive the outputs. */
+corot_status outputs_open(const scenario *s, const corot_model *model, const char *dir,
+                          outputs **out);
+
+/* Begins DIR/history.csv if the scenario wants it. Call this before the first instant is written.
+ */
+corot_status outputs_open_history(outputs *o, const char *dir);
+
+/* Adds a row to probes.csv, energy.csv and compare.csv, a record to states.bin, and a frame to the
+   fields if it is their turn (every scenario.field_every times, and the `last`). Where an
+   evaluation fails nothing is written. The energy balance is taken against the first instant, with
+   which the history begins; one that is still (statics) enters it as well. */
+corot_status outputs_write(outputs *o, corot_state *state, const instant *now, bool last);
+
+/* Adds the end of a step to the history; `e` are the energies of that instant. Call this after the
+   first instant was written, and before later ones up to this are. */
+corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e);
+
+/* Adds a row to steps.csv. */
+corot_status outputs_step(outputs *o, const step_row *row);
+
+/* How many moments were written. */
+long outputs_count(const outputs *o);
+
+/* The moment written last: energies, and u and v of each probe. */
+ledger outputs_ledger(const outputs *o);
+int outputs_nprobe(const outputs *o);
+const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]);
+
+/* Extremes of probes and energies: history_extremes. */
+json_t *outputs_extremes(const outputs *o);
+
+/* What is beyond small strains, of which a measure of small strains may be wrong: a principal
+   stretch that is off one by more than this, and a turn by more than this [rad]. */
+#define STRAIN_LIMIT 0.2
+#define TURN_LIMIT 0.1
+
+/* What the outputs have seen of the motion. */
+typedef struct observed observed;
+struct observed {
+  history_facts history;
+  double displacement;        /* the largest of a node at the moments written [m] */
+  corot_deformation strained; /* of these and the one of most elastic energy, the most strained, */
+  corot_deformation turned;   /* the most turned (of cauchy, else there are no turns), */
+  corot_deformation inverted; /* and that with the smallest det F */
+  double t_strained, t_turned, t_inverted; /* [s] */
+  double jumps; /* of the stress when the elastic energy was largest: corot_stress_jumps */
+};
+
+/* All zero if no moment was written. COROT_ENOMEM. */
+corot_status outputs_observed(const outputs *o, corot_state *state, observed *out);
+
+/* Closes the files and reports an error that shows up on closing; what was written last remains
+   readable. */
+corot_status outputs_close(outputs *o);
+
+/* Takes NULL. */
+void outputs_destroy(outputs *o);
+
+#endif

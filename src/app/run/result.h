@@ -1,0 +1,72 @@
+/* result.json: everything about a run that is one number or one word. Some of it:
+
+     warnings  [{code, text}, ...], see warnings.h
+     extremes  {NAME: {min: {value, t}, max: {value, t}}, ...} over all steps (of statics, over the
+               load steps): PROBE.ux, uy, uz [m], PROBE.u, its length, and the energies under their
+               names in energy.csv [J]
+     observed  what the outcome's warnings are made from, warning or not:
+       displacement  the largest of a node at an output time [m]
+       period        of the motion, see history.h [s]; null: it does not swing
+       energy_error  the largest balance over the largest energy; null: statics
+       strained      the part of the volume strained beyond STRAIN_LIMIT, when that was largest
+       turned        the part turned beyond TURN_LIMIT, when the turn was largest; of cauchy
+       stress_jumps  corot_stress_jumps when the elastic energy was largest
+     provenance what it was made by, see provenance.h */
+#ifndef COROT_APP_RUN_RESULT_H
+#define COROT_APP_RUN_RESULT_H
+
+#include "app/folder/hash.h"
+#include "app/scenario/warnings.h"
+#include "failure.h"
+#include "outputs.h"
+
+/* All updates of held or extrapolated frames. */
+typedef struct frame_totals {
+  long count, by[FRAME_REASONS];
+  double angle_max, angle_mean; /* the largest and the mean turn of a frame [rad] */
+  double energy;                /* put in [J] */
+} frame_totals;
+
+/* What a search for an equilibrium has to say beside that. */
+typedef struct statics_summary {
+  corot_statics_counts counts;
+  const char *linear_solver;
+  double factor;           /* reached */
+  double stable, unstable; /* load factors between which stability was lost; NaN: nowhere */
+  json_t *steps;           /* a list with an object for each load step */
+  json_t *reactions;       /* by group, at the last equilibrium */
+} statics_summary;
+
+/* What a run has to say when it is over. */
+typedef struct run_summary {
+  const char *status; /* "ok", "failed", "interrupted" */
+  const char *reason; /* NULL: ok */
+  int exit_code;
+  run_failure failure;
+  double t_reached; /* [s] */
+  const corot_model *model;
+  size_t state_bytes;
+  corot_statistics statistics;
+  corot_integrator_choice chosen;
+  frame_totals frames;
+  const statics_summary *statics; /* NULL: a run; else `statistics` has the timings only, `chosen`
+                                     and `frames` nothing */
+  double setup_s, frames_s, output_s, wall_s, cpu_s; /* [s] */
+  hashes hashes;
+  const warnings *warnings;
+  const observed *seen;
+} run_summary;
+
+/* The caller's to json_decref. */
+corot_status result_make(const scenario *s, const outputs *o, const run_summary *run, json_t **out);
+
+/* A part of result.json; NULL: no memory. */
+json_t *result_versions(void);
+
+/* The text of it, as it stands in the file; the caller's to free. */
+corot_status result_text(const json_t *result, char **text);
+
+/* Puts DIR/result.json in place as a whole. */
+corot_status result_write(const char *dir, const char *text);
+
+#endif

@@ -1,0 +1,62 @@
+/* What a run and a search for an equilibrium share, from the first message to the exit code. */
+#ifndef COROT_APP_RUN_RUN_COMMON_H
+#define COROT_APP_RUN_RUN_COMMON_H
+
+#include "app/folder/folder_lock.h"
+#include "outputs.h"
+#include "result.h"
+#include "run.h"
+
+enum { EXIT_SIGNAL = 128 }; /* and the number of the signal that ended the run */
+
+int run_exit_code(corot_status status);
+
+/* Why a run that ended with this status and exit code is not ok. */
+run_failure run_failure_of(corot_status status, int code);
+
+/* Looks whether the folder may be written to, which takes no time; and prepares for an end without
+   notice (stop.h). COROT_EIO: it may not. */
+corot_status run_begin(const scenario *s, const run_options *options);
+
+/* The status of a preparation, in which all is the fault of scenario or mesh but lack of memory,
+   and that there is no equilibrium to start from. */
+corot_status run_preparing(corot_status status);
+
+/* Takes the folder for this run, and says so if a process that was killed has left it locked.
+   `path` of the scenario is for that message. COROT_EIO: another process writes there, or it is not
+   a run's (folder_owner.h). */
+corot_status run_enter(const char *path, const run_options *options, folder_lock *lock);
+
+/* The end of a run that failed before its first output: says why, and leaves a result.json unless
+   another process writes there, or the folder is not a run's. Where it is the scenario's fault,
+   that is left only in place of another run's. `warned` is what was warned of before. Returns the
+   exit code. */
+int run_end_early(const scenario *s, const run_options *options, folder_lock *lock,
+                  const warnings *warned, corot_status status);
+
+/* The same of a scenario that could not be read, of which all is said: a folder that is there, and
+   is a run's, does not go on to say that this run was well. */
+void run_end_unread(const char *path, const run_options *options, corot_status status, int code);
+
+/* The words and the exit code of a run that heeds a request to stop. */
+int run_interrupted(size_t size, char *reason);
+
+/* The warnings of what there is before the first step, told on stderr unless the options ask for
+   quiet. */
+corot_status run_warn_before(const scenario *s, const corot_model *model, bool statics,
+                             const run_options *options, warnings *w);
+
+/* The same of what came of it, after the last moment was written; `seen` is what was looked at. */
+corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,
+                            const outputs *o, bool statics, const run_options *options, warnings *w,
+                            observed *seen);
+
+/* result.json, to the folder and, if the options say so, to stdout. */
+corot_status run_write_result(const scenario *s, const outputs *o, const run_summary *summary,
+                              const run_options *options);
+
+/* Numbers are printed with a point for decimals, whatever the locale of the program. */
+int run_in_c_locale(int (*action)(const scenario *, const run_options *), const scenario *s,
+                    const run_options *options);
+
+#endif

@@ -1,0 +1,278 @@
+/* Reads the tree of a file, which the schema has checked, into a scenario. */
+#include "scenario.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/config/schema.h"
+#include "box_split.h"
+#include "scenario_parts.h"
+
+/* --- Mesh and groups --- */
+
+static corot_status read_mesh(scenario *s) {
+  config_node *root = s->source->root;
+  config_node *box = config_find(root, "mesh.box");
+  s->refine = (int)number_at(root, "mesh.refine");
+  s->diagonal = text_is(root, "mesh.diagonal", "consistent") ? COROT_DIAGONAL_CONSISTENT
+                                                             : COROT_DIAGONAL_SHORTEST;
+  if (!box) {
+    config_node *file = config_find(root, "mesh.file");
+    if (!*file->text) return config_fail(file, "the name is empty");
+    s->mesh_file = config_beside(s->source, s->path, file->text);
+    return s->mesh_file ? COROT_OK : no_memory();
+  }
+  double cells[3];
+  vector_at(box, "size", s->box.size);
+  vector_at(box, "cells", cells);
+  vector_at(box, "origin", s->box.origin);
+  for (int i = 0; i < 3; i++) s->box.cells[i] = (int)cells[i];
+  box_split_find(text_at(box, "split"), &s->box.split);
+  return COROT_OK;
+}
+
+static corot_status read_nodes(config *tree, const config_node *list, group_def *group) {
+  int *node = config_alloc(tree, (size_t)list->nchild, sizeof *node);
+  if (!node) return no_memory();
+  const config_node *c = list->child;
+  for (int i = 0; i < list->nchild; i++, c = c->next) node[i] = (int)c->number;
+  group->kind = GROUP_NODES;
+  group->nnode = list->nchild;
+  group->node = node;
+  return COROT_OK;
+}
+
+static corot_status read_group(config *tree, config_node *node, group_def *group) {
+  group->name = node->key;
+  config_node *nodes = config_find(node, "nodes");
+  if (nodes) return read_nodes(tree, nodes, group);
+  config_node *plane = config_find(node, "plane");
+  if (plane) {
+    group->kind = GROUP_PLANE;
+    group->axis = text_at(plane, "axis")[0] - 'x';
+    group->at = number_at(plane, "at");
+    return COROT_OK;
+  }
+  config_node *box = config_find(node, "box");
+  group->kind = GROUP_BOX;
+  vector_at(box, "min", group->min);
+  vector_at(box, "max", group->max);
+  for (int i = 0; i < 3; i++)
+    if (group->min[i] > group->max[i]) return config_fail(box, "min is larger than max");
+  return COROT_OK;
+}
+
+static corot_status read_groups(scenario *s) {
+  config_node *map = config_find(s->source->root, "groups");
+  group_def *group = config_alloc(s->source, (size_t)map->nchild, sizeof *group);
+  if (!group) return no_memory();
+  s->group = group;
+  for (config_node *c = map->child; c; c = c->next)
+    COROT_TRY(read_group(s->source, c, &group[s->ngroup++]));
+  return COROT_OK;
+}
+
+/* --- Material --- */
+
+/* Puts lambda and mu in the place of E and nu, or mu and nu. */
+static corot_status use_lame(config *tree, config_node *node) {
+  config_node *lambda = config_find(node, "lambda"), *mu = config_find(node, "mu");
+  config_node *E = config_find(node, "E"), *nu = config_find(node, "nu");
+  bool lame = lambda && mu && !E && !nu, young = E && nu && !lambda && !mu;
+  bool shear = mu && nu && !lambda && !E;
+  if (!lame && !young && !shear)
+    return config_fail_key(node, "give lambda and mu, or E and nu, or mu and nu");
+  if (lame) return COROT_OK;
+
+  double n = nu->number, m = young ? E->number / (2 * (1 + n)) : mu->number;
+  double l = 2 * m * n / (1 - 2 * n);
+  if (!(l - l == 0)) return config_fail(nu, "too near to 0.5: lambda overflows");
+  config_remove(nu);
+  config_remove(young ? E : mu);
+  COROT_TRY(config_add_number(tree, node, "lambda", l));
+  return config_add_number(tree, node, "mu", m);
+}
+
+static corot_status read_material(config *tree, config_node *node, corot_material *material) {
+  COROT_TRY(use_lame(tree, node));
+  *material = (corot_material){
+      .group = text_at(node, "group"),
+      .lambda = number_at(node, "lambda"),
+      .mu = number_at(node, "mu"),
+      .density = number_at(node, "density"),
+      .damping_lambda = number_at(node, "damping.lambda"),
+      .damping_mu = number_at(node, "damping.mu"),
+      .damping_mass = number_at(node, "damping.mass"),
+  };
+  if (!(3 * material->lambda + 2 * material->mu > 0))
+    return config_fail(config_find(node, "lambda"),
+                       "3 lambda + 2 mu must be > 0, otherwise the solid has no resistance to a "
+                       "change of volume");
+  return COROT_OK;
+}
+
+static corot_status read_materials(scenario *s) {
+  config_node *node = config_find(s->source->root, "material");
+  bool list = node->kind == CONFIG_LIST;
+  int n = list ? node->nchild : 1;
+  corot_material *material = config_alloc(s->source, (size_t)n, sizeof *material);
+  if (!material) return no_memory();
+  s->material = material;
+  for (config_node *c = list ? node->child : node; c; c = list ? c->next : NULL) {
+    COROT_TRY(read_material(s->source, c, &material[s->nmaterial]));
+    for (int i = 0; i < s->nmaterial; i++) {
+      const char *a = material[i].group, *b = material[s->nmaterial].group;
+      if (!a && !b) return config_fail(c, "group is missing; one entry only may go without");
+      if (a && b && strcmp(a, b) == 0)
+        return config_fail(config_find(c, "group"), "%s has a material already", b);
+    }
+    s->nmaterial++;
+  }
+  return COROT_OK;
+}
+
+/* --- Time and output --- */
+
+static corot_status read_time(scenario *s) {
+  config_node *time = config_find(s->source->root, "time");
+  s->t_end = number_at(time, "end");
+  if (!config_find(time, "output"))
+    COROT_TRY(config_add_number(s->source, time, "output", s->t_end / 100));
+  s->output_step = number_at(time, "output");
+  if (!(s->output_step > 0)) return config_fail(config_find(time, "end"), "too small");
+  return COROT_OK;
+}
+
+/* A name becomes the head of columns of a CSV file. */
+static bool is_column_name(const char *name) {
+  static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  return name[strspn(name, letters)] == '\0';
+}
+
+static corot_status read_probes(scenario *s) {
+  config_node *map = config_find(s->source->root, "probes");
+  probe_def *probe = config_alloc(s->source, (size_t)map->nchild, sizeof *probe);
+  if (!probe) return no_memory();
+  s->probe = probe;
+  for (config_node *c = map->child; c; c = c->next) {
+    if (!is_column_name(c->key))
+      return config_fail_key(c, "the name of a probe is made of letters, digits, _ and -");
+    probe_def *p = &probe[s->nprobe++];
+    const config_node *node = config_find(c, "node");
+    p->name = c->key;
+    p->node = node ? (int)node->number : -1;
+    if (!node) vector_at(c, "point", p->point);
+  }
+  return COROT_OK;
+}
+
+/* The measure of the run itself is compared in any case, but for green, the reference. */
+static corot_status read_compare(scenario *s) {
+  const config_node *list = config_find(s->source->root, "compare");
+  if (!list) return COROT_OK;
+  const char **measure = config_alloc(s->source, (size_t)list->nchild + 1, sizeof *measure);
+  if (!measure) return no_memory();
+  s->compare = measure;
+  bool listed = strcmp(s->strain, "green") == 0;
+  for (const config_node *c = list->child; c; c = c->next) {
+    measure[s->ncompare++] = c->text;
+    listed |= strcmp(c->text, s->strain) == 0;
+  }
+  if (!listed) measure[s->ncompare++] = s->strain;
+  return COROT_OK;
+}
+
+static void read_output(scenario *s) {
+  config_node *root = s->source->root;
+  s->title = text_at(root, "title");
+  s->write_fields = text_is(root, "output.fields", "vtu");
+  s->write_history = text_is(root, "output.history", "true");
+  s->write_states = text_is(root, "output.states", "binary");
+  s->field_every = (int)number_at(root, "output.every");
+}
+
+/* --- All of it --- */
+
+/* What is to be put in the place of the file's values: the texts, or the nodes. */
+typedef struct overrides {
+  int ntext;
+  char *const *text;
+  int nset;
+  const setting *set;
+} overrides;
+
+static corot_status apply_overrides(config *tree, const overrides *o) {
+  for (int i = 0; i < o->ntext; i++) {
+    COROT_TRY(schema_expand(&scenario_schema, tree));
+    COROT_TRY(config_override(tree, o->text[i]));
+  }
+  for (int i = 0; i < o->nset; i++) {
+    COROT_TRY(schema_expand(&scenario_schema, tree));
+    COROT_TRY(config_set(tree, o->set[i].key, o->set[i].value));
+  }
+  return COROT_OK;
+}
+
+static corot_status read_all(scenario *s, const char *path, const overrides *o) {
+  COROT_TRY(apply_overrides(s->source, o));
+  COROT_TRY(schema_apply(&scenario_schema, s->source));
+  s->path = config_copy(s->source, path, strlen(path));
+  if (!s->path) return no_memory();
+  COROT_TRY(read_mesh(s));
+  COROT_TRY(read_groups(s));
+  COROT_TRY(read_materials(s));
+  s->strain = text_at(s->source->root, "strain");
+  COROT_TRY(scenario_read_conditions(s));
+  COROT_TRY(read_time(s));
+  COROT_TRY(scenario_read_method(s));
+  COROT_TRY(scenario_read_hierarchy(s));
+  COROT_TRY(scenario_read_statics(s));
+  COROT_TRY(scenario_read_start(s));
+  COROT_TRY(read_compare(s));
+  COROT_TRY(read_probes(s));
+  read_output(s);
+  s->resolved = schema_resolve(s->source);
+  return s->resolved ? COROT_OK : no_memory();
+}
+
+/* Takes over the tree. */
+static corot_status from_tree(config *tree, const char *path, const overrides *o, scenario **out) {
+  scenario *s = calloc(1, sizeof *s);
+  if (!s) {
+    config_destroy(tree);
+    return no_memory();
+  }
+  s->source = tree;
+  corot_status status = read_all(s, path, o);
+  if (status == COROT_OK)
+    *out = s;
+  else
+    scenario_destroy(s);
+  return status;
+}
+
+corot_status scenario_read(const char *path, int noverride, char *const *override, scenario **out) {
+  config *tree = NULL;
+  COROT_TRY(config_read(path, &tree));
+  return from_tree(tree, path, &(overrides){.ntext = noverride, .text = override}, out);
+}
+
+corot_status scenario_read_with(const char *path, int nset, const setting *set, scenario **out) {
+  config *tree = NULL;
+  COROT_TRY(config_read(path, &tree));
+  return from_tree(tree, path, &(overrides){.nset = nset, .set = set}, out);
+}
+
+corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
+                                char *const *override, scenario **out) {
+  config *tree = NULL;
+  COROT_TRY(config_read_text(path, text, size, &tree));
+  return from_tree(tree, path, &(overrides){.ntext = noverride, .text = override}, out);
+}
+
+void scenario_destroy(scenario *s) {
+  if (!s) return;
+  json_decref(s->resolved);
+  config_destroy(s->source);
+  free(s);
+}

@@ -1,0 +1,134 @@
+/* A scenario: what a YAML or JSON file says about one run, with every default filled in. */
+#ifndef COROT_APP_SCENARIO_SCENARIO_H
+#define COROT_APP_SCENARIO_SCENARIO_H
+
+#include <corot/integrate.h>
+#include <corot/statics.h>
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef enum group_kind { GROUP_PLANE, GROUP_BOX, GROUP_NODES } group_kind;
+
+typedef struct group_def {
+  const char *name;
+  group_kind kind;
+  int axis; /* plane */
+  double at;
+  double min[3], max[3]; /* box */
+  int nnode;             /* nodes */
+  const int *node;
+} group_def;
+
+typedef struct probe_def {
+  const char *name;
+  int node; /* -1: by point */
+  double point[3];
+} probe_def;
+
+/* A velocity some nodes start with. */
+typedef struct start_def {
+  const char *group;  /* NULL: the whole body */
+  double velocity[3]; /* [m/s] */
+  double axis[3];     /* of length one; or zero, as is the rate: no spin */
+  double center[3];   /* [m] */
+  double rate;        /* [rad/s] */
+} start_def;
+
+/* Everything it points to lives as long as it does. */
+typedef struct scenario {
+  const char *path; /* of the file, as given */
+  const char *title;
+
+  const char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
+  corot_box box;
+  int refine; /* times */
+  corot_diagonal diagonal;
+  int ngroup;
+  const group_def *group;
+
+  int nmaterial;
+  const corot_material *material;
+  const char *strain;
+
+  const char *coarse_strain; /* of the unrefined mesh; NULL: no hierarchy */
+  int frame_level;
+  bool conservative;
+  corot_coupling coupling;
+
+  corot_viscosity viscosity;
+  corot_mass mass;
+  corot_dilatation dilatation;
+  double dilatation_local; /* [mu] */
+
+  const char *frame_policy; /* its name */
+  corot_frame_policy frames;
+
+  int nfix;
+  const corot_fix *fix;
+  int nmotion;
+  const corot_motion *motion;
+  int nload;
+  const corot_load *load;
+
+  double t_end;       /* [s] */
+  double output_step; /* [s] */
+  corot_integrator_def integrator;
+  corot_statics_def statics;
+  const char *start_from;    /* "rest", "equilibrium"; NULL: not said, rest */
+  bool start_at_equilibrium; /* of the loads at t = 0; else undeformed */
+  int nstart;
+  const start_def *start; /* [nstart] a later one takes the place of an earlier on its nodes */
+
+  int ncompare;
+  const char *const *compare; /* measures whose forces are held against those of green */
+
+  int nprobe;
+  const probe_def *probe;
+  bool write_fields;  /* output.fields: vtu */
+  int field_every;    /* every so many output times */
+  bool write_history; /* output.history: true */
+  bool write_states;  /* output.states: binary */
+
+  json_t *resolved;      /* the whole scenario, defaults and overrides included */
+  struct config *source; /* the file as a tree, for the places in messages; owns the memory */
+} scenario;
+
+/* Reads `path`, applies `override` [noverride] ("KEY.PATH=VALUE", in order) and fills in defaults.
+   COROT_EIO: the file cannot be read. COROT_EFORMAT: the message is "FILE:LINE:COLUMN: KEY: what
+   is wrong", with the line; or "--set KEY=VALUE: ..." where an override is to blame. */
+corot_status scenario_read(const char *path, int noverride, char *const *override, scenario **out);
+
+/* The same from memory; `path` stands for the file in messages and for its folder. */
+corot_status scenario_read_text(const char *path, const char *text, size_t size, int noverride,
+                                char *const *override, scenario **out);
+
+/* A value for a key, "integrator.rtol", in the place of the file's. */
+typedef struct setting {
+  const char *key;
+  const struct config_node *value;
+} setting;
+
+/* The same as scenario_read with overrides that have been read from a file themselves: messages
+   name their places there. Their tree must outlive the scenario. */
+corot_status scenario_read_with(const char *path, int nset, const setting *set, scenario **out);
+
+/* The key of each kind of load. */
+extern const char *const scenario_load_words[];
+
+/* v [n] = the velocity that a run starts with from the displacement u [n]. */
+void scenario_start(const scenario *s, const corot_model *model, const double *u, double *v);
+
+/* An amplitude in a few words, "sine of 5 Hz"; "" where it is one at all times. */
+void scenario_describe_amplitude(const corot_amplitude *a, size_t size, char *text);
+
+/* Takes NULL. */
+void scenario_destroy(scenario *s);
+
+/* The mesh with its groups, its refinement if the linear solver is to know it, else NULL, and the
+   model; all the caller's to destroy. Who has no use for the refinement passes NULL. COROT_EFORMAT:
+   a message as above; a mesh that cannot be read is one, too. */
+corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_refinement **refinement,
+                            corot_model **model);
+
+#endif

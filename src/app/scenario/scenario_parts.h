@@ -1,0 +1,57 @@
+/* Inside of reading a scenario: the parts that have a file of their own, and how values are taken
+   from the tree. After schema_apply every key has its type, its range and, where there is one, its
+   default: what is left to check is how keys go together. */
+#ifndef COROT_APP_SCENARIO_SCENARIO_PARTS_H
+#define COROT_APP_SCENARIO_SCENARIO_PARTS_H
+
+#include <math.h>
+#include <string.h>
+
+#include "app/config/config.h"
+#include "app/text/no_memory.h"
+#include "scenario.h"
+
+/* boundary and loads */
+corot_status scenario_read_conditions(scenario *s);
+
+/* mass, dilatation, viscosity, frames, integrator and linear_solver */
+corot_status scenario_read_method(scenario *s);
+
+/* Whether the linear solver may have to know the levels of mesh.refine. */
+bool scenario_solves_by_levels(const scenario *s);
+
+/* hierarchy, after viscosity */
+corot_status scenario_read_hierarchy(scenario *s);
+
+/* statics, after linear_solver */
+corot_status scenario_read_statics(scenario *s);
+
+/* start, after boundary */
+corot_status scenario_read_start(scenario *s);
+
+/* An amplitude, with or without jumps; its memory is the tree's. */
+corot_status scenario_read_amplitude(scenario *s, config_node *node, bool jumps,
+                                     corot_amplitude *a);
+
+/* COROT_EFORMAT at `node` where the amplitude of a motion is not zero at t = 0. */
+corot_status scenario_check_moved_start(const config_node *node, const corot_amplitude *a);
+
+static inline double number_at(config_node *node, const char *path) {
+  return config_find(node, path)->number;
+}
+
+static inline const char *text_at(config_node *node, const char *path) {
+  const config_node *found = config_find(node, path);
+  return found ? found->text : NULL;
+}
+
+static inline bool text_is(config_node *node, const char *path, const char *text) {
+  return strcmp(text_at(node, path), text) == 0;
+}
+
+static inline void vector_at(config_node *node, const char *path, double vector[3]) {
+  const config_node *c = config_find(node, path)->child;
+  for (int i = 0; i < 3; i++, c = c->next) vector[i] = c->number;
+}
+
+#endif

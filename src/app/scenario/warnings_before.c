@@ -1,0 +1,162 @@
+/* What is known of a run before its first step. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "solve/statics/rigid.h"
+#include "warnings.h"
+#include "warnings_parts.h"
+
+/* --- The material --- */
+
+/* Linear tets lock where lambda is many mu. Beyond ten, a nu of 0.4545, the bar of models/bar bends
+   a third less than with averaged dilatations, and at 0.495 two thirds less. */
+#define MOST_LAMBDA 10.0
+
+static corot_status find_locking(const scenario *s, warnings *w) {
+  for (int i = 0; i < s->nmaterial && s->dilatation != COROT_DILATATION_NODAL; i++) {
+    const corot_material *m = &s->material[i];
+    if (!(m->lambda > MOST_LAMBDA * m->mu)) continue;
+    double ratio = m->lambda / m->mu;
+    COROT_TRY(warnings_add(
+        w, WARNING_LOCKING,
+        "material%s%.64s: nu = %.4g: tets with a dilatation of their own are too stiff, the more "
+        "so the nearer nu is to 0.5; dilatation: nodal is the remedy",
+        m->group ? " of " : "", m->group ? m->group : "", 0.5 * ratio / (ratio + 1)));
+  }
+  return COROT_OK;
+}
+
+/* --- The parts of the body --- */
+
+/* "2 parts that share no node: 27 nodes from node 0 on; ...", all too many left out. */
+static corot_status add_parts(int npart, const corot_part *part, warnings *w) {
+  enum { MOST = 5 };
+  char list[MOST * 64] = "";
+  int used = 0;
+  if (npart < 2) return COROT_OK;
+  for (int k = 0; k < npart && k < MOST; k++)
+    used += snprintf(list + used, sizeof list - (size_t)used, "%s%d nodes with node %d",
+                     k ? ", " : "", part[k].nnode, part[k].first);
+  return warnings_add(w, WARNING_PARTS,
+                      "the body is in %d parts that share no node (%s%s): they do not feel each "
+                      "other; if they are to be one body, join their nodes where they touch",
+                      npart, list, npart > MOST ? ", ..." : "");
+}
+
+/* Free bodies are flown on purpose, and so may several be; one that nothing holds beside one that
+   is held was most likely to be joined to it. */
+static corot_status add_unheld(int npart, const corot_part *part, warnings *w) {
+  int nheld = 0;
+  for (int k = 0; k < npart; k++) nheld += part[k].nfree < 6;
+  for (int k = 0; k < npart && nheld > 0; k++) {
+    if (part[k].nfree < 6) continue;
+    COROT_TRY(warnings_add(w, WARNING_UNHELD,
+                           "nothing holds the part of the body with node %d (%d nodes), while %s "
+                           "held: it can %s; give it a support in boundary, or join it to the rest",
+                           part[k].first, part[k].nnode, nheld == 1 ? "another is" : "others are",
+                           part[k].can));
+  }
+  return COROT_OK;
+}
+
+corot_status warnings_of_mesh(const corot_mesh *mesh, warnings *w) {
+  int npart;
+  corot_part *part;
+  COROT_TRY(corot_mesh_parts(mesh, &npart, &part));
+  corot_status status = add_parts(npart, part, w);
+  free(part);
+  return status;
+}
+
+static corot_status find_parts(const corot_model *model, warnings *w) {
+  int npart;
+  corot_part *part;
+  COROT_TRY(corot_model_parts(model, &npart, &part));
+  corot_status status = add_parts(npart, part, w);
+  if (status == COROT_OK) status = add_unheld(npart, part, w);
+  free(part);
+  return status;
+}
+
+/* --- The probes --- */
+
+static double distance(const double a[3], const double b[3]) {
+  return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+/* The longest edge at a node. */
+static double edge_at(const corot_mesh *mesh, int node) {
+  double longest = 0;
+  for (int e = 0; e < mesh->ntet; e++) {
+    const int *v = mesh->tet[e];
+    if (v[0] != node && v[1] != node && v[2] != node && v[3] != node) continue;
+    for (int a = 0; a < 4; a++) longest = fmax(longest, distance(mesh->x[node], mesh->x[v[a]]));
+  }
+  return longest;
+}
+
+/* Inside the body a point is at most half the longest edge from a node of a box's cell, and 0.61 of
+   the edge in a regular tet: what is further off lies outside the body, or among flat tets. */
+#define MOST_EDGES 0.65
+
+static corot_status find_probes(const scenario *s, const corot_mesh *mesh, warnings *w) {
+  for (int i = 0; i < s->nprobe; i++) {
+    const probe_def *p = &s->probe[i];
+    if (p->node >= 0) continue;
+    int node = corot_mesh_nearest(mesh, p->point);
+    double off = distance(p->point, mesh->x[node]), edge = edge_at(mesh, node);
+    if (!(off > MOST_EDGES * edge)) continue;
+    COROT_TRY(
+        warnings_add(w, WARNING_PROBE,
+                     "probe %.64s: the nearest node, %d, is %.3g m from its point, which is "
+                     "%.2g of the longest edge there: it records that node's motion; move the "
+                     "point, or name a node",
+                     p->name, node, off, off / edge));
+  }
+  return COROT_OK;
+}
+
+/* --- The tolerances --- */
+
+/* A displacement of this part of the length is taken for the run's until it is known. */
+#define EXPECTED_DISPLACEMENT 0.1
+
+double warnings_atol(const scenario *s, const corot_model *model) {
+  const corot_integrator_def *d = &s->integrator;
+  if (d->step > 0) return 0;
+  if (d->atol_displacement > 0) return d->atol_displacement;
+  return 0.01 * d->rtol * corot_model_length(model);
+}
+
+corot_status warnings_find_rtol(const scenario *s, const corot_model *model, double displacement,
+                                warnings *w) {
+  const corot_integrator_def *d = &s->integrator;
+  double length = corot_model_length(model);
+  if (d->step > 0) {
+    if (d->newton_tolerance >= LEAST_TOLERANCE) return COROT_OK;
+    return warnings_add(w, WARNING_RTOL,
+                        "integrator.newton.tolerance = %g of the length is below what double "
+                        "precision can tell of a correction, some %.0e; make it larger",
+                        d->newton_tolerance, LEAST_TOLERANCE);
+  }
+  double tolerance = d->rtol * displacement + warnings_atol(s, model);
+  double least = LEAST_TOLERANCE * (length + displacement);
+  if (tolerance >= least) return COROT_OK;
+  return warnings_add(w, WARNING_RTOL,
+                      "integrator.rtol = %g asks for steps that are right to %.1e m, but rounding "
+                      "moves a body of %.3g m by some %.0e m in each: more steps do not make the "
+                      "answer better; make rtol %.1e or larger",
+                      d->rtol, tolerance, length, least,
+                      2 * least / (displacement + 0.01 * length));
+}
+
+/* --- All of it --- */
+
+corot_status warnings_before(const scenario *s, const corot_model *model, bool statics,
+                             warnings *w) {
+  COROT_TRY(find_locking(s, w));
+  COROT_TRY(find_parts(model, w));
+  COROT_TRY(find_probes(s, corot_model_mesh(model), w));
+  if (!statics) COROT_TRY(warnings_find_integrator(s, model, w));
+  return warnings_find_rtol(s, model, EXPECTED_DISPLACEMENT * corot_model_length(model), w);
+}

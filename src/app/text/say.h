@@ -1,0 +1,23 @@
+/* Messages and facts for people, with what names and titles may hold made harmless. */
+#ifndef COROT_APP_TEXT_SAY_H
+#define COROT_APP_TEXT_SAY_H
+
+#include <corot/base.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+/* As printf, to stderr or to stdout; what a terminal would obey becomes '?' (escape.h). Line breaks
+   stay: text that must not bring its own goes through escape_line_cut() first. */
+void say(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void show(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Prints corot_error() as a line of its own. */
+void say_error(void);
+
+/* As vprintf, to `out`. */
+void say_to(FILE *out, const char *format, va_list arguments) __attribute__((format(printf, 2, 0)));
+
+/* What `write` prints, to stdout in the same manner. */
+corot_status show_all(corot_status (*write)(const void *what, FILE *out), const void *what);
+
+#endif

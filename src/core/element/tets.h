@@ -1,0 +1,42 @@
+/* The tets as the kernels see them: blocks of W, each of one material, structure of arrays. */
+#ifndef COROT_CORE_ELEMENT_TETS_H
+#define COROT_CORE_ELEMENT_TETS_H
+
+#include <corot/mesh.h>
+
+#include "core/lanes/mat3.h"
+
+/* The nodes of a tet are in ascending order here, whatever the mesh says: then local node a > b
+   means global node a > b, and the lower triangle of an element matrix is part of the lower
+   triangle of the whole. Lanes beyond a material's last tet repeat it with volume zero. */
+typedef struct tet_block {
+  mat3 g;         /* row a-1: rest gradient of the shape function of node a = 1, 2, 3 [1/m];
+                     that of node 0 is minus their sum */
+  vd volume;      /* rest volume [m^3] */
+  int node[4][W]; /* [local node][lane] */
+  int material;
+  int ntet; /* lanes in use, the first ones */
+} tet_block;
+
+typedef struct tets {
+  int nblock;
+  tet_block *block; /* [nblock] aligned to a vector */
+  int *number;      /* [nblock * W] the tet's number in the mesh; repeated in padding lanes */
+  mat3 *rest_basis; /* [nblock] Gram-Schmidt of the rest edges 0-1 and 0-2 in the mesh's own node
+                       order, on request; else NULL */
+} tets;
+
+/* `material` [ntet] says what each tet is made of, 0 <= material < nmaterial. From the mesh's first
+   tet on, each `together` of the same material follow one another: if that is a multiple of W, no
+   block has tets of two such groups. */
+corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
+                               int together, int with_rest_basis, tets *out);
+void corot_tets_clear(tets *t);
+
+/* The rest basis of one block. */
+mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number);
+
+/* Zeroed memory aligned for vectors, freed by free(). NULL if there is none. */
+void *corot_vector_calloc(size_t count, size_t size);
+
+#endif

@@ -1,0 +1,50 @@
+/* Creation and destruction of meshes. */
+#include "mesh.h"
+
+#include <string.h>
+
+static corot_status copy_arrays(corot_mesh *mesh, int nnode, const double (*x)[3], int ntet,
+                                const int (*tet)[4]) {
+  mesh->nnode = nnode;
+  mesh->ntet = ntet;
+  COROT_TRY(COROT_ALLOC(mesh->x, nnode));
+  COROT_TRY(COROT_ALLOC(mesh->tet, ntet));
+  memcpy(mesh->x, x, (size_t)nnode * sizeof *x);
+  memcpy(mesh->tet, tet, (size_t)ntet * sizeof *tet);
+  return COROT_OK;
+}
+
+corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const int (*tet)[4],
+                               corot_mesh **mesh) {
+  const corot_mesh_names names = {.tet = "tet"};
+  corot_mesh_place place;
+  corot_face *face = NULL;
+  corot_mesh *m;
+  COROT_TRY(corot_mesh_check_counts(nnode, ntet));
+  COROT_TRY(COROT_ALLOC(m, 1));
+  corot_status status = copy_arrays(m, nnode, x, ntet, tet);
+  if (!status) status = corot_mesh_check(m, &names, &place, &face);
+  free(face);
+  if (status)
+    corot_mesh_destroy(m);
+  else
+    *mesh = m;
+  return status;
+}
+
+void corot_group_clear(corot_group *group) {
+  free(group->name);
+  free(group->node);
+  free(group->tri);
+  free(group->tet);
+  memset(group, 0, sizeof *group);
+}
+
+void corot_mesh_destroy(corot_mesh *mesh) {
+  if (!mesh) return;
+  for (int g = 0; g < mesh->ngroup; g++) corot_group_clear(&mesh->group[g]);
+  free(mesh->group);
+  free(mesh->tet);
+  free(mesh->x);
+  free(mesh);
+}

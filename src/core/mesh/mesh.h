@@ -1,0 +1,95 @@
+/* What the files of the mesh module share. */
+#ifndef COROT_CORE_MESH_MESH_H
+#define COROT_CORE_MESH_MESH_H
+
+#include <corot/mesh.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/* p = zeroed array of n items; the value is a status. An empty array is not NULL. */
+#define COROT_ALLOC(p, n)                                         \
+  (((p) = calloc((size_t)(n) > 0 ? (size_t)(n) : 1, sizeof *(p))) \
+       ? COROT_OK                                                 \
+       : corot_fail(COROT_ENOMEM, "out of memory: %zu times %zu bytes", (size_t)(n), sizeof *(p)))
+
+/* Local nodes of the face opposite to node k, winding outward. */
+extern const int corot_tet_face[4][3];
+
+/* A face of a tet. */
+typedef struct corot_face {
+  int v[3]; /* nodes, ascending */
+  int side; /* 4 * tet + k, k the tet's node opposite to the face */
+} corot_face;
+
+/* The 4 * ntet faces in ascending order of their nodes, then of their tets. The caller frees. */
+corot_status corot_faces_sort(int nnode, int ntet, const int (*tet)[4], corot_face **face);
+
+/* By nodes alone: negative, 0 or positive. */
+int corot_face_compare(const corot_face *a, const corot_face *b);
+
+/* The nodes of a face, winding outward from its tet. */
+void corot_face_outward(const corot_face *face, const int (*tet)[4], int tri[3]);
+
+/* Whether a triangle's nodes ascend, up to a rotation: two windings of one triangle differ in it.
+ */
+bool corot_tri_ascends(const int tri[3]);
+
+/* The faces among `face` [nface] that no other tet shares, as triangles that wind outward. */
+corot_status corot_faces_boundary(int nface, const corot_face *face, const int (*tet)[4], int *ntri,
+                                  int (**tri)[3]);
+
+#define COROT_GROUP_NAME_MAX 127 /* bytes; gmsh's limit */
+
+/* How messages call the nodes and tets of a mesh: by index, or by their numbers in a file. */
+typedef struct corot_mesh_names {
+  const char *tet;         /* "tet" or "element" */
+  const int64_t *node_tag; /* [nnode] NULL: the index */
+  const int64_t *tet_tag;  /* [ntet] NULL: the index */
+  const char *unused_hint; /* what to say about a node in no tet; NULL: nothing more */
+} corot_mesh_names;
+
+/* What a check found wrong. */
+typedef struct corot_mesh_place {
+  enum { PLACE_MESH, PLACE_NODE, PLACE_TET } kind;
+  int index;
+} corot_mesh_place;
+
+/* Whether there are tets, and 3 * nnode and 4 * ntet fit an int. */
+corot_status corot_mesh_check_counts(int nnode, int ntet);
+
+/* Whether nodes and tets are sound, as <corot/mesh.h> promises; groups are not looked at.
+   On success the sorted faces are the caller's to free; COROT_EINVAL: see `place`. */
+corot_status corot_mesh_check(const corot_mesh *mesh, const corot_mesh_names *names,
+                              corot_mesh_place *place, corot_face **face);
+
+/* Whether all tets have a positive volume and are not flat. */
+corot_status corot_mesh_check_volumes(const corot_mesh *mesh);
+
+/* Whether a group may be called so: 1 to 127 bytes, no double quotes, no control characters. */
+corot_status corot_group_name_check(const char *name);
+
+/* Adds the group of the marked nodes (`mark` [nnode], non-zero), with the triangles among
+   `boundary` [ntri] and the tets whose nodes are all marked. */
+corot_status corot_mesh_group_marked(corot_mesh *mesh, const char *name, const char *mark, int ntri,
+                                     const int (*boundary)[3]);
+
+void corot_group_clear(corot_group *group);
+
+/* The box that holds all nodes. */
+void corot_mesh_bounds(const corot_mesh *mesh, double min[3], double max[3]);
+
+/* Signed volume of the tet with these corners. */
+static inline double corot_tet_volume(const double (*x)[3], const int v[4]) {
+  double a[3], b[3], c[3];
+  for (int i = 0; i < 3; i++) {
+    a[i] = x[v[1]][i] - x[v[0]][i];
+    b[i] = x[v[2]][i] - x[v[0]][i];
+    c[i] = x[v[3]][i] - x[v[0]][i];
+  }
+  return ((a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] +
+          (a[0] * b[1] - a[1] * b[0]) * c[2]) /
+         6;
+}
+
+#endif

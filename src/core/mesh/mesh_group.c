@@ -1,0 +1,150 @@
+/* Named groups, selected by their nodes. */
+#include "mesh.h"
+
+#include <math.h>
+#include <string.h>
+
+const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *name) {
+  for (int g = 0; g < mesh->ngroup; g++)
+    if (strcmp(mesh->group[g].name, name) == 0) return &mesh->group[g];
+  return NULL;
+}
+
+corot_status corot_group_name_check(const char *name) {
+  size_t n = strlen(name);
+  if (n == 0) return corot_fail(COROT_EINVAL, "a group needs a name");
+  if (n > COROT_GROUP_NAME_MAX)
+    return corot_fail(COROT_EINVAL, "group '%.20s...': a name has at most %d bytes, this one %zu",
+                      name, COROT_GROUP_NAME_MAX, n);
+  for (const char *p = name; *p; p++)
+    if ((unsigned char)*p < 0x20 || *p == 0x7f || *p == '"')
+      return corot_fail(COROT_EINVAL,
+                        "group '%.20s...': byte %zu of the name is a quote or a control character",
+                        name, (size_t)(p - name) + 1);
+  return COROT_OK;
+}
+
+static bool all_marked(int n, const int *node, const char *mark) {
+  for (int i = 0; i < n; i++)
+    if (!mark[node[i]]) return false;
+  return true;
+}
+
+/* Fills a zeroed group; the caller clears it on failure. */
+static corot_status collect(const corot_mesh *mesh, const char *mark, int ntri,
+                            const int (*boundary)[3], corot_group *g) {
+  for (int i = 0; i < mesh->nnode; i++) g->nnode += mark[i] != 0;
+  for (int i = 0; i < ntri; i++) g->ntri += all_marked(3, boundary[i], mark);
+  for (int e = 0; e < mesh->ntet; e++) g->ntet += all_marked(4, mesh->tet[e], mark);
+  COROT_TRY(COROT_ALLOC(g->node, g->nnode));
+  COROT_TRY(COROT_ALLOC(g->tri, g->ntri));
+  COROT_TRY(COROT_ALLOC(g->tet, g->ntet));
+
+  int n = 0;
+  for (int i = 0; i < mesh->nnode; i++)
+    if (mark[i]) g->node[n++] = i;
+  n = 0;
+  for (int i = 0; i < ntri; i++)
+    if (all_marked(3, boundary[i], mark)) memcpy(g->tri[n++], boundary[i], sizeof *boundary);
+  n = 0;
+  for (int e = 0; e < mesh->ntet; e++)
+    if (all_marked(4, mesh->tet[e], mark)) g->tet[n++] = e;
+  return COROT_OK;
+}
+
+corot_status corot_mesh_group_marked(corot_mesh *mesh, const char *name, const char *mark, int ntri,
+                                     const int (*boundary)[3]) {
+  corot_group g = {0};
+  COROT_TRY(corot_group_name_check(name));
+  if (corot_mesh_find_group(mesh, name))
+    return corot_fail(COROT_EINVAL, "group '%s' exists already", name);
+  if (!memchr(mark, 1, (size_t)mesh->nnode))
+    return corot_fail(COROT_EINVAL, "group '%s' has no nodes", name);
+  corot_group *more = realloc(mesh->group, ((size_t)mesh->ngroup + 1) * sizeof *more);
+  if (!more) return corot_fail(COROT_ENOMEM, "out of memory: group '%s'", name);
+  mesh->group = more;
+
+  corot_status status = COROT_ALLOC(g.name, strlen(name) + 1);
+  if (!status) strcpy(g.name, name);
+  if (!status) status = collect(mesh, mark, ntri, boundary, &g);
+  if (status)
+    corot_group_clear(&g);
+  else
+    mesh->group[mesh->ngroup++] = g;
+  return status;
+}
+
+static corot_status add_marked(corot_mesh *mesh, const char *name, const char *mark) {
+  int ntri, (*tri)[3];
+  COROT_TRY(corot_mesh_boundary(mesh, &ntri, &tri));
+  corot_status status = corot_mesh_group_marked(mesh, name, mark, ntri, (const int(*)[3])tri);
+  free(tri);
+  return status;
+}
+
+corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnode,
+                                    const int *node) {
+  char *mark;
+  for (int i = 0; i < nnode; i++)
+    if (node[i] < 0 || node[i] >= mesh->nnode)
+      return corot_fail(COROT_EINVAL, "group '%s': node %d does not exist, the last is %d", name,
+                        node[i], mesh->nnode - 1);
+  COROT_TRY(COROT_ALLOC(mark, mesh->nnode));
+  for (int i = 0; i < nnode; i++) mark[node[i]] = 1;
+  corot_status status = add_marked(mesh, name, mark);
+  free(mark);
+  return status;
+}
+
+/* Marks the nodes in the box; the value is their number. */
+static int mark_box(const corot_mesh *mesh, const double min[3], const double max[3], double tol,
+                    char *mark) {
+  int n = 0;
+  for (int i = 0; i < mesh->nnode; i++) {
+    bool in = true;
+    for (int k = 0; k < 3; k++)
+      in = in && mesh->x[i][k] >= min[k] - tol && mesh->x[i][k] <= max[k] + tol;
+    mark[i] = in;
+    n += in;
+  }
+  return n;
+}
+
+static corot_status no_nodes(const corot_mesh *mesh, const char *name, double tol) {
+  double lo[3], hi[3];
+  corot_mesh_bounds(mesh, lo, hi);
+  return corot_fail(COROT_EINVAL,
+                    "group '%s': no node is there (tolerance %g); the mesh fills [%g, %g] x [%g, "
+                    "%g] x [%g, %g]",
+                    name, tol, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
+}
+
+corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
+                                  const double max[3], double tol) {
+  char *mark;
+  if (!(tol >= 0))
+    return corot_fail(COROT_EINVAL, "group '%s': the tolerance is %g, not >= 0", name, tol);
+  for (int k = 0; k < 3; k++)
+    if (!(min[k] <= max[k]))
+      return corot_fail(COROT_EINVAL, "group '%s': min is %g and max is %g along %c", name, min[k],
+                        max[k], "xyz"[k]);
+  if (tol == 0) {
+    double lo[3], hi[3];
+    corot_mesh_bounds(mesh, lo, hi);
+    tol = 1e-6 * sqrt(pow(hi[0] - lo[0], 2) + pow(hi[1] - lo[1], 2) + pow(hi[2] - lo[2], 2));
+  }
+  COROT_TRY(COROT_ALLOC(mark, mesh->nnode));
+  corot_status status = mark_box(mesh, min, max, tol, mark) ? add_marked(mesh, name, mark)
+                                                            : no_nodes(mesh, name, tol);
+  free(mark);
+  return status;
+}
+
+corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name, int axis, double at,
+                                    double tol) {
+  double min[3] = {-INFINITY, -INFINITY, -INFINITY}, max[3] = {INFINITY, INFINITY, INFINITY};
+  if (axis < 0 || axis > 2)
+    return corot_fail(COROT_EINVAL, "group '%s': axis is %d, not 0, 1 or 2", name, axis);
+  min[axis] = max[axis] = at;
+  return corot_mesh_group_box(mesh, name, min, max, tol);
+}

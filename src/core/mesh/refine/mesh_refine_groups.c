@@ -1,0 +1,110 @@
+/* Who inherits a group: <corot/mesh.h> states the rule. */
+#include <string.h>
+
+#include "mesh_refine.h"
+
+/* What is known of a node or an edge. */
+enum {
+  MEMBER = 1, /* a node of the group */
+  FILLED = 2, /* of one of the group's triangles or tets */
+  SKIN = 4
+}; /* on the boundary of the mesh */
+
+typedef struct marks {
+  char *node; /* [nnode] */
+  char *edge; /* [nedge] */
+} marks;
+
+static void mark_triangles(int ntri, const int (*tri)[3], const corot_edges *edges, char what,
+                           marks *m) {
+  for (int t = 0; t < ntri; t++)
+    for (int k = 0; k < 3; k++) {
+      m->node[tri[t][k]] |= what;
+      m->edge[corot_edges_find(edges, tri[t][k], tri[t][(k + 1) % 3])] |= what;
+    }
+}
+
+/* The value is whether all nodes of the group lie on the boundary. */
+static bool mark_group(const corot_mesh *mesh, const corot_group *g, const corot_edges *edges,
+                       marks *m) {
+  bool on_skin = true;
+  for (int i = 0; i < mesh->nnode; i++) m->node[i] &= SKIN;
+  for (int i = 0; i < edges->n; i++) m->edge[i] &= SKIN;
+  for (int i = 0; i < g->nnode; i++) {
+    on_skin = on_skin && m->node[g->node[i]] & SKIN;
+    m->node[g->node[i]] |= MEMBER;
+  }
+  mark_triangles(g->ntri, (const int(*)[3])g->tri, edges, FILLED, m);
+  for (int i = 0; i < g->ntet; i++) {
+    for (int k = 0; k < 4; k++) m->node[mesh->tet[g->tet[i]][k]] |= FILLED;
+    for (int k = 0; k < 6; k++) m->edge[edges->tet[g->tet[i]][k]] |= FILLED;
+  }
+  return on_skin;
+}
+
+/* Whether the middle of edge i is in the group, given what any edge between loose nodes needs. */
+static bool inherits(const marks *m, const corot_edges *edges, int loose, int i) {
+  int both = m->node[edges->end[i][0]] & m->node[edges->end[i][1]];
+  int need = both & FILLED ? FILLED : loose;
+  return both & MEMBER && (m->edge[i] & need) == need;
+}
+
+/* The middles have higher numbers than the ends, so the nodes ascend. */
+static corot_status refine_nodes(const corot_mesh *mesh, const corot_group *from,
+                                 const corot_edges *edges, marks *m, corot_group *to) {
+  int n = from->nnode, loose = mark_group(mesh, from, edges, m) ? SKIN : 0;
+  for (int i = 0; i < edges->n; i++) n += inherits(m, edges, loose, i);
+  COROT_TRY(COROT_ALLOC(to->node, n));
+  for (int i = 0; i < from->nnode; i++) to->node[to->nnode++] = from->node[i];
+  for (int i = 0; i < edges->n; i++)
+    if (inherits(m, edges, loose, i)) to->node[to->nnode++] = mesh->nnode + i;
+  return COROT_OK;
+}
+
+corot_status corot_refine_triangles(const corot_mesh *mesh, const corot_edges *edges, int ntri,
+                                    const int (*tri)[3], int (**fine)[3]) {
+  int(*f)[3];
+  COROT_TRY(COROT_ALLOC(f, 4 * (size_t)ntri));
+  *fine = f;
+  for (int t = 0; t < ntri; t++, f += 4) {
+    int middle[3]; /* of the edge from corner k to the next */
+    for (int k = 0; k < 3; k++)
+      middle[k] = mesh->nnode + corot_edges_find(edges, tri[t][k], tri[t][(k + 1) % 3]);
+    for (int k = 0; k < 3; k++) {
+      f[k][0] = tri[t][k];
+      f[k][1] = middle[k];
+      f[k][2] = middle[(k + 2) % 3];
+      f[3][k] = middle[k];
+    }
+  }
+  return COROT_OK;
+}
+
+static corot_status refine_group(const corot_mesh *mesh, const corot_group *from,
+                                 const corot_edges *edges, marks *m, corot_group *to) {
+  COROT_TRY(COROT_ALLOC(to->name, strlen(from->name) + 1));
+  strcpy(to->name, from->name);
+  COROT_TRY(refine_nodes(mesh, from, edges, m, to));
+  COROT_TRY(corot_refine_triangles(mesh, edges, from->ntri, (const int(*)[3])from->tri, &to->tri));
+  to->ntri = 4 * from->ntri;
+  COROT_TRY(COROT_ALLOC(to->tet, 8 * (size_t)from->ntet));
+  to->ntet = 8 * from->ntet;
+  for (int i = 0; i < to->ntet; i++) to->tet[i] = 8 * from->tet[i / 8] + i % 8;
+  return COROT_OK;
+}
+
+corot_status corot_refine_groups(const corot_mesh *mesh, const corot_edges *edges, int nskin,
+                                 const int (*skin)[3], corot_mesh *fine) {
+  marks m = {0};
+  corot_status status = COROT_ALLOC(m.node, mesh->nnode);
+  if (!status) status = COROT_ALLOC(m.edge, edges->n);
+  if (!status) status = COROT_ALLOC(fine->group, mesh->ngroup);
+  if (!status) mark_triangles(nskin, skin, edges, SKIN, &m);
+  while (!status && fine->ngroup < mesh->ngroup) {
+    const corot_group *from = &mesh->group[fine->ngroup];
+    status = refine_group(mesh, from, edges, &m, &fine->group[fine->ngroup++]);
+  }
+  free(m.node);
+  free(m.edge);
+  return status;
+}

@@ -1,0 +1,156 @@
+/* The block pattern as compressed sparse columns, and products with block matrices. */
+#include <stdlib.h>
+
+#include <limits.h>
+
+#include "core/ode/state.h"
+#include "model.h"
+
+int corot_model_nblock(const corot_model *m) { return m->pattern.nblock; }
+
+void corot_block_multiply(const corot_model *m, const double (*A)[9], const double *x, double *y) {
+  const pattern *p = &m->pattern;
+  for (int i = 0; i < m->ndof; i++) y[i] = 0;
+  for (int j = 0; j < p->nnode; j++) {
+    const int *dj = m->dof[j];
+    double xj[3], yj[3] = {0, 0, 0};
+    for (int c = 0; c < 3; c++) xj[c] = dj[c] >= 0 ? x[dj[c]] : 0;
+    for (int k = p->colptr[j]; k < p->colptr[j + 1]; k++) {
+      const double *a = A[k];
+      const int *di = m->dof[p->row[k]];
+      for (int r = 0; r < 3; r++) {
+        if (di[r] < 0) continue;
+        y[di[r]] += a[3 * r] * xj[0] + a[3 * r + 1] * xj[1] + a[3 * r + 2] * xj[2];
+        if (k == p->colptr[j]) continue; /* the diagonal block counts once */
+        for (int c = 0; c < 3; c++) yj[c] += a[3 * r + c] * x[di[r]];
+      }
+    }
+    for (int c = 0; c < 3; c++)
+      if (dj[c] >= 0) y[dj[c]] += yj[c];
+  }
+}
+
+/* Blocks of a whole column j, rows ascending: those of the lower triangle stand in it, those of
+   the upper are the transposed ones of row j. */
+typedef struct upper_lists {
+  int *first;         /* [nnode + 1] */
+  int *block, *other; /* blocks of row j left of the diagonal, and their columns */
+} upper_lists;
+
+static corot_status list_upper(const pattern *p, upper_lists *u) {
+  u->first = calloc(p->nnode + 2, sizeof *u->first);
+  u->block = malloc(p->nblock * sizeof *u->block);
+  u->other = malloc(p->nblock * sizeof *u->other);
+  if (!u->first || !u->block || !u->other)
+    return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d blocks", p->nblock);
+  int *next = u->first + 1;
+  for (int j = 0; j < p->nnode; j++)
+    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) next[p->row[k] + 1]++;
+  for (int n = 0; n < p->nnode; n++) next[n + 1] += next[n];
+  for (int j = 0; j < p->nnode; j++)
+    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) {
+      int at = next[p->row[k]]++;
+      u->block[at] = k;
+      u->other[at] = j;
+    }
+  return COROT_OK;
+}
+
+/* The entries of one column, or only their number if `csc` has no room yet. */
+static int fill_column(const corot_model *m, const upper_lists *u, corot_triangle triangle, int j,
+                       int c, corot_csc *csc, int nnz) {
+  const pattern *p = &m->pattern;
+  int column = m->dof[j][c];
+  if (triangle == COROT_FULL)
+    for (int k = u->first[j]; k < u->first[j + 1]; k++)
+      for (int r = 0; r < 3; r++) {
+        int i = m->dof[u->other[k]][r];
+        if (i < 0) continue;
+        if (csc->row) csc->row[nnz] = i, csc->source[nnz] = 9 * u->block[k] + 3 * c + r;
+        nnz++;
+      }
+  for (int k = p->colptr[j]; k < p->colptr[j + 1]; k++)
+    for (int r = 0; r < 3; r++) {
+      int i = m->dof[p->row[k]][r];
+      if (i < 0 || (triangle == COROT_LOWER && i < column)) continue;
+      if (csc->row) {
+        csc->row[nnz] = i, csc->source[nnz] = 9 * k + 3 * r + c;
+        if (i == column) csc->diagonal[column] = nnz;
+      }
+      nnz++;
+    }
+  return nnz;
+}
+
+static corot_status fill(const corot_model *m, corot_triangle triangle, const upper_lists *u,
+                         corot_csc *csc) {
+  csc->n = m->ndof;
+  csc->colptr = malloc((csc->n + 1) * sizeof *csc->colptr);
+  csc->diagonal = malloc(csc->n * sizeof *csc->diagonal);
+  csc->node = malloc(csc->n * sizeof *csc->node);
+  if (!csc->colptr || !csc->diagonal || !csc->node)
+    return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d columns", csc->n);
+  for (int pass = 0; pass < 2; pass++) { /* count, then write */
+    int nnz = 0;
+    for (int j = 0; j < m->pattern.nnode; j++)
+      for (int c = 0; c < 3; c++) {
+        if (m->dof[j][c] < 0) continue;
+        csc->colptr[m->dof[j][c]] = nnz;
+        csc->node[m->dof[j][c]] = j;
+        nnz = fill_column(m, u, triangle, j, c, csc, nnz);
+        if (nnz > INT_MAX - 9 * m->pattern.nnode)
+          return corot_fail(COROT_EINVAL, "the matrix exceeds 32-bit counts at node %d", j);
+      }
+    csc->nnz = csc->colptr[csc->n] = nnz;
+    if (pass == 1) break;
+    csc->row = malloc(nnz * sizeof *csc->row);
+    csc->source = malloc(nnz * sizeof *csc->source);
+    if (!csc->row || !csc->source)
+      return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d entries", nnz);
+  }
+  return COROT_OK;
+}
+
+corot_status corot_csc_create(const corot_model *m, corot_triangle triangle, corot_csc **csc) {
+  upper_lists u = {0};
+  corot_csc *made = calloc(1, sizeof *made);
+  corot_status status = COROT_OK;
+  if (!made) status = corot_fail(COROT_ENOMEM, "no memory for a matrix");
+  if (!status && triangle == COROT_FULL) status = list_upper(&m->pattern, &u);
+  if (!status) status = fill(m, triangle, &u, made);
+  free(u.first), free(u.block), free(u.other);
+  if (status) {
+    corot_csc_destroy(made);
+    return status;
+  }
+  *csc = made;
+  return COROT_OK;
+}
+
+void corot_csc_destroy(corot_csc *csc) {
+  if (!csc) return;
+  free(csc->colptr);
+  free(csc->row);
+  free(csc->source);
+  free(csc->diagonal);
+  free(csc->node);
+  free(csc);
+}
+
+void corot_csc_combine(const corot_model *m, const corot_csc *csc, double a, double b,
+                       const double (*D)[9], double c, const double (*K)[9], double *value) {
+  const double *d = D ? D[0] : NULL, *k = K ? K[0] : NULL;
+  const int *source = csc->source;
+  if (d && k) {
+    for (int p = 0; p < csc->nnz; p++) value[p] = b * d[source[p]] + c * k[source[p]];
+  } else {
+    const double *only = d ? d : k, factor = d ? b : c;
+    for (int p = 0; p < csc->nnz; p++) value[p] = only ? factor * only[source[p]] : 0;
+  }
+  if (!m->mass_pair) {
+    for (int i = 0; i < csc->n; i++) value[csc->diagonal[i]] += a * m->mass[i];
+    return;
+  }
+  for (int p = 0; p < csc->nnz; p++) /* of a block, the mass is on the diagonal: 0, 4, 8 */
+    if (source[p] % 9 % 4 == 0) value[p] += a * m->mass_pair[source[p] / 9];
+}

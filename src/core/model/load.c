@@ -1,0 +1,248 @@
+/* Loads: constant forces and pressures that follow the surface, each with an amplitude in time. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/system/levels.h"
+
+static void add_force(const corot_model *m, double *force, int node, const double value[3],
+                      double factor) {
+  for (int c = 0; c < 3; c++)
+    if (m->dof[node][c] >= 0) force[m->dof[node][c]] += factor * value[c];
+}
+
+/* The faces of a load's group. */
+static corot_status find_faces(const corot_model *m, const char *name, const char *user,
+                               const corot_group **group) {
+  COROT_TRY(corot_model_find_group(m->mesh, name, user, group));
+  if (!(*group)->ntri) return corot_fail(COROT_EINVAL, "%s: group '%s' has no faces", user, name);
+  return COROT_OK;
+}
+
+/* Half the cross product of two edges: the area, along the normal of the winding. */
+static void area_vector(const double a[3], const double b[3], double area[3]) {
+  area[0] = 0.5 * (a[1] * b[2] - a[2] * b[1]);
+  area[1] = 0.5 * (a[2] * b[0] - a[0] * b[2]);
+  area[2] = 0.5 * (a[0] * b[1] - a[1] * b[0]);
+}
+
+/* Edges 0-1 and 0-2 of a face; those of the rest mesh if u is NULL. */
+static void edges(const corot_model *m, const double (*u)[4], const int n[3], double a[3],
+                  double b[3]) {
+  const double(*x)[3] = (const double(*)[3])m->mesh->x;
+  for (int c = 0; c < 3; c++) {
+    a[c] = x[n[1]][c] - x[n[0]][c] + (u ? u[n[1]][c] - u[n[0]][c] : 0);
+    b[c] = x[n[2]][c] - x[n[0]][c] + (u ? u[n[2]][c] - u[n[0]][c] : 0);
+  }
+}
+
+/* A third of each face's traction to each of its nodes. */
+static corot_status add_traction(const corot_model *m, const corot_load *from, double (*f)[3]) {
+  const corot_group *group;
+  COROT_TRY(find_faces(m, from->group, "traction", &group));
+  for (int k = 0; k < group->ntri; k++) {
+    const int *n = group->tri[k];
+    double a[3], b[3], area[3];
+    edges(m, NULL, n, a, b);
+    area_vector(a, b, area);
+    double size = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 3; c++) f[n[i]][c] += size / 3 * from->value[c];
+  }
+  return COROT_OK;
+}
+
+static corot_status add_point_force(const corot_model *m, const corot_load *from, double (*f)[3]) {
+  const corot_group *group;
+  COROT_TRY(corot_model_find_group(m->mesh, from->group, "force", &group));
+  for (int i = 0; i < group->nnode; i++)
+    for (int c = 0; c < 3; c++) f[group->node[i]][c] += 1.0 / group->nnode * from->value[c];
+  return COROT_OK;
+}
+
+/* Masses in the first column become weights. */
+static void weigh(int nnode, const double gravity[3], double (*f)[3]) {
+  for (int n = 0; n < nnode; n++) {
+    double mass = f[n][0];
+    for (int c = 0; c < 3; c++) f[n][c] = mass * gravity[c];
+  }
+}
+
+/* What of f [nnode] falls on held components. */
+static corot_status keep_held(const corot_model *m, const double (*f)[3], load *to) {
+  int nnode = m->mesh->nnode, n = 0;
+  for (int i = 0; i < 3 * nnode; i++) n += m->dof[i / 3][i % 3] < 0 && f[i / 3][i % 3] != 0;
+  to->held = malloc((n + 1) * sizeof *to->held);
+  if (!to->held) return corot_fail(COROT_ENOMEM, "no memory for the forces on %d supports", n);
+  for (int i = 0; i < 3 * nnode; i++)
+    if (m->dof[i / 3][i % 3] < 0 && f[i / 3][i % 3] != 0)
+      to->held[to->nheld++] = (held_force){i / 3, i % 3, f[i / 3][i % 3]};
+  return COROT_OK;
+}
+
+/* Gravity, a traction or a total force. */
+static corot_status add_constant(const corot_model_def *def, const corot_model *m,
+                                 const corot_load *from, load *to) {
+  int nnode = m->mesh->nnode;
+  double(*f)[3] = calloc(nnode, sizeof *f);
+  if (!f) return corot_fail(COROT_ENOMEM, "no memory for the forces on %d nodes", nnode);
+  corot_status status = COROT_OK;
+  if (from->kind == COROT_TRACTION)
+    status = add_traction(m, from, f);
+  else if (from->kind == COROT_FORCE)
+    status = add_point_force(m, from, f);
+  else
+    corot_mass_lump(m, f);
+  if (!status) status = corot_levels_own(def, nnode, f);
+  if (!status && from->kind == COROT_GRAVITY) weigh(nnode, from->value, f);
+  for (int n = 0; !status && n < nnode; n++) add_force(m, to->force, n, f[n], 1);
+  if (!status) status = keep_held(m, (const double(*)[3])f, to);
+  free(f);
+  return status;
+}
+
+static corot_status add_pressure(const corot_model *m, const corot_load *from, load *to) {
+  const corot_group *group;
+  COROT_TRY(find_faces(m, from->group, "pressure", &group));
+  if (m->body_nnode < m->mesh->nnode)
+    return corot_fail(COROT_EINVAL,
+                      "pressure on group '%s': it follows the fine surface, which level 0 of a "
+                      "one-way hierarchy does not have",
+                      from->group);
+  to->tri = malloc(group->ntri * sizeof *to->tri);
+  if (!to->tri) return corot_fail(COROT_ENOMEM, "no memory for %d faces", group->ntri);
+  memcpy(to->tri, group->tri, group->ntri * sizeof *to->tri);
+  to->ntri = group->ntri;
+  to->pressure = from->value[0];
+  return COROT_OK;
+}
+
+static corot_status create(const corot_model_def *def, const corot_model *m, int k, load *to) {
+  const corot_load *from = &def->load[k];
+  for (int c = 0; c < 3; c++)
+    if (!isfinite(from->value[c]))
+      return corot_fail(COROT_EINVAL, "load %d: component %d is not finite", k, c);
+  char user[32];
+  snprintf(user, sizeof user, "load %d: ", k);
+  COROT_TRY(corot_amplitude_create(&from->amplitude, user, &to->amplitude));
+  if (from->kind == COROT_PRESSURE) return add_pressure(m, from, to);
+  to->force = calloc(m->ndof, sizeof *to->force);
+  if (!to->force) return corot_fail(COROT_ENOMEM, "no memory for load %d", k);
+  switch (from->kind) {
+    case COROT_GRAVITY:
+    case COROT_TRACTION:
+    case COROT_FORCE:
+      return add_constant(def, m, from, to);
+    default:
+      return corot_fail(COROT_EINVAL, "load %d: no kind of load has the number %d", k,
+                        (int)from->kind);
+  }
+}
+
+corot_status corot_loads_create(const corot_model_def *def, corot_model *m) {
+  m->load = calloc(def->nload + 1, sizeof *m->load);
+  if (!m->load) return corot_fail(COROT_ENOMEM, "no memory for %d loads", def->nload);
+  m->nload = def->nload;
+  for (int k = 0; k < def->nload; k++) COROT_TRY(create(def, m, k, &m->load[k]));
+  return COROT_OK;
+}
+
+void corot_loads_destroy(corot_model *m) {
+  for (int k = 0; k < m->nload; k++) {
+    free(m->load[k].force);
+    free(m->load[k].held);
+    free(m->load[k].tri);
+    corot_amplitude_clear(&m->load[k].amplitude);
+  }
+  free(m->load);
+}
+
+static double factor_of(const load *l, const load_clock *now) {
+  return now->scale * corot_amplitude_at(&l->amplitude, now->phase, now->t);
+}
+
+/* The area vector of a face where u has taken it [m^2]. */
+static void find_area(const corot_model *m, const double (*u)[4], const int tri[3],
+                      double area[3]) {
+  double a[3], b[3];
+  edges(m, u, tri, a, b);
+  area_vector(a, b, area);
+}
+
+void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
+                       double *f) {
+  memset(f, 0, m->ndof * sizeof *f);
+  for (int k = 0; k < m->nload; k++) {
+    const load *l = &m->load[k];
+    double factor = factor_of(l, now);
+    if (factor == 0) continue;
+    if (l->force)
+      for (int i = 0; i < m->ndof; i++) f[i] += factor * l->force[i];
+    for (int j = 0; j < l->ntri; j++) {
+      double area[3];
+      find_area(m, u, l->tri[j], area);
+      for (int i = 0; i < 3; i++) add_force(m, f, l->tri[j][i], area, -factor * l->pressure / 3);
+    }
+  }
+}
+
+bool corot_loads_follow(const corot_model *m) {
+  for (int k = 0; k < m->nload; k++)
+    if (m->load[k].ntri > 0) return true;
+  return false;
+}
+
+static void add_to_node(double (*f)[3], int node, const double value[3], double factor) {
+  for (int c = 0; c < 3; c++) f[node][c] += factor * value[c];
+}
+
+static void add_nodal_load(const corot_model *m, const load *l, double factor, const double (*u)[4],
+                           double (*f)[3]) {
+  for (int i = 0; l->force && i < 3 * m->mesh->nnode; i++)
+    if (m->dof[i / 3][i % 3] >= 0) f[i / 3][i % 3] += factor * l->force[m->dof[i / 3][i % 3]];
+  for (int i = 0; i < l->nheld; i++)
+    f[l->held[i].node][l->held[i].component] += factor * l->held[i].force;
+  for (int j = 0; j < l->ntri; j++) {
+    double area[3];
+    find_area(m, u, l->tri[j], area);
+    for (int i = 0; i < 3; i++) add_to_node(f, l->tri[j][i], area, -factor * l->pressure / 3);
+  }
+}
+
+corot_status corot_load_force(const corot_model *m, double t, double factor,
+                              const double (*displacement)[3], double (*f)[3]) {
+  int nnode = m->mesh->nnode;
+  double(*u)[4] = calloc(nnode, sizeof *u);
+  if (!u) return corot_fail(COROT_ENOMEM, "no memory for the displacement of %d nodes", nnode);
+  for (int n = 0; n < nnode; n++) memcpy(u[n], displacement[n], 3 * sizeof **u);
+  memset(f, 0, nnode * sizeof *f);
+  const load_clock now = {NAN, t, factor}; /* just after t, as in statics */
+  for (int k = 0; k < m->nload; k++) {
+    const load *l = &m->load[k];
+    add_nodal_load(m, l, factor_of(l, &now), (const double(*)[4])u, f);
+  }
+  free(u);
+  return COROT_OK;
+}
+
+void corot_loads_derivative(const corot_model *m, const load_clock *now, const double (*u)[4],
+                            const double (*du)[4], double *f) {
+  for (int k = 0; k < m->nload; k++) {
+    const load *l = &m->load[k];
+    double factor = factor_of(l, now);
+    for (int j = 0; j < l->ntri; j++) { /* d(a x b) = da x b + a x db */
+      const int *n = l->tri[j];
+      double a[3], b[3], da[3], db[3], first[3], second[3];
+      edges(m, u, n, a, b);
+      for (int c = 0; c < 3; c++) {
+        da[c] = du[n[1]][c] - du[n[0]][c];
+        db[c] = du[n[2]][c] - du[n[0]][c];
+      }
+      area_vector(da, b, first);
+      area_vector(a, db, second);
+      for (int i = 0; i < 3; i++) {
+        add_force(m, f, n[i], first, -factor * l->pressure / 3);
+        add_force(m, f, n[i], second, -factor * l->pressure / 3);
+      }
+    }
+  }
+}

@@ -1,0 +1,131 @@
+/* The mass, lumped or consistent, and the mass damping, which is the same matrix with density times
+   damping in place of density.
+
+   Of linear shape functions a tet of mass m has m/10 on the diagonal and m/20 beside it, the same
+   in each component; a row sums to m/4, and that is what lumping puts on the diagonal. */
+#include <stdlib.h>
+
+#include "core/system/levels.h"
+
+void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
+  for (int b = 0; b < m->tets.nblock; b++) {
+    const tet_block *block = &m->tets.block[b];
+    const material *mat = &m->material[block->material];
+    for (int l = 0; l < block->ntet; l++)
+      for (int a = 0; a < 4; a++) {
+        double quarter = mat->density * block->volume[l] / 4;
+        nodal[block->node[a][l]][0] += quarter;
+        nodal[block->node[a][l]][1] += quarter * mat->damping_mass;
+      }
+  }
+}
+
+/* Row sums, of the held nodes too. */
+static corot_status lump(const corot_model_def *def, corot_model *m) {
+  int nnode = m->mesh->nnode;
+  double(*nodal)[3] = calloc(nnode, sizeof *nodal); /* mass, its damping, nothing */
+  m->mass = malloc(m->ndof * sizeof *m->mass);
+  m->inverse_mass = malloc(m->ndof * sizeof *m->inverse_mass);
+  if (m->mass_damped) m->mass_damping = malloc(m->ndof * sizeof *m->mass_damping);
+  if (!nodal || !m->mass || !m->inverse_mass || (m->mass_damped && !m->mass_damping)) {
+    free(nodal);
+    return corot_fail(COROT_ENOMEM, "no memory for the mass of %d nodes", nnode);
+  }
+  corot_mass_lump(m, nodal);
+  corot_status status = corot_levels_own(def, nnode, nodal);
+  for (int n = 0; n < nnode; n++)
+    for (int c = 0; c < 3; c++) {
+      int i = m->dof[n][c];
+      if (i < 0) continue;
+      m->mass[i] = nodal[n][0];
+      m->inverse_mass[i] = 1 / nodal[n][0];
+      if (m->mass_damped) m->mass_damping[i] = nodal[n][1];
+    }
+  free(nodal);
+  return status;
+}
+
+/* The pairs of a consistent mass. */
+static corot_status couple(corot_model *m) {
+  const pattern *p = &m->pattern;
+  m->mass_pair = calloc(p->nblock, sizeof *m->mass_pair);
+  if (m->mass_damped) m->damping_pair = calloc(p->nblock, sizeof *m->damping_pair);
+  if (!m->mass_pair || (m->mass_damped && !m->damping_pair))
+    return corot_fail(COROT_ENOMEM, "no memory for the mass of %d pairs of nodes", p->nblock);
+  for (int b = 0; b < m->tets.nblock; b++) {
+    const tet_block *block = &m->tets.block[b];
+    const material *mat = &m->material[block->material];
+    for (int l = 0; l < block->ntet; l++)
+      for (int k = 0; k < NPAIR + 4; k++) {
+        double part = mat->density * block->volume[l] / (k < NPAIR ? 20 : 10);
+        int at = k < NPAIR ? p->place[b][k][l] : p->colptr[block->node[k - NPAIR][l]];
+        m->mass_pair[at] += part;
+        if (m->mass_damped) m->damping_pair[at] += part * mat->damping_mass;
+      }
+  }
+  return COROT_OK;
+}
+
+corot_status corot_mass_create(const corot_model_def *def, corot_model *m) {
+  if (def->mass != COROT_MASS_LUMPED && def->mass != COROT_MASS_CONSISTENT)
+    return corot_fail(COROT_EINVAL, "no kind of mass has the number %d", (int)def->mass);
+  COROT_TRY(lump(def, m));
+  if (def->mass == COROT_MASS_LUMPED) return COROT_OK;
+  if (m->body_nnode < m->mesh->nnode)
+    return corot_fail(COROT_EINVAL,
+                      "consistent mass: it would couple the finer nodes of a one-way hierarchy to "
+                      "level 0, which has a mass of its own");
+  if (m->nmotion)
+    return corot_fail(COROT_EINVAL,
+                      "consistent mass: group '%s' is a moving support, and its sudden start would "
+                      "be an impulse on its neighbours; lumped mass has no such coupling",
+                      m->motion[0].group);
+  return couple(m);
+}
+
+corot_mass corot_model_mass_kind(const corot_model *m) {
+  return m->mass_pair ? COROT_MASS_CONSISTENT : COROT_MASS_LUMPED;
+}
+
+/* y += factor A x for A lumped or, unless `pair` is NULL, consistent. */
+static void add_product(const corot_model *m, double factor, const double *lumped,
+                        const double *pair, const double *x, double *y) {
+  if (!pair) {
+    for (int i = 0; i < m->ndof; i++) y[i] += factor * lumped[i] * x[i];
+    return;
+  }
+  const pattern *p = &m->pattern;
+  for (int b = 0; b < p->nnode; b++)
+    for (int k = p->colptr[b]; k < p->colptr[b + 1]; k++) {
+      double value = factor * pair[k];
+      int a = p->row[k];
+      for (int c = 0; c < 3; c++) {
+        int i = m->dof[a][c], j = m->dof[b][c];
+        if (i < 0 || j < 0) continue;
+        y[i] += value * x[j];
+        if (i != j) y[j] += value * x[i];
+      }
+    }
+}
+
+void corot_mass_multiply(const corot_model *m, const double *x, double *y) {
+  for (int i = 0; i < m->ndof; i++) y[i] = 0;
+  add_product(m, 1, m->mass, m->mass_pair, x, y);
+}
+
+void corot_mass_damp(const corot_model *m, const double *v, double *f) {
+  if (m->mass_damped) add_product(m, -1, m->mass_damping, m->damping_pair, v, f);
+}
+
+void corot_mass_damping_matrix(const corot_model *m, double (*D)[9]) {
+  const pattern *p = &m->pattern;
+  if (!m->mass_damped) return;
+  if (m->damping_pair) {
+    for (int k = 0; k < p->nblock; k++)
+      for (int c = 0; c < 3; c++) D[k][4 * c] += m->damping_pair[k];
+    return;
+  }
+  for (int n = 0; n < p->nnode; n++)
+    for (int c = 0; c < 3; c++)
+      if (m->dof[n][c] >= 0) D[p->colptr[n]][4 * c] += m->mass_damping[m->dof[n][c]];
+}

@@ -1,0 +1,142 @@
+/* Which nodes share an average, and who contributes to it. */
+#include "dilatation.h"
+
+#include <limits.h>
+#include <stdlib.h>
+
+/* Blocks of one material follow each other: a node's pool is new where its last one belongs to an
+   earlier material. */
+static corot_status number_pools(int nnode, const tets *t, dilatation *d) {
+  int *material = malloc(nnode * sizeof *material), *last = malloc(nnode * sizeof *last);
+  d->pool = malloc(t->nblock * sizeof *d->pool);
+  if (!material || !last || !d->pool) {
+    free(material), free(last);
+    return corot_fail(COROT_ENOMEM, "no memory for the averages of %d nodes", nnode);
+  }
+  for (int n = 0; n < nnode; n++) material[n] = -1;
+  for (int b = 0; b < t->nblock; b++) {
+    const tet_block *block = &t->block[b];
+    for (int a = 0; a < 4; a++)
+      for (int l = 0; l < W; l++) {
+        int n = block->node[a][l];
+        if (material[n] != block->material) {
+          material[n] = block->material;
+          last[n] = d->npool++;
+        }
+        d->pool[b][a][l] = last[n];
+      }
+  }
+  free(material), free(last);
+  return COROT_OK;
+}
+
+static corot_status weigh_pools(const tets *t, const double *averaged, dilatation *d) {
+  d->volume = calloc(d->npool, sizeof *d->volume);
+  d->lambda = malloc(d->npool * sizeof *d->lambda);
+  if (!d->volume || !d->lambda)
+    return corot_fail(COROT_ENOMEM, "no memory for %d averages", d->npool);
+  for (int b = 0; b < t->nblock; b++)
+    for (int a = 0; a < 4; a++)
+      for (int l = 0; l < W; l++) {
+        int pool = d->pool[b][a][l];
+        d->volume[pool] += t->block[b].volume[l];
+        d->lambda[pool] = averaged[t->block[b].material];
+      }
+  return COROT_OK;
+}
+
+/* Count, then fill: `next` is shifted by one while filling, in place after. */
+static corot_status list_tets(const tets *t, dilatation *d) {
+  size_t n = 0;
+  for (int b = 0; b < t->nblock; b++) n += 4 * (size_t)t->block[b].ntet;
+  d->tet_first = calloc((size_t)d->npool + 2, sizeof *d->tet_first);
+  d->tet = malloc(n * sizeof *d->tet);
+  if (!d->tet_first || !d->tet)
+    return corot_fail(COROT_ENOMEM, "no memory for %d averages", d->npool);
+  int *next = d->tet_first + 1;
+  for (int b = 0; b < t->nblock; b++)
+    for (int a = 0; a < 4; a++)
+      for (int l = 0; l < t->block[b].ntet; l++) next[d->pool[b][a][l] + 1]++;
+  for (int p = 0; p < d->npool; p++) next[p + 1] += next[p];
+  for (int b = 0; b < t->nblock; b++)
+    for (int a = 0; a < 4; a++)
+      for (int l = 0; l < t->block[b].ntet; l++) d->tet[next[d->pool[b][a][l]]++] = b * W + l;
+  return COROT_OK;
+}
+
+/* The nodes of a pool's tets, ascending, into `list`; returns their number. */
+static int ring_of(const tets *t, const dilatation *d, int pool, int *mark, int *list) {
+  int n = 0;
+  for (int k = d->tet_first[pool]; k < d->tet_first[pool + 1]; k++)
+    for (int a = 0; a < 4; a++) {
+      int i = t->block[d->tet[k] / W].node[a][d->tet[k] % W];
+      if (mark[i] == pool) continue;
+      mark[i] = pool;
+      int at = n++;
+      for (; at > 0 && list[at - 1] > i; at--) list[at] = list[at - 1];
+      list[at] = i;
+    }
+  return n;
+}
+
+static corot_status list_rings(int nnode, const tets *t, dilatation *d) {
+  int *mark = malloc(nnode * sizeof *mark), *list = malloc(nnode * sizeof *list);
+  d->ring_first = calloc((size_t)d->npool + 1, sizeof *d->ring_first);
+  if (!mark || !list || !d->ring_first) goto no_memory;
+
+  for (int pass = 0; pass < 2; pass++) { /* count, then write */
+    for (int n = 0; n < nnode; n++) mark[n] = -1;
+    size_t total = 0;
+    for (int p = 0; p < d->npool; p++) {
+      int n = d->lambda[p] > 0 ? ring_of(t, d, p, mark, list) : 0;
+      if (pass == 1) memcpy(d->ring + d->ring_first[p], list, n * sizeof *list);
+      total += n;
+      if (total > INT_MAX) {
+        free(mark), free(list);
+        return corot_fail(COROT_EINVAL, "the averages exceed 32-bit counts at number %d", p);
+      }
+      d->ring_first[p + 1] = (int)total;
+    }
+    if (pass == 1) break;
+    d->ring = malloc((total + 1) * sizeof *d->ring);
+    if (!d->ring) goto no_memory;
+  }
+  free(mark), free(list);
+  return COROT_OK;
+
+no_memory:
+  free(mark), free(list);
+  return corot_fail(COROT_ENOMEM, "no memory for the nodes of %d averages", d->npool);
+}
+
+corot_status corot_dilatation_create(int nnode, const tets *t, const double *averaged,
+                                     dilatation *out) {
+  dilatation d = {0};
+  corot_status status = number_pools(nnode, t, &d);
+  if (!status) status = weigh_pools(t, averaged, &d);
+  if (!status) status = list_tets(t, &d);
+  if (!status) status = list_rings(nnode, t, &d);
+  if (status) {
+    corot_dilatation_clear(&d);
+    return status;
+  }
+  *out = d;
+  return COROT_OK;
+}
+
+void corot_dilatation_clear(dilatation *d) {
+  free(d->pool);
+  free(d->volume);
+  free(d->lambda);
+  free(d->tet_first);
+  free(d->tet);
+  free(d->ring_first);
+  free(d->ring);
+  *d = (dilatation){0};
+}
+
+size_t corot_dilatation_bytes(const dilatation *d, const tets *t) {
+  if (!d->npool) return 0;
+  size_t lists = 2 * ((size_t)d->npool + 1) + d->tet_first[d->npool] + d->ring_first[d->npool];
+  return t->nblock * sizeof *d->pool + d->npool * 2 * sizeof(double) + lists * sizeof(int);
+}

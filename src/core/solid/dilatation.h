@@ -1,0 +1,40 @@
+/* Dilatation averaged at the nodes, against the locking of nearly incompressible tets.
+
+   Where each tet's dilatation theta_e = tr(e_p) is its own, a mesh of tets has more constraints
+   than unknowns as lambda grows. Averaged over the tets around a node,
+
+     theta_a = sum_e V_e theta_e / sum_e V_e,      V_a = sum_e V_e / 4
+
+   there is one for three unknowns (Bonet & Burton 1998). Of a material's lambda the part `local`
+   stays with the tets, and the energy of the pressure term is
+
+     sum_e V_e local/2 theta_e^2 + sum_a V_a (lambda - local)/2 theta_a^2
+       = sum_e V_e lambda/2 theta_e thetabar_e
+
+   with the mean thetabar_e = s theta_e + (1 - s) sum_{a at e} theta_a / 4, s = local / lambda,
+   which takes the place of theta_e in the stress. Materials do not mix: a node where several meet
+   has an average of each, for pressure may jump between them. */
+#ifndef COROT_CORE_SOLID_DILATATION_H
+#define COROT_CORE_SOLID_DILATATION_H
+
+#include "core/element/tets.h"
+
+/* A pool is what is averaged: the tets of one material around a node. */
+typedef struct dilatation {
+  int npool;         /* 0: every dilatation is its tet's own */
+  int (*pool)[4][W]; /* [tets.nblock] the pools of each tet, one for each node */
+  double *volume;    /* [npool] of its tets [m^3] */
+  double *lambda;    /* [npool] what is averaged of it [Pa] */
+  int *tet_first;    /* [npool + 1] each pool's part of `tet` */
+  int *tet;          /* [4 ntet] W times block plus lane, ascending */
+  int *ring_first;   /* [npool + 1] each pool's part of `ring` */
+  int *ring;         /* the nodes of its tets, ascending; none where lambda is zero */
+} dilatation;
+
+/* averaged [material]: lambda - local [Pa]. */
+corot_status corot_dilatation_create(int nnode, const tets *t, const double *averaged,
+                                     dilatation *out);
+void corot_dilatation_clear(dilatation *d);
+size_t corot_dilatation_bytes(const dilatation *d, const tets *t);
+
+#endif

@@ -1,0 +1,193 @@
+/* Element matrices, and the product of the tangent with a direction. */
+#include "kernel.h"
+
+/* The block [9] of each lane is added to the matrix: eight entries as a vector, the ninth alone. */
+COROT_INLINE void scatter(double (*A)[9], const int place[W], mat3 block) {
+  vd row[W];
+  vd_transpose(&block.m[0][0], row);
+  for (int l = 0; l < W; l++) {
+    double *a = A[place[l]];
+    vd_add_to(a, row[l]);
+    a[8] += block.m[2][2][l];
+  }
+}
+
+/* lambda p_a p_b' + mu (gg Bs Bs' + s_b s_a') */
+COROT_INLINE mat3 constant_bases(vd lambda, vd mu, vd gg, mat3 BsBs, vec3 pa, vec3 pb, vec3 sa,
+                                 vec3 sb) {
+  mat3 K = mat3_scale(mu * gg, BsBs);
+  EACH_IJ K.m[i][j] += lambda * pa.v[i] * pb.v[j] + mu * sb.v[i] * sa.v[j];
+  return K;
+}
+
+/* The stretch rates of unit velocities e_i of the nodes, and the damping block of two nodes
+   under the objective law, dS/dt : D : dS/dt. */
+typedef struct node_rates {
+  mat3 rate[4][3]; /* [node][component] */
+} node_rates;
+
+COROT_INLINE node_rates node_rates_of(const tet_block *block, mat3 F, mat3 R) {
+  node_rates n;
+  for (int i = 0; i < 3; i++) {
+    for (int a = 1; a < 4; a++) {
+      mat3 V = mat3_scale(vd_all(0), R);
+      for (int j = 0; j < 3; j++) V.m[i][j] = block->g.m[a - 1][j];
+      n.rate[a][i] = stretch_rate_of(F, R, V).rate;
+    }
+    mat3 sum = mat3_add(mat3_add(n.rate[1][i], n.rate[2][i]), n.rate[3][i]);
+    n.rate[0][i] = mat3_scale(vd_all(-1), sum);
+  }
+  return n;
+}
+
+COROT_INLINE mat3 objective_damping(const strain_measure *s, vd lambda, vd mu, const node_rates *n,
+                                    int a, int b, vec3 pa, vec3 pb) {
+  mat3 D;
+  EACH_IJ {
+    D.m[i][j] = 2 * mu * mat3_dot(n->rate[a][i], n->rate[b][j]);
+    D.m[i][j] += lambda * (s->pressure == BY_GRADIENT
+                               ? pa.v[i] * pb.v[j]
+                               : mat3_trace(n->rate[a][i]) * mat3_trace(n->rate[b][j]));
+  }
+  return D;
+}
+
+/* A + [a]x' Q */
+COROT_INLINE mat3 add_skew_transposed(mat3 A, vec3 a, mat3 Q) {
+  EACH_IJ {
+    int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    A.m[i][j] += a.v[i2] * Q.m[i1][j] - a.v[i1] * Q.m[i2][j];
+  }
+  return A;
+}
+
+/* Gradients of the nodes, and the bases applied to them. */
+typedef struct node_vectors {
+  vec3 g[4], p[4], s[4];
+} node_vectors;
+
+COROT_INLINE vec3 minus_sum(const vec3 *x) {
+  vec3 y;
+  for (int c = 0; c < 3; c++) y.v[c] = -(x[0].v[c] + x[1].v[c] + x[2].v[c]);
+  return y;
+}
+
+COROT_INLINE node_vectors node_vectors_of(const tet_block *block, const tangent_terms *k) {
+  node_vectors n;
+  for (int a = 1; a < 4; a++) {
+    for (int c = 0; c < 3; c++) n.g[a].v[c] = block->g.m[a - 1][c];
+    n.p[a] = mat3_apply(k->Bp, n.g[a]);
+    n.s[a] = mat3_apply(k->Bs, n.g[a]);
+  }
+  n.g[0] = minus_sum(&n.g[1]), n.p[0] = minus_sum(&n.p[1]), n.s[0] = minus_sum(&n.s[1]);
+  return n;
+}
+
+COROT_INLINE void store_slopes(const tet_block *block, const node_vectors *n, vd slope[4][3]) {
+  for (int a = 0; a < 4; a++)
+    for (int c = 0; c < 3; c++) slope[a][c] = block->volume * n->p[a].v[c];
+}
+
+/* A body moved as a whole feels no force: a diagonal block is minus the sum of the others of its
+   row, which stand in its own column and in those before. It is symmetric up to rounding; for the
+   factorisation's sake exactly so. */
+COROT_INLINE void complete_columns(const pattern *p, int first, int last, double (*A)[9]) {
+  for (int j = first; j < last; j++) {
+    double *diagonal = A[p->colptr[j]], half[9];
+    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) {
+      double *of_row = A[p->colptr[p->row[k]]];
+      vd a = vd_load(A[k]);
+      vd_add_to(diagonal, -a), vd_add_to(of_row, -a);
+      diagonal[8] -= A[k][8], of_row[8] -= A[k][8];
+    }
+    for (int i = 0; i < 9; i++) half[i] = 0.5 * diagonal[i];
+    for (int r = 0; r < 3; r++)
+      for (int c = 0; c < 3; c++) diagonal[3 * r + c] = half[3 * r + c] + half[3 * c + r];
+  }
+}
+
+COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+                              corot_tangent tangent, int chunk, double (*K)[9], double (*D)[9]) {
+  bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
+  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
+    const int(*place)[W] = (const int(*)[W])m->pattern.place[b];
+    element e = element_at(s, m, state, b);
+    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
+
+    vd lambda = e.block->volume * e.mat->lambda, mu = e.block->volume * e.mat->mu;
+    vd dlambda = e.block->volume * e.mat->damping_lambda, dmu = e.block->volume * e.mat->damping_mu;
+    bool averaged = m->dilatation.npool;
+    vd theta = averaged ? state->dilatation[b] : dilatation_of(s->pressure, e.F, e.R);
+    vd local = e.block->volume * e.mat->lambda_local;
+    tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e.F, e.R);
+    node_vectors n = node_vectors_of(e.block, &t);
+    if (averaged) store_slopes(e.block, &n, state->slope[b]);
+    bool objective = D && m->objective && s->frame == FRAME_POLAR;
+    node_rates rates;
+    if (objective) rates = node_rates_of(e.block, e.F, e.R);
+    for (int k = 0; k < NPAIR; k++) {
+      int a = pair_row[k], c = pair_col[k];
+      vd gg = vec3_dot(n.g[a], n.g[c]);
+      mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
+      if (s->pressure == BY_GRADIENT)
+        A = mat3_add_identity(A, vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
+      if (turning) A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
+      if (K) scatter(K, place[k], A);
+      if (objective)
+        scatter(D, place[k], objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
+      else if (D)
+        scatter(D, place[k],
+                constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]));
+    }
+  }
+  const pattern *p = &m->pattern;
+  if (K) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], K);
+  if (D) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], D);
+  return -1;
+}
+
+COROT_CLONES int corot_kernel_tangent(const corot_model *m, corot_state *state,
+                                      corot_tangent tangent, int chunk, double (*K)[9],
+                                      double (*D)[9]) {
+  const strain_measure *s = &strain_measures[m->strain];
+  if (tangent == COROT_TANGENT_CLAMPED) /* compiled apart, so as not to burden the others */
+    return tangent_loop(s, m, state, COROT_TANGENT_CLAMPED, chunk, K, D);
+  return tangent_loop(s, m, state, tangent, chunk, K, D);
+}
+
+COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+                                 bool exact, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
+    element e = element_at(s, m, state, b);
+    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
+
+    mat3 dF = gradient(e.block, (const double(*)[4])state->du);
+    mat3 dR = mat3_scale(vd_all(0), e.R);
+    if (exact && s->frame != FRAME_IDENTITY) {
+      const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+      dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
+    }
+    vd minus = -e.block->volume;
+    bool averaged = m->dilatation.npool;
+    vd theta = averaged ? state->dilatation[b] : dilatation_of(s->pressure, e.F, e.R);
+    vd change = averaged ? state->dilatation_change[b]
+                         : dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
+    vd elastic = minus * e.mat->lambda, shear = minus * e.mat->mu;
+    mat3 dA = stress_derivative(s, elastic * theta, elastic * change, shear, e.F, e.R, dF, dR);
+    if (m->damped) {
+      mat3 V = gradient(e.block, (const double(*)[4])state->v);
+      mat3 dV = gradient(e.block, (const double(*)[4])state->dv);
+      vd lambda = minus * e.mat->damping_lambda, mu = minus * e.mat->damping_mu;
+      dA = mat3_add(dA, m->objective && s->frame == FRAME_POLAR
+                            ? stress_objective_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV)
+                            : stress_viscous_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV));
+    }
+    store_forces(m, state, b, dA);
+  }
+  return -1;
+}
+
+COROT_CLONES int corot_kernel_derivative(const corot_model *m, corot_state *state, bool exact,
+                                         int chunk) {
+  return derivative_loop(&strain_measures[m->strain], m, state, exact, chunk);
+}

@@ -1,0 +1,175 @@
+/* Counts neighbours, sorts them, and numbers the blocks. */
+#include "pattern.h"
+
+#include <limits.h>
+#include <stdlib.h>
+
+enum { BLOCK_SLOTS = 4 * 3 * W }; /* element forces of a block */
+
+/* Each node's slots in a force buffer of all blocks: count, then fill in the order of the tets. */
+static corot_status list_slots(int nnode, const tets *t, pattern *p) {
+  size_t nslot = 0;
+  for (int b = 0; b < t->nblock; b++) nslot += 4 * (size_t)t->block[b].ntet;
+  p->first = calloc(nnode + 2, sizeof *p->first);
+  p->slot = malloc(nslot * sizeof *p->slot);
+  if (!p->first || !p->slot) return corot_fail(COROT_ENOMEM, "no memory for the node lists");
+
+  int *next = p->first + 1; /* shifted by one while filling, in place after */
+  for (int b = 0; b < t->nblock; b++)
+    for (int a = 0; a < 4; a++)
+      for (int l = 0; l < t->block[b].ntet; l++) next[t->block[b].node[a][l] + 1]++;
+  for (int n = 0; n < nnode; n++) next[n + 1] += next[n];
+  for (int b = 0; b < t->nblock; b++)
+    for (int a = 0; a < 4; a++)
+      for (int l = 0; l < t->block[b].ntet; l++)
+        p->slot[next[t->block[b].node[a][l]]++] = b * BLOCK_SLOTS + a * 3 * W + l;
+  return COROT_OK;
+}
+
+/* A column's rows while they are gathered. */
+typedef struct column {
+  int j;
+  int n;
+  int *row;  /* [n] ascending */
+  int *mark; /* [nnode] j: is there already */
+} column;
+
+static void add_row(column *c, int i) {
+  if (i < c->j || c->mark[i] == c->j) return;
+  c->mark[i] = c->j;
+  int at = c->n++;
+  for (; at > 0 && c->row[at - 1] > i; at--) c->row[at] = c->row[at - 1];
+  c->row[at] = i;
+}
+
+/* The nodes >= j that share a tet, an average, or a block of `more` with node j, ascending: into
+   `list`; returns their number. */
+static int column_rows(const tets *t, const dilatation *d, const pattern *more, const pattern *p,
+                       int j, int *mark, int *list) {
+  column c = {.j = j, .row = list, .mark = mark};
+  for (int k = p->first[j]; k < p->first[j + 1]; k++) {
+    int slot = p->slot[k], lane = slot % W, b = slot / BLOCK_SLOTS;
+    for (int a = 0; a < 4; a++) {
+      add_row(&c, t->block[b].node[a][lane]);
+      if (!d->npool) continue;
+      int pool = d->pool[b][a][lane];
+      for (int r = d->ring_first[pool]; r < d->ring_first[pool + 1]; r++) add_row(&c, d->ring[r]);
+    }
+  }
+  if (more && j < more->nnode)
+    for (int k = more->colptr[j]; k < more->colptr[j + 1]; k++) add_row(&c, more->row[k]);
+  return c.n;
+}
+
+static corot_status list_blocks(int nnode, const tets *t, const dilatation *d, const pattern *more,
+                                pattern *p) {
+  int *mark = malloc(nnode * sizeof *mark), *list = malloc(nnode * sizeof *list);
+  p->colptr = malloc((nnode + 1) * sizeof *p->colptr);
+  if (!mark || !list || !p->colptr) goto no_memory;
+
+  for (int pass = 0; pass < 2; pass++) { /* count, then write */
+    for (int n = 0; n < nnode; n++) mark[n] = -1;
+    size_t total = 0;
+    for (int j = 0; j < nnode; j++) {
+      int n = column_rows(t, d, more, p, j, mark, list);
+      if (pass == 0) p->colptr[j] = (int)total;
+      if (pass == 1) memcpy(p->row + p->colptr[j], list, n * sizeof *list);
+      total += n;
+      if (total > INT_MAX / 9) {
+        free(mark), free(list);
+        return corot_fail(COROT_EINVAL, "the matrix pattern exceeds 32-bit counts at node %d", j);
+      }
+    }
+    if (pass == 1) break;
+    p->nblock = p->colptr[nnode] = (int)total;
+    p->row = malloc(total * sizeof *p->row);
+    if (!p->row) goto no_memory;
+  }
+  free(mark), free(list);
+  return COROT_OK;
+
+no_memory:
+  free(mark), free(list);
+  return corot_fail(COROT_ENOMEM, "no memory for the matrix pattern");
+}
+
+int corot_pattern_find(const pattern *p, int i, int j) {
+  int low = p->colptr[j], high = p->colptr[j + 1] - 1;
+  while (low < high) {
+    int mid = low + (high - low) / 2;
+    if (p->row[mid] < i)
+      low = mid + 1;
+    else
+      high = mid;
+  }
+  return low;
+}
+
+static corot_status place_tets(const tets *t, pattern *p) {
+  p->place = malloc(t->nblock * sizeof *p->place);
+  if (!p->place) return corot_fail(COROT_ENOMEM, "no memory for the matrix places");
+  for (int b = 0; b < t->nblock; b++)
+    for (int k = 0; k < NPAIR; k++)
+      for (int l = 0; l < W; l++) {
+        const tet_block *block = &t->block[b];
+        p->place[b][k][l] =
+            corot_pattern_find(p, block->node[pair_row[k]][l], block->node[pair_col[k]][l]);
+      }
+  return COROT_OK;
+}
+
+static int chunk_end(const tets *t, int chunk) {
+  return chunk < t->nblock / CHUNK ? (chunk + 1) * CHUNK : t->nblock;
+}
+
+/* A node is ready when all nodes up to it are below the lowest node of every later tet. */
+static corot_status plan_chunks(int nnode, const tets *t, pattern *p) {
+  p->nchunk = (t->nblock + CHUNK - 1) / CHUNK;
+  p->ready = malloc((p->nchunk + 1) * sizeof *p->ready);
+  if (!p->ready) return corot_fail(COROT_ENOMEM, "no memory for %d chunks", p->nchunk);
+  p->ready[p->nchunk] = nnode;
+  for (int c = p->nchunk - 1; c >= 0; c--) {
+    p->ready[c] = p->ready[c + 1];
+    for (int b = c * CHUNK; b < chunk_end(t, c); b++)
+      for (int l = 0; l < W; l++)
+        if (t->block[b].node[0][l] < p->ready[c]) p->ready[c] = t->block[b].node[0][l];
+  }
+  for (int c = 0; c < p->nchunk; c++)
+    for (int n = p->ready[c]; n < p->ready[c + 1]; n++) {
+      int back = chunk_end(t, c) - p->slot[p->first[n]] / BLOCK_SLOTS;
+      if (back > p->window) p->window = back;
+    }
+  return COROT_OK;
+}
+
+/* The buffer is used again and again: no more than a window of it is needed at a time. */
+static void wrap_slots(int nnode, pattern *p) {
+  int size = p->window * BLOCK_SLOTS;
+  for (int k = 0; k < p->first[nnode]; k++) p->slot[k] %= size;
+}
+
+corot_status corot_pattern_create(int nnode, const tets *t, const dilatation *d,
+                                  const pattern *more, pattern *out) {
+  pattern p = {.nnode = nnode};
+  corot_status status = list_slots(nnode, t, &p);
+  if (!status) status = list_blocks(nnode, t, d, more, &p);
+  if (!status) status = place_tets(t, &p);
+  if (!status) status = plan_chunks(nnode, t, &p);
+  if (status) {
+    corot_pattern_clear(&p);
+    return status;
+  }
+  wrap_slots(nnode, &p);
+  *out = p;
+  return COROT_OK;
+}
+
+void corot_pattern_clear(pattern *p) {
+  free(p->colptr);
+  free(p->row);
+  free(p->place);
+  free(p->ready);
+  free(p->first);
+  free(p->slot);
+  *p = (pattern){0};
+}

@@ -1,0 +1,43 @@
+/* Who touches whom: the symmetric 3x3-block pattern of K and D, where each element matrix goes in
+   it, and where each node finds the element forces it sums. */
+#ifndef COROT_CORE_SOLID_PATTERN_H
+#define COROT_CORE_SOLID_PATTERN_H
+
+#include "dilatation.h"
+
+/* Pairs (a, b), a > b, of local nodes: the edges of a tet. */
+enum { NPAIR = 6 };
+static const int pair_row[NPAIR] = {1, 2, 3, 2, 3, 3};
+static const int pair_col[NPAIR] = {0, 0, 0, 1, 1, 2};
+
+/* The kernels work through the blocks of tets in chunks of so many. When a chunk is done, the nodes
+   that have no tet in later ones are summed up while what they need is in the cache. */
+enum { CHUNK = 32 };
+
+/* The blocks of the lower triangle by columns, rows ascending: the first of each column is its
+   diagonal. */
+typedef struct pattern {
+  int nnode;
+  int nblock;
+  int *colptr;            /* [nnode + 1] */
+  int *row;               /* [nblock] */
+  int (*place)[NPAIR][W]; /* [tets.nblock] the block each pair of each tet is added to */
+  int nchunk;
+  int *ready; /* [nchunk + 1] chunk c completes the nodes ready[c] to ready[c + 1] - 1 */
+  int window; /* so many blocks back reach the tets of the nodes that a chunk completes */
+  int *first; /* [nnode + 1] each node's part of `slot` */
+  int *slot;  /* [4 ntet] element forces of a node, in the order of the tets: where the x component
+                 stands in the buffer [window][4][3][W], which block b uses at b modulo window;
+                 y and z W further */
+} pattern;
+
+/* Nodes that share a tet, or an average of the dilatation; and the pairs of `more` (or NULL), a
+   pattern of the nodes below more->nnode. */
+corot_status corot_pattern_create(int nnode, const tets *t, const dilatation *d,
+                                  const pattern *more, pattern *out);
+void corot_pattern_clear(pattern *p);
+
+/* The block of row i and column j <= i, which is in the pattern. */
+int corot_pattern_find(const pattern *p, int i, int j);
+
+#endif

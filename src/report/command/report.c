@@ -1,0 +1,32 @@
+/* Looks what kind of folder it is, and hands it on. */
+#include "report.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "app/folder/folder.h"
+#include "report/page/save.h"
+#include "report/run/budget_section.h"
+#include "report/run/report_run.h"
+#include "report/study/report_study.h"
+
+static corot_status has(const char *dir, const char *name, bool *there) {
+  char *path = folder_path(dir, name);
+  if (!path) return COROT_ENOMEM;
+  corot_status status = folder_look(path, there);
+  free(path);
+  return status;
+}
+
+corot_status report_write(const char *dir, const char *path) {
+  bool run = false, study = false, budget = false;
+  COROT_TRY(has(dir, "result.json", &run));
+  COROT_TRY(has(dir, "table.json", &study));
+  COROT_TRY(has(dir, "budget.json", &budget));
+  if (study) return report_study(dir, path);
+  if (run) return report_run(dir, path);
+  if (budget) return report_budget(dir, path);
+  return corot_fail(
+      COROT_EIO, "%s: holds no result.json of a run, no table.json of a study and no budget.json",
+      dir);
+}

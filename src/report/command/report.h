@@ -1,0 +1,12 @@
+/* Reports: one HTML file that shows a run, a study or an error budget. */
+#ifndef COROT_REPORT_COMMAND_REPORT_H
+#define COROT_REPORT_COMMAND_REPORT_H
+
+#include <corot/base.h>
+
+/* Writes the report of what is in `dir` (a table.json: a study; a result.json: a run, with
+   its budget if there is a budget.json of it; that alone: a budget) to `path`. COROT_EIO where it
+   is none of these. */
+corot_status report_write(const char *dir, const char *path);
+
+#endif

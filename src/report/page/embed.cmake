@@ -1,0 +1,20 @@
+# Turns the page's style and scripts into C arrays:
+#   cmake -D OUT=assets.c -D CSS=page.css -D "SCRIPTS=a.js;b.js" -P embed.cmake
+function(array name file)
+  file(READ ${file} hex HEX)
+  string(REGEX REPLACE "(................................)" "\\1\n" hex "${hex}")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${hex}")
+  file(APPEND ${OUT}.tmp "${name}[] = {\n${bytes}};\n")
+endfunction()
+
+file(WRITE ${OUT}.tmp "#include \"report/page/assets.h\"\n")
+array("const char asset_page_css" ${CSS})
+set(table "const size_t asset_page_css_size = sizeof asset_page_css;\nconst asset asset_script[] = {\n")
+set(n 0)
+foreach(script ${SCRIPTS})
+  array("static const char script_${n}" ${script})
+  string(APPEND table "{script_${n}, sizeof script_${n}},\n")
+  math(EXPR n "${n} + 1")
+endforeach()
+file(APPEND ${OUT}.tmp "${table}};\nconst int asset_nscript = ${n};\n")
+file(RENAME ${OUT}.tmp ${OUT})

@@ -1,0 +1,18 @@
+/* The surface of a tetrahedral mesh: the faces that one tet alone has. */
+#ifndef COROT_REPORT_READ_SURFACE_H
+#define COROT_REPORT_READ_SURFACE_H
+
+#include <corot/base.h>
+
+typedef struct surface {
+  int ntri, nnode;
+  int (*corner)[3]; /* [ntri] numbers among the surface's nodes, winding outward */
+  int *tet;         /* [ntri] whose face it is */
+  int *node;        /* [nnode] of the mesh, ascending */
+} surface;
+
+corot_status surface_create(int nnode, int ntet, const int (*tet)[4], surface *s);
+
+void surface_free(surface *s);
+
+#endif

@@ -1,0 +1,55 @@
+/* Inside of an integrator: what all methods share, and the functions each of them provides. */
+#ifndef COROT_SOLVE_INTEGRATE_INTEGRATOR_H
+#define COROT_SOLVE_INTEGRATE_INTEGRATOR_H
+
+#include <corot/integrate.h>
+
+#include "solve/pencil/pencil.h"
+
+typedef struct integrator_ops {
+  corot_method_kind kind;
+  void (*choose)(corot_integrator *self); /* what the definition leaves open */
+  corot_status (*create)(corot_integrator *self, const double *u, const double *v);
+  void (*destroy)(void *method);
+  corot_status (*step)(corot_integrator *self, double t_stop, corot_step *step);
+  corot_status (*at)(corot_integrator *self, double t, double *u, double *v);
+  corot_status (*work)(corot_integrator *self, double t, double *dissipated, double *external);
+  corot_status (*changed)(corot_integrator *self, corot_history history);
+  void (*statistics)(const corot_integrator *self, corot_statistics *statistics);
+} integrator_ops;
+
+extern const integrator_ops corot_integrator_cvode;
+extern const integrator_ops corot_integrator_ida;
+extern const integrator_ops corot_integrator_arkode; /* diagonally implicit */
+extern const integrator_ops corot_integrator_erk;
+extern const integrator_ops corot_integrators_fixed[]; /* one without a name ends it */
+
+struct corot_integrator {
+  const integrator_ops *ops;
+  const corot_model *model;
+  corot_state *state;
+  corot_pencil *pencil; /* NULL: of explicit steps */
+  corot_mass_solver *mass;
+  corot_integrator_def def; /* choices made; its strings are not kept */
+  double t;                 /* reached */
+  double before;            /* where the last step began; t: there is no interpolant */
+  double hlast;             /* length of the last step, 0: there was none */
+  int qlast;                /* its order */
+  long nst;                 /* steps taken */
+  double force_s, work_s;   /* wall time in the right-hand side and the work integrands [s] */
+  double step_s;            /* wall time of all steps [s] */
+  void *method;             /* the method's own part */
+  const char *table;        /* the Butcher table in use; NULL: none */
+  corot_energies energies;  /* where the work integrands were last evaluated */
+  double t_energies;        /* when that was; NaN: nowhere yet */
+};
+
+/* Where the next step, h long as far as is known (0: not at all), must stop: at t_stop, or before,
+   at corot_model_horizon(). A step that goes past what an amplitude does has not seen it, and its
+   error is not controlled. */
+double corot_integrator_sight(const corot_integrator *self, double h, double t_stop);
+
+/* Defaults of the BDF methods for what is left open. */
+void corot_integrator_choose_bdf(corot_integrator *self);
+
+#endif

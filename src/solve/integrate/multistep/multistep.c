@@ -1,0 +1,207 @@
+/* SUNDIALS before 6.6.1 has a defect: after a stop time has been reached by a call whose tout
+   equals it, the next call returns at once without advancing. advance() takes single steps, and its
+   tout always lies beyond the stop time. */
+#include "multistep.h"
+
+#include <float.h>
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/integrate/runge_kutta/slow.h"
+
+corot_status corot_multistep_open(multistep *m, corot_integrator *self, const multistep_api *api,
+                                  const double *u, const double *v) {
+  m->api = api;
+  m->t_stop = NAN;
+  m->t_last = self->t;
+  COROT_TRY(corot_driver_open(&m->driver, self, u, v));
+  m->work = N_VNew_Serial(2, m->driver.ctx);
+  m->error = N_VClone(m->driver.y);
+  m->weight = N_VClone(m->driver.y);
+  m->scratch = N_VClone(m->driver.y);
+  if (!m->work || !m->error || !m->weight || !m->scratch)
+    return corot_fail(COROT_ENOMEM, "no memory for %s on %d unknowns", self->ops->kind.name,
+                      2 * corot_model_ndof(self->model));
+  N_VConst(0, m->work);
+  return corot_multistep_open_ledger(m);
+}
+
+void corot_multistep_close(multistep *m) {
+  N_Vector const vectors[] = {m->rate, m->error, m->weight, m->scratch, m->work};
+  for (int k = 0; k < 5; k++)
+    if (vectors[k]) N_VDestroy(vectors[k]);
+  corot_multistep_close_ledger(&m->ledger);
+  corot_driver_close(&m->driver);
+  free(m);
+}
+
+/* Counts since the last start are added to `s`. False: SUNDIALS does not tell. */
+static bool add_counts(const multistep *m, corot_statistics *s) {
+  const struct {
+    multistep_count *get;
+    long *sum;
+  } counts[] = {{m->api->nfe, &s->nfe}, {m->api->nsetups, &s->nsetups}, {m->api->netf, &s->netf},
+                {m->api->nni, &s->nni}, {m->api->ncfn, &s->ncfn},       {m->api->nfeQ, &s->nfeQ}};
+  bool told = true;
+  for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+    long count = 0;
+    told = counts[k].get(m->memory, &count) == 0 && told;
+    *counts[k].sum += count;
+  }
+  return told;
+}
+
+/* Begins again at order 1, with a first step of h; 0: as SUNDIALS chooses. */
+static corot_status begin_again(multistep *m, double h) {
+  corot_integrator *self = m->driver.self;
+  if (!add_counts(m, &m->before)) return corot_driver_refuse(&m->driver, "statistics");
+  m->nni = 0;
+  m->ledger.broken = true;
+  m->t_stop = NAN;
+  m->t_last = self->t;
+  m->driver.collapsed = false;
+  self->before = self->t;
+  if (m->api->restart(m) || m->api->restart_work(m->memory, m->work) ||
+      m->api->set_first_step(m->memory, h))
+    return corot_driver_refuse(&m->driver, "restart");
+  return COROT_OK;
+}
+
+/* Sets *t_stop to where the next step must stop. Where an amplitude has rested and now sets out, a
+   step must be many times shorter than the last, and the history is of no use: IDA's estimate of
+   the error even falls with the ratio of the steps. */
+static corot_status look_ahead(multistep *m, double *t_stop) {
+  const corot_integrator *self = m->driver.self;
+  double h = 0; /* not known after a start */
+  if (self->before < self->t && m->api->next_step(m->memory, &h))
+    return corot_driver_refuse(&m->driver, "statistics");
+  double sight = corot_integrator_sight(self, h, *t_stop);
+  bool sets_out = sight < *t_stop && h > 100 * (sight - self->t);
+  *t_stop = sight;
+  if (!sets_out) return COROT_OK;
+  m->before.nrestart++;
+  return begin_again(m, self->def.first_step);
+}
+
+static corot_status advance(multistep *m, double t_stop, double *t) {
+  driver *d = &m->driver;
+  COROT_TRY(look_ahead(m, &t_stop));
+  if (t_stop != m->t_stop && m->api->set_stop_time(m->memory, t_stop))
+    return corot_driver_refuse(d, "stop time");
+  m->t_stop = t_stop;
+  double beyond = t_stop + (t_stop - d->self->t);
+  d->message[0] = 0;
+  int flag = m->api->advance(m, beyond, t);
+  if (flag < 0) return corot_driver_give_up(d, d->message);
+  if (flag == m->api->stopped) {
+    *t = t_stop;
+    m->t_stop = NAN; /* reaching it disarms it */
+  }
+  corot_driver_watch(d, *t - d->self->t, *t == t_stop);
+  return COROT_OK;
+}
+
+corot_status corot_multistep_step(corot_integrator *self, double t_stop, corot_step *step) {
+  multistep *m = self->method;
+  const multistep_api *api = m->api;
+  double t;
+  long nni = 0;
+  COROT_TRY(corot_driver_check(&m->driver));
+  COROT_TRY(advance(m, t_stop, &t));
+  if (api->nni(m->memory, &nni) || api->last_order(m->memory, &step->order) ||
+      api->local_errors(m->memory, m->error) || api->error_weights(m->memory, m->weight))
+    return corot_driver_refuse(&m->driver, "statistics");
+  step->error = N_VWrmsNorm(m->error, m->weight);
+  m->ledger.t_start = m->t_last;
+  step->t = m->t_last = t;
+  COROT_TRY(corot_multistep_measure_work(m, step->order));
+  step->newton = (int)(nni - m->nni);
+  m->nni = nni;
+  return COROT_OK;
+}
+
+corot_status corot_multistep_at(corot_integrator *self, double t, double *u, double *v) {
+  multistep *m = self->method;
+  int n = corot_model_ndof(self->model);
+  N_Vector y = m->driver.y;
+  if (t < m->t_last) {
+    y = m->error;
+    if (m->api->interpolate(m->memory, t, 0, y))
+      return corot_driver_refuse(&m->driver, "interpolant");
+  }
+  if (u) memcpy(u, N_VGetArrayPointer(y), n * sizeof *u);
+  if (v) memcpy(v, N_VGetArrayPointer(y) + n, n * sizeof *v);
+  return COROT_OK;
+}
+
+/* m->error = the jump of the derivative, from the interpolant's to the new right-hand side's; *size
+   is how fast the solution leaves its history, in units of the tolerance per second. */
+static corot_status derivative_jump(multistep *m, double *size) {
+  N_Vector now = m->error, old = m->scratch;
+  m->before.nfe++;
+  driver *d = &m->driver;
+  if (corot_driver_rhs(d->self->t, d->y, now, d))
+    return corot_driver_give_up(d, "after a change of r");
+  if (m->api->interpolate(m->memory, m->t_last, 1, old) ||
+      m->api->error_weights(m->memory, m->weight))
+    return corot_driver_refuse(d, "interpolant");
+  N_VLinearSum(1, now, -1, old, now);
+  *size = N_VWrmsNorm(now, m->weight);
+  return COROT_OK;
+}
+
+/* The same without the modes too fast for a step, in which M^-1 r tells nothing: what Newton's
+   iteration left in u is a jump there that a step never sees. In its place stands what u jumps
+   by. */
+static corot_status slow_jump(multistep *m, double *size) {
+  const corot_integrator *self = m->driver.self;
+  int n = corot_model_ndof(self->model);
+  double *du = N_VGetArrayPointer(m->error), *dv = du + n;
+  COROT_TRY(corot_slow_part(self, dv, dv));
+  for (int i = 0; i < n; i++) du[i] = self->pencil->gamma * dv[i];
+  *size = N_VWrmsNorm(m->error, m->weight);
+  return COROT_OK;
+}
+
+/* Whether the next step turns the jump into less than half the tolerance; if not, *h is a first
+   step that does. */
+static corot_status is_felt(multistep *m, bool *felt, double *h) {
+  const corot_integrator *self = m->driver.self;
+  double jump = 0, slow = 0, h_last = 0, h_next = 0;
+  COROT_TRY(derivative_jump(m, &jump));
+  if (m->api->last_step(m->memory, &h_last) || m->api->next_step(m->memory, &h_next))
+    return corot_driver_refuse(&m->driver, "statistics");
+  *felt = h_next * jump >= 0.5;
+  if (*felt) {
+    corot_status status = slow_jump(m, &slow);
+    if (sun_is_fatal(status)) return status;
+    if (status == COROT_OK) *felt = h_next * slow >= 0.5;
+  }
+  *h = fmax(fmin(h_last, 0.5 / jump), 100 * DBL_EPSILON * fabs(self->t));
+  return COROT_OK;
+}
+
+/* A jump that is not felt is left to error control; otherwise the method begins again. Where it has
+   not taken a step since it began, it forgets only what it knew of r. */
+corot_status corot_multistep_changed(corot_integrator *self, corot_history history) {
+  multistep *m = self->method;
+  double h = self->def.first_step;
+  bool felt = true;
+  if (history == COROT_HISTORY_KEEP) return COROT_OK;
+  m->ledger.broken = true;
+  if (self->before == self->t) return begin_again(m, h);
+  if (history == COROT_HISTORY_AUTO) COROT_TRY(is_felt(m, &felt, &h));
+  if (!felt) return COROT_OK;
+  m->before.nrestart++;
+  return begin_again(m, h);
+}
+
+void corot_multistep_statistics(const corot_integrator *self, corot_statistics *s) {
+  const multistep *m = self->method;
+  const corot_statistics *b = &m->before;
+  s->nfe = b->nfe, s->nsetups = b->nsetups, s->netf = b->netf, s->nni = b->nni, s->ncfn = b->ncfn;
+  s->nfeQ = b->nfeQ, s->nrestart = b->nrestart;
+  (void)add_counts(m, s); /* what is not told stays as it was before the last start */
+}

@@ -1,0 +1,35 @@
+/* Preconditioners of conjugate gradients on a refined mesh. All take the matrices of the coarser
+   levels from that of the finest by interpolation (linsol_galerkin.h), and factor that of level 0.
+   They are positive definite, if the matrix is. */
+#ifndef COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_MULTILEVEL_H
+#define COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_MULTILEVEL_H
+
+#include "linsol_coarse.h"
+
+typedef struct multilevel_ops {
+  const char *name;
+
+  /* `csc` and A, on the finest level, are borrowed; the refinement is not needed afterwards. */
+  corot_status (*create)(const corot_csc *csc, const node_matrix *A,
+                         const corot_refinement *refinement, void **self);
+  /* Of the values that A has now, not scaled. COROT_RETRY: not positive definite; COROT_ESINGULAR.
+   */
+  corot_status (*factor)(void *self);
+  /* z = M^-1 r [3 nodes]; z may be r. */
+  corot_status (*apply)(void *self, const double *r, double *z);
+  void (*destroy)(void *self); /* takes NULL */
+} multilevel_ops;
+
+/* The hierarchical basis u = T y (Yserentant, Numer. Math. 49, 1986; corot/hierarchy.h): M^-1 =
+   T D^-1 T', where D is what the matrix in that basis, T' A T, has on level 0, and of each later
+   node its own 3x3 block. */
+extern const multilevel_ops corot_hierarchical_basis; /* "hierarchical" */
+
+/* One V-cycle: on each level a forward sweep of block Gauss-Seidel, the correction of the next
+   coarser level, and a backward sweep. */
+extern const multilevel_ops corot_multigrid; /* "multigrid" */
+
+/* NULL: none has this name. */
+const multilevel_ops *corot_multilevel_find(const char *name);
+
+#endif

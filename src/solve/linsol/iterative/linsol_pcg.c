@@ -1,0 +1,236 @@
+/* Preconditioned conjugate gradients, by way of SUNDIALS' own. The work of an iteration grows with
+   the number of unknowns only, and the mass keeps their number low at small steps.
+
+   The preconditioner C C' or C (I + L)(I + L') C' is applied to the system from both sides, so
+   that what SUNDIALS sees has none: with incomplete Cholesky an iteration then costs one product.
+   Those of a refined mesh SUNDIALS applies, and C is I. */
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sunlinsol/sunlinsol_pcg.h>
+
+#include "linsol_multilevel.h"
+#include "solve/linsol/linsol.h"
+#include "solve/pencil/sun_status.h"
+
+/* The end of a message where conjugate gradients do not find the solution that there may be. */
+#ifdef COROT_HAVE_CHOLMOD
+#define WHAT_SOLVES "; use a direct linear_solver: cholmod or klu"
+#else
+#define WHAT_SOLVES "; use a direct linear_solver: klu"
+#endif
+
+typedef struct pcg {
+  const corot_csc *csc;
+  node_matrix A;
+  bool cholesky;             /* or else Jacobi, if `ops` is NULL */
+  const multilevel_ops *ops; /* of what works by levels */
+  void *levels;
+  corot_status status; /* of its last product */
+  int most;            /* iterations of a system */
+  corot_role role; /* in a time step direct solvers have a remedy against an indefinite matrix */
+  bool factored;
+  double tolerance; /* of the residual, relative to the right-hand side */
+  long iterations;
+  double curvature;      /* p' A p of the last direction */
+  double *b, *r, *x, *z; /* [3 nodes] right-hand side, residual, solution, its change; scaled */
+  SUNContext ctx;
+  N_Vector from, to;
+  SUNLinearSolver cg;
+} pcg;
+
+/* y = A x, and whether x is a direction in which A is positive. */
+static int multiply(void *data, N_Vector x, N_Vector y) {
+  pcg *p = data;
+  const double *in = N_VGetArrayPointer(x);
+  double *out = N_VGetArrayPointer(y), curvature = 0;
+  (p->cholesky ? corot_nodes_sandwich : corot_nodes_multiply)(&p->A, in, out);
+  for (int i = 0; i < 3 * p->A.n; i++) curvature += in[i] * out[i];
+  p->curvature = curvature;
+  return curvature > 0 ? 0 : 1;
+}
+
+/* z = M^-1 r */
+static int apply(void *data, N_Vector r, N_Vector z, sunrealtype tolerance, int side) {
+  pcg *p = data;
+  (void)tolerance, (void)side;
+  p->status = p->ops->apply(p->levels, N_VGetArrayPointer(r), N_VGetArrayPointer(z));
+  return sun_callback_code(p->status);
+}
+
+static void pcg_destroy(void *solver) {
+  pcg *p = solver;
+  if (!p) return;
+  if (p->cg) SUNLinSolFree(p->cg);
+  if (p->from) N_VDestroy(p->from);
+  if (p->to) N_VDestroy(p->to);
+  if (p->ctx) SUNContext_Free(&p->ctx);
+  if (p->ops) p->ops->destroy(p->levels);
+  corot_nodes_clear(&p->A);
+  free(p->b);
+  free(p);
+}
+
+static bool make_cg(pcg *p) {
+  p->cg = SUNLinSol_PCG(p->to, p->ops ? SUN_PREC_LEFT : SUN_PREC_NONE, p->most, p->ctx);
+  return p->cg && !SUNLinSolSetATimes(p->cg, p, multiply) &&
+         (!p->ops || !SUNLinSolSetPreconditioner(p->cg, p, NULL, apply)) &&
+         !SUNLinSolInitialize(p->cg);
+}
+
+static corot_status prepare(pcg *p, const linsol_plan *plan) {
+  COROT_TRY(corot_nodes_create(p->csc, &p->A));
+  corot_nodes_keep(&p->A);
+  if (p->ops) COROT_TRY(p->ops->create(p->csc, &p->A, plan->def.refinement, &p->levels));
+  int n = 3 * p->A.n;
+  /* in exact arithmetic as many iterations as unknowns suffice; rounding may ask for some more */
+  p->most = 10 * n + 100;
+  if (plan->most_iterations > 0 && plan->most_iterations < p->most)
+    p->most = (int)plan->most_iterations;
+  p->b = malloc(4 * (size_t)n * sizeof *p->b);
+  p->r = p->b + n, p->x = p->r + n, p->z = p->x + n;
+  if (sun_context_create(&p->ctx) == 0) {
+    p->to = N_VNewEmpty_Serial(n, p->ctx);
+    p->from = N_VNewEmpty_Serial(n, p->ctx);
+  }
+  if (!p->b || !p->from || !p->to || !make_cg(p))
+    return corot_fail(COROT_ENOMEM, "no memory for pcg on %d unknowns", p->csc->n);
+  return COROT_OK;
+}
+
+static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan, void **solver) {
+  pcg *p = calloc(1, sizeof *p);
+  if (!p) return corot_fail(COROT_ENOMEM, "no memory for pcg");
+  p->csc = pattern;
+  p->tolerance = plan->def.tolerance;
+  p->role = plan->def.role;
+  p->cholesky = strcmp(plan->def.preconditioner, "incomplete-cholesky") == 0;
+  p->ops = corot_multilevel_find(plan->def.preconditioner);
+  corot_status status = prepare(p, plan);
+  if (status) {
+    pcg_destroy(p);
+    return status;
+  }
+  *solver = p;
+  return COROT_OK;
+}
+
+/* What is positive definite may have an incomplete factor that is not: then the diagonal is raised
+   until it is (Manteuffel 1980). */
+static bool incomplete_cholesky(pcg *p, const double *value, int *at) {
+  for (double shift = 0; !corot_nodes_cholesky(&p->A, shift, at);) {
+    if (shift > 100) return false;
+    shift = fmax(0.01, 2 * shift);
+    corot_nodes_load(&p->A, p->csc, value);
+  }
+  return true;
+}
+
+static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
+  pcg *p = solver;
+  int at = 0;
+  *fresh = true;
+  p->factored = false;
+  corot_nodes_load(&p->A, p->csc, value);
+  if (p->ops)
+    COROT_TRY(p->ops->factor(p->levels));
+  else if (!(p->cholesky ? incomplete_cholesky(p, value, &at) : corot_nodes_jacobi(&p->A, &at)))
+    return corot_nodes_indefinite(&p->A, p->csc, at);
+  p->factored = true;
+  return COROT_OK;
+}
+
+/* x += the solution for the residual, as closely as brings |r| from `norm` to half the tolerance,
+   `whole` being |b|. */
+static corot_status improve(pcg *p, double norm, double whole) {
+  int n = 3 * p->A.n;
+  double square = 0, target = 0.5 * p->tolerance * whole;
+  if (p->cholesky) corot_nodes_forward(&p->A, p->r);
+  for (int i = 0; i < n; i++) square += p->r[i] * p->r[i];
+  memset(p->z, 0, n * sizeof *p->z);
+  N_VSetArrayPointer(p->z, p->to);
+  N_VSetArrayPointer(p->r, p->from);
+  p->status = COROT_OK;
+  int status = SUNLinSolSetZeroGuess(p->cg, 1);
+  if (!status) status = SUNLinSolSolve(p->cg, NULL, p->to, p->from, target / norm * sqrt(square));
+  int iterations = SUNLinSolNumIters(p->cg);
+  p->iterations += iterations;
+  if (p->status) return p->status;
+  if (status && !(p->curvature > 0))
+    return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (p'Sp = %.3g)%s",
+                      p->curvature, p->role == COROT_ROLE_STATIC ? "" : WHAT_SOLVES);
+  if (status && status != SUNLS_RES_REDUCED && status != SUNLS_CONV_FAIL)
+    return corot_fail(COROT_EINVAL, "pcg: SUNDIALS refuses to iterate (status %d)", status);
+  if (status)
+    return corot_fail(COROT_RETRY,
+                      "pcg: did not converge in %d iterations: residual %.1e of the right-hand "
+                      "side, tolerance %.1e" WHAT_SOLVES,
+                      iterations, SUNLinSolResNorm(p->cg) / sqrt(square) * norm / whole,
+                      p->tolerance);
+  if (p->cholesky) corot_nodes_backward(&p->A, p->z);
+  for (int i = 0; i < n; i++) p->x[i] += p->z[i];
+  return COROT_OK;
+}
+
+/* r = b - A x, |r| in the caller's units */
+static double residual(pcg *p) {
+  corot_nodes_multiply(&p->A, p->x, p->r);
+  for (int i = 0; i < 3 * p->A.n; i++) p->r[i] = p->b[i] - p->r[i];
+  return corot_nodes_unscaled_norm(&p->A, p->r);
+}
+
+/* Conjugate gradients stop by the residual they see; how large it really is shows afterwards. One
+   that no longer falls is good enough if it is as small as the rounding of its own terms, so that
+   no solver would do better. */
+static corot_status iterate(pcg *p) {
+  size_t bytes = 3 * (size_t)p->A.n * sizeof *p->b;
+  double whole = corot_nodes_unscaled_norm(&p->A, p->b), norm = whole, before;
+  memcpy(p->r, p->b, bytes);
+  memset(p->x, 0, bytes);
+  corot_status status;
+  do {
+    before = norm;
+    status = improve(p, norm, whole);
+    if (!status) norm = residual(p);
+  } while (!status && norm > p->tolerance * whole && norm < 0.5 * before);
+  if (sun_is_fatal(status)) return status;
+  if (norm <= p->tolerance * whole || norm <= 10 * corot_nodes_rounding(&p->A, p->x))
+    return COROT_OK;
+  if (status) return status;
+  return corot_fail(COROT_RETRY,
+                    "pcg: the residual stays at %.1e of the right-hand side, tolerance "
+                    "%.1e" WHAT_SOLVES,
+                    norm / whole, p->tolerance);
+}
+
+/* The exponent by which x [n] must be scaled so that squares of its entries can be represented. */
+static int exponent(int n, const double *x) {
+  double most = 0;
+  int e = 0;
+  for (int i = 0; i < n; i++) most = fmax(most, fabs(x[i]));
+  if (most < INFINITY) frexp(most, &e);
+  return abs(e) < 300 ? 0 : e;
+}
+
+static corot_status pcg_solve(void *solver, double *x) {
+  pcg *p = solver;
+  if (!p->factored) return corot_fail(COROT_EINVAL, "pcg: solve: there is no factor");
+  int n = p->csc->n;
+  bool zero = true;
+  for (int i = 0; i < n && zero; i++) zero = x[i] == 0;
+  if (zero) return COROT_OK;
+  int e = exponent(n, x);
+  memset(p->b, 0, 3 * p->A.n * sizeof *p->b);
+  for (int i = 0; i < n; i++) p->b[p->A.slot[i]] = e ? ldexp(x[i], -e) : x[i];
+  corot_nodes_scale(&p->A, p->b);
+  COROT_TRY(iterate(p));
+  corot_nodes_unscale_transposed(&p->A, p->x);
+  for (int i = 0; i < n; i++) x[i] = e ? ldexp(p->x[p->A.slot[i]], e) : p->x[p->A.slot[i]];
+  return COROT_OK;
+}
+
+static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
+
+const linsol_ops corot_linsol_pcg = {"pcg",     COROT_LOWER, pcg_create,     pcg_factor,
+                                     pcg_solve, pcg_destroy, pcg_iterations, NULL};

@@ -1,0 +1,55 @@
+/* Creates a solver as the choice says. */
+#include "linsol.h"
+
+#include <stdlib.h>
+
+corot_linear_def corot_linear_defaults(void) {
+  return (corot_linear_def){"auto", "auto", "auto", "auto", 1e-10, COROT_ROLE_DYNAMIC, NULL};
+}
+
+static corot_status check_refinement(const corot_model *model, const corot_refinement *r) {
+  int nnode = corot_model_mesh(model)->nnode;
+  if (!r || r->nnode[r->nlevel] == nnode) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "linear solver: the refinement is of %d nodes, the mesh has %d",
+                    r->nnode[r->nlevel], nnode);
+}
+
+static corot_status make(const corot_model *model, const linsol_plan *plan, linsol *s) {
+  s->ops = plan->ops;
+  s->name = plan->name;
+  s->rival = plan->rival;
+  if (s->ops->triangle == COROT_FULL) {
+    corot_csc_destroy(s->csc);
+    s->csc = NULL;
+    COROT_TRY(corot_csc_create(model, COROT_FULL, &s->csc));
+  }
+  s->value = malloc(s->csc->nnz * sizeof *s->value);
+  if (!s->value) return corot_fail(COROT_ENOMEM, "no memory for %d entries", s->csc->nnz);
+  return s->ops->create(s->csc, plan, &s->solver);
+}
+
+corot_status corot_linsol_create(const corot_model *model, const corot_linear_def *def, linsol *s) {
+  linsol_plan plan = {0};
+  *s = (linsol){0};
+  COROT_TRY(check_refinement(model, def->refinement));
+  corot_status status = corot_csc_create(model, COROT_LOWER, &s->csc);
+  if (!status) status = corot_linsol_choose(def, s->csc, &plan);
+  if (!status) status = make(model, &plan, s);
+  corot_linsol_plan_clear(&plan);
+  return status;
+}
+
+void corot_linsol_clear(linsol *s) {
+  if (s->solver) s->ops->destroy(s->solver);
+  corot_csc_destroy(s->csc);
+  free(s->value);
+  *s = (linsol){0};
+}
+
+corot_status corot_linsol_singular(const corot_csc *csc, const char *solver, int dof,
+                                   double ratio) {
+  return corot_fail(
+      COROT_ESINGULAR,
+      "%s: the matrix is singular at degree of freedom %d of node %d (pivot ratio %.1e)", solver,
+      dof, csc->node[dof], ratio);
+}

@@ -1,0 +1,84 @@
+/* Linear solvers behind one interface, found by name. */
+#ifndef COROT_SOLVE_LINSOL_LINSOL_H
+#define COROT_SOLVE_LINSOL_LINSOL_H
+
+#include <corot/solve.h>
+#include <stdbool.h>
+
+/* What is to be used on one matrix, every "auto" decided. */
+typedef struct linsol_plan linsol_plan;
+
+typedef struct linsol_ops {
+  const char *name;
+  corot_triangle triangle; /* the part of the matrix it reads */
+
+  /* Symbolic analysis, once; `pattern` is borrowed for the solver's life. */
+  corot_status (*create)(const corot_csc *pattern, const linsol_plan *plan, void **solver);
+  /* Numeric factorisation of value [nnz]; *fresh: the pivots were chosen anew. COROT_RETRY: not
+     positive definite; COROT_ESINGULAR: no pivot. */
+  corot_status (*factor)(void *solver, const double *value, bool *fresh);
+  /* x [n] becomes A^-1 x. */
+  corot_status (*solve)(void *solver, double *x);
+  void (*destroy)(void *solver);
+
+  /* Iterations so far; NULL: the solver does not iterate. */
+  long (*iterations)(const void *solver);
+
+  /* How many negative pivots A has, of a direct solver whose factor does not object to an
+     indefinite A; else NULL. */
+  corot_status (*count_negative)(const corot_csc *pattern, const double *value, int *negative);
+} linsol_ops;
+
+extern const linsol_ops corot_linsol_klu;
+extern const linsol_ops corot_linsol_pcg;
+#ifdef COROT_HAVE_CHOLMOD
+extern const linsol_ops corot_linsol_cholmod;
+#endif
+
+/* What a factor and a solution of a direct solver would cost, in iterations of the solver chosen in
+   its place; 0: there is none that would do. */
+typedef struct linsol_rival {
+  double factor, solution;
+} linsol_rival;
+
+struct linsol_plan {
+  corot_linear_def def;
+  const linsol_ops *ops;
+  const char *name; /* static: "cholmod supernodal, amd", "klu, metis", "pcg, block-jacobi" */
+  linsol_rival rival;
+  long most_iterations; /* of an iterative solver, for one system; 0: its own limit */
+  int *order;           /* [unknowns] of a direct solver: an order of little fill; else NULL */
+};
+
+/* `lower`: the lower triangle. COROT_EINVAL: a name that does not exist, or is not in this build.
+ */
+corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
+                                 linsol_plan *plan);
+
+/* The best direct solver of this build. */
+extern const char *const corot_linsol_direct;
+void corot_linsol_plan_clear(linsol_plan *plan);
+
+/* A solver with the matrix it is for. */
+typedef struct linsol {
+  const linsol_ops *ops;
+  const char *name; /* as in the plan; static */
+  corot_csc *csc;
+  double *value; /* [csc->nnz] */
+  void *solver;
+  linsol_rival rival;
+} linsol;
+
+/* On the model's pattern. What is half made is released by clear. */
+corot_status corot_linsol_create(const corot_model *model, const corot_linear_def *def, linsol *s);
+void corot_linsol_clear(linsol *s);
+
+/* Negative pivots of the symmetric matrix `value` on `A` (both triangles), none of which is moved
+   from the diagonal: as many as it has negative eigenvalues. Zero pivots count, too. */
+corot_status corot_inertia(const corot_csc *A, const double *value, int *negative);
+
+/* Fails with COROT_ESINGULAR for want of a pivot at a degree of freedom; `ratio`: of the smallest
+   pivot to the largest. */
+corot_status corot_linsol_singular(const corot_csc *csc, const char *solver, int dof, double ratio);
+
+#endif

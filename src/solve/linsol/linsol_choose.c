@@ -1,0 +1,225 @@
+/* Which solver, ordering, factor and preconditioner: by name, or by what they would cost. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "linsol.h"
+#include "linsol_graph.h"
+#include "solve/linsol/iterative/linsol_multilevel.h"
+
+#ifdef COROT_HAVE_CHOLMOD
+enum { HAVE_CHOLMOD = 1 };
+#else
+enum { HAVE_CHOLMOD = 0 };
+static const linsol_ops corot_linsol_cholmod; /* not in this build */
+#endif
+#ifdef COROT_HAVE_METIS
+enum { NORDERING = 2 }; /* of the names below */
+#else
+enum { NORDERING = 1 };
+#endif
+
+/* The names that a choice has beside auto, and how it is called. */
+typedef struct choice {
+  const char *what, *name[5]; /* up to a NULL */
+} choice;
+
+static const choice solvers = {"linear solver", {"klu", "cholmod", "pcg"}};
+static const choice orderings = {"ordering", {"amd", "metis"}};
+static const choice factors = {"factor", {"simplicial", "supernodal"}};
+static const choice preconditioners = {
+    "preconditioner", {"block-jacobi", "incomplete-cholesky", "hierarchical", "multigrid"}};
+
+const char *const corot_linsol_direct = HAVE_CHOLMOD ? "cholmod" : "klu";
+
+/* *name becomes our own copy of it, or NULL for "auto". */
+static corot_status look_up(const choice *c, const char **name) {
+  const char *given = *name ? *name : "";
+  char list[80] = "auto";
+  *name = NULL;
+  if (strcmp(given, "auto") == 0) return COROT_OK;
+  for (int k = 0; c->name[k]; k++) {
+    if (strcmp(given, c->name[k]) == 0) {
+      *name = c->name[k];
+      return COROT_OK;
+    }
+    size_t end = strlen(list);
+    snprintf(list + end, sizeof list - end, "%s%s", c->name[k + 1] ? ", " : " or ", c->name[k]);
+  }
+  return corot_fail(COROT_EINVAL, "no %s '%s': %s", c->what, given, list);
+}
+
+static corot_status look_up_all(corot_linear_def *d) {
+  COROT_TRY(look_up(&solvers, &d->solver));
+  COROT_TRY(look_up(&orderings, &d->ordering));
+  COROT_TRY(look_up(&factors, &d->factor));
+  COROT_TRY(look_up(&preconditioners, &d->preconditioner));
+  if (!(d->tolerance > 0))
+    return corot_fail(COROT_EINVAL, "linear solver: tolerance = %g is not positive", d->tolerance);
+  return COROT_OK;
+}
+
+/* Names in full, and what each stands for; NULL: of no importance. */
+static const struct full_name {
+  const char *name, *solver, *factor, *preconditioner, *ordering;
+} full_names[] = {
+    {"klu, amd", "klu", NULL, NULL, "amd"},
+    {"klu, metis", "klu", NULL, NULL, "metis"},
+    {"cholmod simplicial, amd", "cholmod", "simplicial", NULL, "amd"},
+    {"cholmod simplicial, metis", "cholmod", "simplicial", NULL, "metis"},
+    {"cholmod supernodal, amd", "cholmod", "supernodal", NULL, "amd"},
+    {"cholmod supernodal, metis", "cholmod", "supernodal", NULL, "metis"},
+    {"pcg, block-jacobi", "pcg", NULL, "block-jacobi", NULL},
+    {"pcg, incomplete-cholesky", "pcg", NULL, "incomplete-cholesky", NULL},
+    {"pcg, hierarchical", "pcg", NULL, "hierarchical", NULL},
+    {"pcg, multigrid", "pcg", NULL, "multigrid", NULL},
+};
+
+static bool fits(const char *wanted, const char *chosen) {
+  return !wanted || (chosen && strcmp(wanted, chosen) == 0);
+}
+
+static const char *full_name(const corot_linear_def *d) {
+  const struct full_name *f = full_names;
+  while (!(fits(f->solver, d->solver) && fits(f->factor, d->factor) &&
+           fits(f->preconditioner, d->preconditioner) && fits(f->ordering, d->ordering)))
+    f++;
+  return f->name;
+}
+
+static corot_status find(linsol_plan *plan) {
+  plan->name = full_name(&plan->def);
+  const linsol_ops *const ops[] = {&corot_linsol_klu, &corot_linsol_cholmod, &corot_linsol_pcg};
+  for (int k = 0; solvers.name[k]; k++)
+    if (strcmp(plan->def.solver, solvers.name[k]) == 0) plan->ops = ops[k];
+  if (plan->ops->create) return COROT_OK;
+  return corot_fail(COROT_EINVAL,
+                    "linear solver %s is not in this build (configure with COROT_CHOLMOD=ON)",
+                    plan->def.solver);
+}
+
+static corot_status check_refinement(const corot_linear_def *d) {
+  bool needed = strcmp(d->solver, "pcg") == 0 && corot_multilevel_find(d->preconditioner);
+  if (!needed || d->refinement) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "preconditioner %s: the mesh has no refinement",
+                    d->preconditioner);
+}
+
+/* The given ordering, or the one of fewest operations. */
+static corot_status order_nodes(node_graph *g, const char **name, int *order, graph_fill *fill) {
+  int *trial = malloc(g->n * sizeof *trial);
+  if (!trial) return corot_fail(COROT_ENOMEM, "no memory to order %d nodes", g->n);
+  corot_status status = COROT_OK;
+  const char *given = *name;
+  for (int k = 0; k < (given ? 1 : NORDERING) && !status; k++) {
+    const char *ordering = given ? given : orderings.name[k];
+    status = corot_graph_order(g, ordering, trial);
+    if (status) break;
+    graph_fill f = corot_graph_fill(g, trial);
+    if (k > 0 && f.flops >= fill->flops) continue;
+    memcpy(order, trial, g->n * sizeof *order);
+    *name = ordering, *fill = f;
+  }
+  free(trial);
+  return status;
+}
+
+/* Nanoseconds of one core (AVX-512, 2 MB of cache; corot-bench solvers), of which only the ratios
+   matter: for an operation of a factorisation and for an entry of the factor that it makes, for an
+   entry in a solution, and for an entry of the matrix in an iteration. */
+static const double operation_ns = HAVE_CHOLMOD ? 0.018 : 0.65, made_ns = HAVE_CHOLMOD ? 20 : 0,
+                    solved_ns = 1.5, iterated_ns = 1.2;
+
+/* From so many operations an entry on, dense blocks pay on one core (with more of them, sooner). */
+static const double dense = 130;
+
+/* As many steps go by between two factorisations, and so many solutions does a step take. */
+static const double steps = 20, solutions = 1.1;
+
+/* Iterations to a residual of 1e-10: with the mass, of a step that resolves the slow motion, as
+   many as there are nodes along an edge, times this; without it, as there are along the body. */
+static const double per_edge = 9, per_length = 20;
+
+/* Larger factors (8 GB) do not fit many a memory. */
+static const double most_entries = 1e9;
+
+static double factor_ns(const graph_fill *f) { return operation_ns * f->flops + made_ns * f->nnz; }
+
+/* Whether conjugate gradients are the faster, by a margin: a factor does not depend on how well
+   conditioned a matrix is, nor on the guesses above. */
+static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill *f,
+                           corot_role role) {
+  const double margin = 1.15;
+  if (f->nnz > most_entries) return true;
+  if (role == COROT_ROLE_STATIC && HAVE_CHOLMOD)
+    return false; /* pcg cannot tell a stable equilibrium */
+  double factor = factor_ns(f), solution = solved_ns * f->nnz;
+  if (role == COROT_ROLE_STATIC) {
+    double iteration = per_length * (corot_graph_length(g) + 1) * iterated_ns * csc->nnz;
+    return margin * iteration < factor + solution;
+  }
+  double iteration = per_edge * cbrt(g->n) * iterated_ns * csc->nnz;
+  return margin * solutions * iteration < factor / steps + solutions * solution;
+}
+
+/* How well conditioned a matrix is shows only in the iterations: flat tets, stiff inclusions and
+   incompressible materials take many times those above, or go on without end. So the costs of the
+   direct solver that was not chosen are kept, and one system may cost three factors and solutions
+   (see corot_pencil_solve). */
+static void limit_iterations(const corot_csc *csc, const graph_fill *f, linsol_plan *plan) {
+  if (f->nnz > most_entries) return; /* there is no other */
+  double iteration = iterated_ns * csc->nnz;
+  plan->rival.factor = factor_ns(f) / iteration;
+  plan->rival.solution = solved_ns * f->nnz / iteration;
+  plan->most_iterations = 100 + lround(fmin(1e9, 3 * (plan->rival.factor + plan->rival.solution)));
+}
+
+static corot_status analyze(const corot_csc *csc, node_graph *g, linsol_plan *plan) {
+  corot_linear_def *d = &plan->def;
+  graph_fill fill = {0};
+  int *nodes = malloc(csc->n * sizeof *nodes);
+  plan->order = malloc(csc->n * sizeof *plan->order);
+  corot_status status = COROT_OK;
+  if (!nodes || !plan->order)
+    status = corot_fail(COROT_ENOMEM, "no memory to order %d unknowns", csc->n);
+  if (!status) status = order_nodes(g, &d->ordering, nodes, &fill);
+  for (int k = 0, i = 0; k < g->n && !status; k++)
+    for (int j = g->first[nodes[k]]; j < g->first[nodes[k] + 1]; j++) plan->order[i++] = j;
+  free(nodes);
+  if (status) return status;
+  if (!d->solver && iteration_pays(csc, g, &fill, d->role)) {
+    d->solver = "pcg";
+    limit_iterations(csc, &fill, plan);
+  }
+  if (!d->solver) d->solver = corot_linsol_direct;
+  if (!d->factor) d->factor = fill.flops > dense * fill.nnz ? "supernodal" : "simplicial";
+  return COROT_OK;
+}
+
+corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
+                                 linsol_plan *plan) {
+  linsol_plan p = {.def = *def};
+  node_graph g = {0};
+  COROT_TRY(look_up_all(&p.def));
+  corot_status status = COROT_OK;
+  if (!p.def.solver || strcmp(p.def.solver, "pcg") != 0) {
+    status = corot_graph_create(lower, &g);
+    if (!status) status = analyze(lower, &g, &p);
+  }
+  corot_graph_clear(&g);
+  if (!p.def.preconditioner) p.def.preconditioner = "incomplete-cholesky";
+  if (!status) status = check_refinement(&p.def);
+  if (!status) status = find(&p);
+  if (status) {
+    corot_linsol_plan_clear(&p);
+    return status;
+  }
+  *plan = p;
+  return COROT_OK;
+}
+
+void corot_linsol_plan_clear(linsol_plan *plan) {
+  free(plan->order);
+  plan->order = NULL;
+}

@@ -1,0 +1,214 @@
+/* Assembles K and D, combines them with M, and factors the sum when it has to. */
+#include "pencil.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "wall_clock.h"
+
+/* What is in p->chosen. */
+static void adopt(corot_pencil *p) {
+  p->solver = &p->chosen;
+  p->csc = p->chosen.csc;
+  p->S = p->chosen.value;
+}
+
+static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
+  COROT_TRY(corot_linsol_create(p->model, linear, &p->chosen));
+  adopt(p);
+  p->tentative = p->tentative && p->chosen.ops->iterations;
+  size_t nblock = corot_model_nblock(p->model);
+  p->K = malloc(nblock * sizeof *p->K);
+  p->D = malloc(nblock * sizeof *p->D);
+  p->u = malloc(p->n * sizeof *p->u);
+  p->work = malloc(2 * (size_t)p->n * sizeof *p->work);
+  if (!p->K || !p->D || !p->u || !p->work)
+    return corot_fail(COROT_ENOMEM, "no memory for matrices of %d unknowns", p->n);
+  return COROT_OK;
+}
+
+corot_status corot_pencil_create(const corot_model *model, corot_state *state,
+                                 const corot_linear_def *linear, corot_pencil **pencil) {
+  corot_linear_def def = linear ? *linear : corot_linear_defaults();
+  corot_pencil *p = calloc(1, sizeof *p);
+  if (!p) return corot_fail(COROT_ENOMEM, "no memory for a pencil");
+  p->model = model;
+  p->state = state;
+  p->n = corot_model_ndof(model);
+  p->role = def.role;
+  p->tentative = !def.solver || strcmp(def.solver, "auto") == 0;
+  p->dirty = true;
+  corot_status status = allocate(&def, p);
+  if (status) {
+    corot_pencil_destroy(p);
+    return status;
+  }
+  *pencil = p;
+  return COROT_OK;
+}
+
+void corot_pencil_destroy(corot_pencil *p) {
+  if (!p) return;
+  corot_linsol_clear(&p->chosen);
+  corot_linsol_clear(&p->klu);
+  free(p->K);
+  free(p->D);
+  free(p->u);
+  free(p->work);
+  free(p);
+}
+
+const char *corot_pencil_solver(const corot_pencil *p) { return p->chosen.name; }
+void corot_pencil_use(corot_pencil *p, corot_tangent tangent) { p->tangent = tangent; }
+void corot_pencil_invalidate(corot_pencil *p) { p->dirty = true; }
+
+corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
+  corot_pencil_counts counts = p->counts;
+  const linsol *s = &p->chosen;
+  counts.niteration = p->niteration;
+  if (s->ops->iterations) counts.niteration += s->ops->iterations(s->solver);
+  return counts;
+}
+
+corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, const double *v) {
+  double start = clock_wall();
+  corot_status status = corot_jacobian(p->model, p->state, t, u, v, p->tangent, p->K, p->D);
+  p->dirty = status != COROT_OK;
+  p->assembled = p->tangent;
+  p->t = t;
+  memcpy(p->u, u, p->n * sizeof *u);
+  p->counts.nassembly++;
+  p->counts.assembly_s += clock_wall() - start;
+  return status;
+}
+
+/* K once more, where it was assembled, with another derivative of the frames. */
+static corot_status assemble_again(corot_pencil *p, corot_tangent tangent) {
+  double start = clock_wall();
+  /* K is that of v = 0, so any velocity will do */
+  corot_status status = corot_jacobian(p->model, p->state, p->t, p->u, p->u, tangent, p->K, NULL);
+  p->dirty = p->dirty || status != COROT_OK;
+  p->assembled = tangent;
+  p->counts.nassembly++;
+  p->counts.assembly_s += clock_wall() - start;
+  return status;
+}
+
+/* S for one of the solvers. */
+static void combine(corot_pencil *p, linsol *s) {
+  double start = clock_wall();
+  corot_csc_combine(p->model, s->csc, p->a, p->b, (const double(*)[9])p->D, p->c,
+                    (const double(*)[9])p->K, s->value);
+  p->counts.ncombine++;
+  p->counts.combine_s += clock_wall() - start;
+}
+
+void corot_pencil_combine(corot_pencil *p, double a, double b, double c) {
+  p->a = a, p->b = b, p->c = c;
+  combine(p, &p->chosen);
+}
+
+static corot_status factor(corot_pencil *p, const linsol *s) {
+  double start = clock_wall();
+  bool fresh = false;
+  corot_status status = s->ops->factor(s->solver, s->value, &fresh);
+  p->solver = s;
+  p->counts.nfactor++;
+  p->counts.nfresh += fresh;
+  p->counts.factor_s += clock_wall() - start;
+  return status;
+}
+
+static bool no_pivots(corot_status status) {
+  return status == COROT_RETRY || status == COROT_ESINGULAR;
+}
+
+/* With K cut off where it is negative. If that is no help, K is as before. */
+static corot_status factor_clamped(corot_pencil *p) {
+  corot_tangent before = p->assembled;
+  COROT_TRY(assemble_again(p, COROT_TANGENT_CLAMPED));
+  combine(p, &p->chosen);
+  corot_status status = factor(p, &p->chosen);
+  p->counts.nclamped += status == COROT_OK;
+  if (!no_pivots(status)) return status;
+  COROT_TRY(assemble_again(p, before));
+  combine(p, &p->chosen);
+  return status;
+}
+
+/* A solver of that name, *s being set on success. */
+static corot_status make_solver(corot_pencil *p, const char *name, linsol *s) {
+  double start = clock_wall();
+  corot_linear_def def = corot_linear_defaults();
+  def.solver = name, def.role = p->role;
+  linsol made;
+  corot_status status = corot_linsol_create(p->model, &def, &made);
+  p->counts.factor_s += clock_wall() - start;
+  if (status)
+    corot_linsol_clear(&made);
+  else
+    *s = made;
+  return status;
+}
+
+/* By a solver that does not mind. */
+static corot_status factor_by_klu(corot_pencil *p) {
+  if (!p->klu.solver) COROT_TRY(make_solver(p, "klu", &p->klu));
+  combine(p, &p->klu);
+  corot_status status = factor(p, &p->klu);
+  p->counts.nfallback += status == COROT_OK;
+  return status;
+}
+
+static corot_status solve(corot_pencil *p, double *x) {
+  double start = clock_wall();
+  corot_status status = p->solver->ops->solve(p->solver->solver, x);
+  p->counts.nsolve++;
+  p->counts.nlsfail += status != COROT_OK;
+  p->counts.solve_s += clock_wall() - start;
+  return status;
+}
+
+static corot_status factor_chosen(corot_pencil *p) {
+  corot_status status = factor(p, &p->chosen);
+  p->counts.nindefinite += status == COROT_RETRY;
+  if (status != COROT_RETRY || p->role == COROT_ROLE_STATIC) return status;
+  if (p->assembled != COROT_TANGENT_CLAMPED) status = factor_clamped(p);
+  return no_pivots(status) ? factor_by_klu(p) : status;
+}
+
+/* A direct solver in the place of conjugate gradients that were chosen, and do not do. */
+static corot_status choose_again(corot_pencil *p) {
+  linsol direct;
+  COROT_TRY(make_solver(p, corot_linsol_direct, &direct));
+  p->niteration += p->chosen.ops->iterations(p->chosen.solver);
+  corot_linsol_clear(&p->chosen);
+  p->chosen = direct;
+  p->tentative = false;
+  adopt(p);
+  combine(p, &p->chosen);
+  return factor_chosen(p);
+}
+
+/* Whether the iterations so far have cost twice as much as a direct solver would have. */
+static bool chosen_in_vain(const corot_pencil *p) {
+  const linsol *s = &p->chosen;
+  double direct = s->rival.factor * p->counts.nfactor + s->rival.solution * p->counts.nsolve;
+  return p->tentative && direct > 0 && s->ops->iterations(s->solver) > 100 + 2 * direct;
+}
+
+corot_status corot_pencil_factor(corot_pencil *p) {
+  if (!chosen_in_vain(p)) return factor_chosen(p);
+  corot_status status = choose_again(p);
+  if (status != COROT_ENOMEM || !p->tentative) return status;
+  p->tentative = false; /* slow, but right */
+  return factor_chosen(p);
+}
+
+corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
+  if (x != b) memcpy(x, b, p->n * sizeof *x);
+  corot_status status = solve(p, x);
+  if (status != COROT_RETRY || !p->tentative || p->solver != &p->chosen) return status;
+  COROT_TRY(choose_again(p));
+  return solve(p, x);
+}

@@ -1,0 +1,144 @@
+/* The pencil in the clothes of a SUNMatrix and a SUNLinearSolver.
+
+   The solver says DIRECT, not MATRIX_EMBEDDED: an integrator then keeps its rules on when to set up
+   again and how to correct for a gamma that has changed since. The Newton system of y' = f,
+
+     du - g dv = r_u,    g M^-1 K du + (I + g M^-1 D) dv = r_v,
+
+   becomes (M + g D + g^2 K) dv = M r_v - g K r_u, then du = r_u + g dv, with the g of the set-up.
+ */
+#include <nvector/nvector_serial.h>
+#include <string.h>
+
+#include "core/ode/trial.h"
+#include "pencil.h"
+#include "sun_status.h"
+#include "wall_clock.h"
+
+static SUNMatrix_ID matrix_id(SUNMatrix A) {
+  (void)A;
+  return SUNMATRIX_CUSTOM;
+}
+
+/* Integrators that clear the matrix before each assembly: the pencil clears its own. */
+static sun_status matrix_zero(SUNMatrix A) {
+  (void)A;
+  return 0;
+}
+
+static void matrix_destroy(SUNMatrix A) {
+  if (!A) return;
+  A->content = NULL; /* the pencil is the host's */
+  SUNMatFreeEmpty(A);
+}
+
+SUNMatrix corot_sun_matrix(corot_pencil *pencil, SUNContext ctx) {
+  SUNMatrix A = ctx ? SUNMatNewEmpty(ctx) : NULL;
+  if (!A) return NULL;
+  A->content = pencil;
+  A->ops->getid = matrix_id;
+  A->ops->zero = matrix_zero;
+  A->ops->destroy = matrix_destroy;
+  return A;
+}
+
+static SUNLinearSolver_Type solver_type(SUNLinearSolver LS) {
+  (void)LS;
+  return SUNLINEARSOLVER_DIRECT;
+}
+
+static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
+  (void)A;
+  return sun_callback_code(corot_pencil_factor(LS->content));
+}
+
+corot_status corot_pencil_newton(corot_pencil *p, N_Vector b, N_Vector x) {
+  int n = p->n;
+  double start = clock_wall(), g = p->gamma;
+  const double *ru = N_VGetArrayPointer(b), *rv = ru + n;
+  double *du = N_VGetArrayPointer(x), *dv = du + n, *Kru = p->work, *rhs = Kru + n;
+
+  corot_block_multiply(p->model, (const double(*)[9])p->K, ru, Kru);
+  corot_mass_multiply(p->model, rv, rhs);
+  for (int i = 0; i < n; i++) rhs[i] -= g * Kru[i];
+  p->counts.solve_s += clock_wall() - start;
+  COROT_TRY(corot_pencil_solve(p, rhs, rhs));
+  for (int i = 0; i < n; i++) {
+    du[i] = ru[i] + g * rhs[i];
+    dv[i] = rhs[i];
+  }
+  return COROT_OK;
+}
+
+static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
+  (void)A, (void)tol;
+  return sun_solve_code(corot_pencil_newton(LS->content, b, x));
+}
+
+static sun_status solver_free(SUNLinearSolver LS) {
+  if (!LS) return 0;
+  LS->content = NULL;
+  SUNLinSolFreeEmpty(LS);
+  return 0;
+}
+
+SUNLinearSolver corot_sun_linsol(corot_pencil *pencil, SUNContext ctx) {
+  SUNLinearSolver LS = ctx ? SUNLinSolNewEmpty(ctx) : NULL;
+  if (!LS) return NULL;
+  LS->content = pencil;
+  LS->ops->gettype = solver_type;
+  LS->ops->setup = solver_setup;
+  LS->ops->solve = solver_solve;
+  LS->ops->free = solver_free;
+  return LS;
+}
+
+corot_status corot_pencil_linsys(corot_pencil *p, double t, N_Vector y, bool keep,
+                                 sunbooleantype *made, double gamma) {
+  *made = !keep || p->dirty;
+  if (*made) {
+    const double *u = N_VGetArrayPointer(y);
+    COROT_TRY(corot_pencil_assemble(p, t, u, u + p->n));
+  }
+  corot_pencil_combine(p, 1, gamma, gamma * gamma);
+  p->gamma = gamma;
+  return COROT_OK;
+}
+
+int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
+                     sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
+                     N_Vector tmp2, N_Vector tmp3) {
+  (void)fy, (void)user_data, (void)tmp1, (void)tmp2, (void)tmp3;
+  return sun_callback_code(corot_pencil_linsys(A->content, t, y, jok, jcur, gamma));
+}
+
+int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
+                         sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
+                         void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3) {
+  (void)M;
+  return corot_sun_linsys(t, y, fy, A, jok, jcur, gamma, user_data, tmp1, tmp2, tmp3);
+}
+
+corot_status corot_rate(const corot_sun_data *data, double t, N_Vector y, N_Vector ydot) {
+  int n = corot_model_ndof(data->model);
+  const double *u = N_VGetArrayPointer(y), *v = u + n;
+  double *du = N_VGetArrayPointer(ydot), *dv = du + n;
+  if (corot_model_mass_kind(data->model) == COROT_MASS_LUMPED)
+    return corot_rhs_trial(data->model, data->state, t, u, du);
+  if (!data->mass)
+    return corot_fail(COROT_EINVAL,
+                      "corot_sun_rhs: consistent mass needs a corot_mass_solver in corot_sun_data");
+  COROT_TRY(corot_residual_trial(data->model, data->state, t, u, v, dv));
+  memcpy(du, v, n * sizeof *du);
+  return corot_mass_solve(data->mass, dv, dv);
+}
+
+int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
+  return sun_callback_code(corot_rate(user_data, t, y, ydot));
+}
+
+const char *corot_sundials_version(void) {
+  static _Thread_local char version[32];
+  if (SUNDIALSGetVersion(version, sizeof version)) version[0] = 0;
+  return version;
+}

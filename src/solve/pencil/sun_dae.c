@@ -1,0 +1,69 @@
+/* The pencil for the residual form: F(t, y, y') = (u' - v, M v' - r) of y = (u, v). With the
+   leading coefficient c = dy'/dy of the method, and g = 1/c, the Newton system
+
+     c du - dv = F_u,    K du + (c M + D) dv = F_v
+
+   becomes (M + g D + g^2 K) dv = g (F_v - g K F_u), then du = g (F_u + dv): the matrix is that of
+   y' = f at gamma = g. M is only multiplied by, so a consistent one costs no solve. */
+#include <nvector/nvector_serial.h>
+
+#include "core/ode/trial.h"
+#include "pencil.h"
+#include "sun_status.h"
+#include "wall_clock.h"
+
+corot_status corot_pencil_newton_dae(corot_pencil *p, N_Vector b, N_Vector x) {
+  int n = p->n;
+  double start = clock_wall(), g = p->gamma;
+  const double *Fu = N_VGetArrayPointer(b), *Fv = Fu + n;
+  double *du = N_VGetArrayPointer(x), *dv = du + n, *KFu = p->work, *rhs = KFu + n;
+
+  corot_block_multiply(p->model, (const double(*)[9])p->K, Fu, KFu);
+  for (int i = 0; i < n; i++) rhs[i] = g * (Fv[i] - g * KFu[i]);
+  p->counts.solve_s += clock_wall() - start;
+  COROT_TRY(corot_pencil_solve(p, rhs, rhs));
+  for (int i = 0; i < n; i++) {
+    du[i] = g * (Fu[i] + rhs[i]);
+    dv[i] = rhs[i];
+  }
+  return COROT_OK;
+}
+
+static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
+  (void)A, (void)tol;
+  return sun_solve_code(corot_pencil_newton_dae(LS->content, b, x));
+}
+
+SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx) {
+  SUNLinearSolver LS = corot_sun_linsol(pencil, ctx);
+  if (LS) LS->ops->solve = solver_solve;
+  return LS;
+}
+
+int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector F,
+                           SUNMatrix A, void *user_data, N_Vector tmp1, N_Vector tmp2,
+                           N_Vector tmp3) {
+  (void)yp;
+  sunbooleantype current;
+  return corot_sun_linsys(t, y, F, A, 0, &current, 1 / cj, user_data, tmp1, tmp2, tmp3);
+}
+
+corot_status corot_defect(const corot_sun_data *data, double t, N_Vector y, N_Vector yp,
+                          N_Vector F) {
+  int n = corot_model_ndof(data->model);
+  const double *u = N_VGetArrayPointer(y), *v = u + n;
+  const double *ut = N_VGetArrayPointer(yp), *vt = ut + n;
+  double *Fu = N_VGetArrayPointer(F), *Fv = Fu + n;
+
+  COROT_TRY(corot_residual_trial(data->model, data->state, t, u, v, Fu)); /* r, for now */
+  corot_mass_multiply(data->model, vt, Fv);
+  for (int i = 0; i < n; i++) {
+    Fv[i] -= Fu[i];
+    Fu[i] = ut[i] - v[i];
+  }
+  return COROT_OK;
+}
+
+int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data) {
+  return sun_callback_code(corot_defect(user_data, t, y, yp, F));
+}

@@ -1,0 +1,123 @@
+/* `corot study status`, `collect`, `table`, `csv` and `schema`. */
+#include "command_folder.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/command/cli.h"
+#include "app/folder/folder.h"
+#include "app/text/escape.h"
+#include "app/text/say.h"
+#include "app/text/suggest.h"
+#include "study/execute/store.h"
+#include "study/measure/collect.h"
+#include "study/plan/json_file.h"
+#include "study/tables/table_text.h"
+
+/* One folder, and no options but --help. -1: go on with *dir; otherwise an exit code. */
+static int only_folder(const char *program, int argc, char **argv, const char **dir) {
+  char name[64];
+  snprintf(name, sizeof name, "corot study %s", program);
+  if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
+    printf("usage: %s DIR\n\nSee corot study --help.\n", name);
+    return EXIT_OK;
+  }
+  if (argc != 2) return usage_error("corot study", "%s: expected one folder", program);
+  if (argv[1][0] == '-') return usage_error("corot study", "unknown option %s", argv[1]);
+  *dir = argv[1];
+  return -1;
+}
+
+int command_study_status(int argc, char **argv) {
+  const char *dir = NULL;
+  int code = only_folder("status", argc, argv, &dir), count[3] = {0};
+  if (code >= 0) return code;
+  char title[200];
+  manifest *m = NULL;
+  corot_status status = manifest_read(dir, &m);
+  for (int i = 0; status == COROT_OK && i < m->nrun; i++) {
+    run_record record;
+    status = store_look(dir, &m->run[i], &record);
+    if (status != COROT_OK) break;
+    count[record.state]++;
+    if (record.state == RUN_FAILED) show("%s failed: %s\n", m->run[i].id, record.reason);
+    if (record.state == RUN_MISSING && record.reason)
+      show("%s to be tried again: %s\n", m->run[i].id, record.reason);
+    run_record_free(&record);
+  }
+  if (status == COROT_OK)
+    show("%s: %d cells, %d runs: %d done, %d failed, %d missing\n",
+         escape_line_cut(m->title, sizeof title, title), m->ncell, m->nrun, count[RUN_DONE],
+         count[RUN_FAILED], count[RUN_MISSING]);
+  if (status == COROT_OK && strcmp(m->version, corot_version()) != 0)
+    show("runs by corot %s; this is %s, and would do all of them again\n", m->version,
+         corot_version());
+  manifest_destroy(m);
+  return status == COROT_OK ? EXIT_OK : failure(status);
+}
+
+/* Collects what there is now; the manifest is that of the folder. */
+static corot_status collect_folder(const char *dir, int *ndamaged) {
+  manifest *m = NULL;
+  COROT_TRY(manifest_read(dir, &m));
+  corot_status status = collect_runs(m, dir, false, stderr, ndamaged);
+  manifest_destroy(m);
+  return status;
+}
+
+int command_study_collect(int argc, char **argv) {
+  const char *dir = NULL;
+  int code = only_folder("collect", argc, argv, &dir);
+  if (code >= 0) return code;
+  int ndamaged = 0;
+  corot_status status = collect_folder(dir, &ndamaged);
+  if (status != COROT_OK) return failure(status);
+  if (ndamaged == 0) return EXIT_OK;
+  fputs("corot study with this study does again what is not as it was left\n", stderr);
+  return EXIT_CHECK;
+}
+
+static corot_status write_table(const void *table, FILE *out) { return table_print(table, out); }
+
+int command_study_table(int argc, char **argv) {
+  const char *dir = NULL;
+  int code = only_folder("table", argc, argv, &dir);
+  if (code >= 0) return code;
+  char *path = folder_path(dir, "table.json");
+  json_t *table = NULL;
+  corot_status status = path ? json_file_read(path, &table) : COROT_ENOMEM;
+  free(path);
+  if (status == COROT_OK) status = show_all(write_table, table);
+  json_decref(table);
+  return status == COROT_OK ? EXIT_OK : failure(status);
+}
+
+int command_study_csv(int argc, char **argv) {
+  const char *dir = NULL;
+  int code = only_folder("csv", argc, argv, &dir);
+  if (code >= 0) return code;
+  char *path = folder_path(dir, "table.csv");
+  if (!path) return failure(COROT_ENOMEM);
+  FILE *file = fopen(path, "re");
+  if (!file) code = failure(corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno)));
+  for (int c; file && (c = getc(file)) != EOF;) putchar(c);
+  if (file && ferror(file))
+    code = failure(corot_fail(COROT_EIO, "%s: cannot be read: %s", path, strerror(errno)));
+  if (file) fclose(file);
+  free(path);
+  return code < 0 ? EXIT_OK : code;
+}
+
+int command_study_schema(int argc, char **argv) {
+  const char *path[128];
+  int n = 0;
+  if (argc > 2) return usage_error("corot study", "schema: expected at most one key");
+  const char *prefix = argc == 2 ? argv[1] : "";
+  if (schema_print(&study_schema, prefix, stdout) > 0) return EXIT_OK;
+  for (; n < study_schema.nkey && n < 128; n++) path[n] = study_schema.key[n].path;
+  const char *near = suggest(prefix, n, path);
+  if (near) return usage_error("corot study", "no key %s; did you mean %s?", prefix, near);
+  return usage_error("corot study", "no key %s", prefix);
+}

@@ -1,0 +1,12 @@
+/* The commands about a study's folder: what `corot study` knows beside running one. */
+#ifndef COROT_STUDY_COMMAND_COMMAND_FOLDER_H
+#define COROT_STUDY_COMMAND_COMMAND_FOLDER_H
+
+int command_study_status(int argc, char **argv);
+int command_study_collect(int argc, char **argv);
+int command_study_table(int argc, char **argv);
+int command_study_csv(int argc, char **argv);
+int command_study_export(int argc, char **argv);
+int command_study_schema(int argc, char **argv);
+
+#endif

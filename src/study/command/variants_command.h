@@ -1,0 +1,35 @@
+/* What the commands that make runs of one scenario share: their arguments, and how they end. */
+#ifndef COROT_STUDY_COMMAND_VARIANTS_COMMAND_H
+#define COROT_STUDY_COMMAND_VARIANTS_COMMAND_H
+
+#include <getopt.h>
+
+#include "app/scenario/scenario.h"
+#include "study/execute/execute.h"
+
+typedef struct variants_arguments {
+  execute_options options;
+  int nset;
+  const char **set; /* [nset] "KEY=VALUE" */
+  bool json;
+} variants_arguments;
+
+typedef struct variants_command {
+  const char *program, *help;
+  const char *suffix;        /* of the default folder, out/MODELSUFFIX */
+  const struct option *more; /* options of its own, or NULL */
+  int (*take)(void *context, int option, const char *value); /* one of them: -1, or an exit code */
+  /* After all options, NULL or: -1, or an exit code. May add one setting. */
+  int (*ready)(void *context, variants_arguments *a);
+  /* The scenario has the settings. Returns the exit code. */
+  int (*go)(void *context, const scenario *s, const variants_arguments *a);
+  void *context;
+} variants_command;
+
+/* The whole command; returns the exit code. */
+int variants_command_run(const variants_command *c, int argc, char **argv);
+
+/* Words and exit code of one that a signal ended. */
+int variants_interrupted(int signal_number);
+
+#endif

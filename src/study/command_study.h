@@ -1,9 +1,0 @@
-/* The commands `corot study`, `corot budget` and `corot find-limit`. */
-#ifndef COROT_STUDY_COMMAND_STUDY_H
-#define COROT_STUDY_COMMAND_STUDY_H
-
-int command_study(int argc, char **argv);
-int command_budget(int argc, char **argv);
-int command_find_limit(int argc, char **argv);
-
-#endif

@@ -1,0 +1,54 @@
+/* What the runs of a study say together: table.json, table.csv and index.sqlite in its folder.
+
+   table.json
+     title, cost, measure   as in the study file; corot: the version that made the runs
+     builds      of the runs that are done, the build of most runs first (builds.h)
+     mixed       a sentence where there are several: which runs are of which; null: there are not
+     columns     names of the cells' coordinates
+     series      names, in alphabetical order
+     shared      a sentence: what errors are of, and what the runs have in common with their
+                 references, so that no error says anything of it
+     cells       by series, each from coarse to fine:
+       id, series, settings {column: value}, tolerance, tolerance_key
+       status      done | failed | missing;  reason: of a failure, or why it was lost
+       cost        cpu, cpu_min, cpu_max, wall, wall_min, wall_max [s]: median and extremes of
+                   `repeats` timed repetitions, or of the one run if that is 0;
+                   steps, rhs, factorisations, solves
+       error       by name, as in errors.h: the largest over time, and NAME_end at the end
+       digits      mescd
+       below_floor the study's measure is not rated, as it is below ten times the floor
+       unrated     all errors of which that is true
+       drift       energy, momentum
+       reference   number in the list of references
+       note        why there are no errors, though the run is done
+       shared      approximations that it has in common with its reference, in words
+       warnings    the codes of what the run warns of, each once: a list (app/scenario/warnings.h)
+     references  {runs: [two ids], methods, rtol, settings, status, reason, agree, parts_at [s],
+                  floor: error of the one against the other, digits, note}
+     space       of the meshes, where mesh.refine is varied: by references of neighbouring levels,
+                 {reference, refine, levels, error, bound, low, high, floor, order, verdict} as in
+                 a budget (budget.h)
+     fits        {series, tolerance_key, exponent, constant, residual, points, verdict} of the
+                 study's measure, over the points that are rated
+     rankings    {error, best: [{series, id, cost, tolerance}]}: for each power of ten the
+                 cheapest cell of each series that is at least so good, the cheapest series first
+
+   What is not known is null. */
+#ifndef COROT_STUDY_MEASURE_COLLECT_H
+#define COROT_STUDY_MEASURE_COLLECT_H
+
+#include "study/plan/manifest.h"
+
+/* The caller's to json_decref. */
+corot_status collect_table(const manifest *m, const char *dir, json_t **table);
+
+/* Collects, and writes all three files. To `remarks` (or NULL): references that part ways or are
+   not known, how many cells are not rated, and which cells carry which warnings. */
+corot_status collect_study(const manifest *m, const char *dir, FILE *remarks);
+
+/* The same; `looked`: the files of the runs have just been verified (store.h), else they are now.
+ *ndamaged: how often the files of a run are not those that it left; it is missing then. */
+corot_status collect_runs(const manifest *m, const char *dir, bool looked, FILE *remarks,
+                          int *ndamaged);
+
+#endif

@@ -1,0 +1,12 @@
+/* From what a study file says to runs with an identity each. */
+#ifndef COROT_STUDY_PLAN_PLAN_H
+#define COROT_STUDY_PLAN_PLAN_H
+
+#include "manifest.h"
+
+/* Reads the scenario of every cell and of its references, and each mesh once. Cells whose scenario
+   and mesh are the same share a run. COROT_EFORMAT: the message names the place in the study file
+   or in the base. */
+corot_status plan_study(const study *s, manifest **out);
+
+#endif
