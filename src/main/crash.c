@@ -64,7 +64,7 @@ static void tell(int i, const siginfo_t *info, const void *context) {
   const char *where = is_fault ? find_object(find_place(context)) : NULL;
   char *end = append(text, isatty(STDERR_FILENO) ? "\r\033[Kcorot: ended by " : "corot: ended by ");
   end = append(end, is_fault  ? "a fault inside the program ("
-                    : is_ours ? "a library that gave up ("
+                    : is_ours ? "an internal error ("
                               : "another process (");
   end = append(end, fault[i].name);
   if (where) end = append(append(end, " in "), where);

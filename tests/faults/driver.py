@@ -116,7 +116,7 @@ KNOWN_CRASHES = {
 }
 
 # What a crash says; a study repeats it.
-TOLD = re.compile(rb"corot: ended by (a fault inside the program|a library that gave up) "
+TOLD = re.compile(rb"corot: ended by (a fault inside the program|an internal error) "
                   rb"\(SIG[A-Z]+( in [^)]+)?\); memory that has run out is a frequent cause; ")
 
 Outcome = collections.namedtuple("Outcome", "code out err tree")

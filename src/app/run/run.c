@@ -292,15 +292,15 @@ static int conclude(run *r, corot_status status) {
   stop_heeded();
   progress_clear(&r->progress);
 
-  /* What could be written before can be written now; if it cannot, the first reason stands. */
+  /* What could be written before can be written now. */
   corot_status late = COROT_OK;
   if (r->shown < reached(r) && code != EXIT_SYSTEM) late = write_moment(r, reached(r), true);
   corot_status closed = outputs_close(r->outputs);
   if (late == COROT_OK) late = closed;
-  if (code == 0 && late != COROT_OK) {
-    code = run_exit_code(late);
+  if (run_late_code(code, late) != code) {
+    code = run_late_code(code, late);
     status = late;
-    snprintf(reason, sizeof reason, "%s", corot_error());
+    run_add_reason(sizeof reason, reason);
   }
 
   run_summary summary;
@@ -314,7 +314,7 @@ static int conclude(run *r, corot_status status) {
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
   tell(r, &summary);
-  return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
+  return run_late_code(code, late);
 }
 
 static corot_status open_outputs(run *r) {

@@ -4,6 +4,7 @@
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "app/command/cli.h"
@@ -26,6 +27,17 @@ int run_exit_code(corot_status status) {
   if (status == COROT_EINVAL || status == COROT_EFORMAT) return EXIT_SCENARIO;
   if (status == COROT_ENOMEM || status == COROT_EIO) return EXIT_SYSTEM;
   return EXIT_INTEGRATOR;
+}
+
+int run_late_code(int code, corot_status late) {
+  int refused = run_exit_code(late);
+  if (code == EXIT_OK) return refused;
+  return refused == EXIT_SYSTEM && code < EXIT_SIGNAL ? EXIT_SYSTEM : code;
+}
+
+void run_add_reason(size_t size, char *reason) {
+  size_t length = strlen(reason);
+  snprintf(reason + length, size - length, "%s%s", length > 0 ? "; " : "", corot_error());
 }
 
 run_failure run_failure_of(corot_status status, int code) {

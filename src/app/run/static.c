@@ -242,10 +242,10 @@ static int conclude(equilibrium_run *r, corot_status status) {
   corot_status late = outputs_close(r->outputs), closed = reactions_close(r->reactions);
   if (late == COROT_OK) late = closed;
   r->reactions_at_end = reactions_last(r->reactions);
-  if (code == 0 && late != COROT_OK) {
-    code = run_exit_code(late);
+  if (run_late_code(code, late) != code) {
+    code = run_late_code(code, late);
     status = late;
-    snprintf(reason, sizeof reason, "%s", corot_error());
+    run_add_reason(sizeof reason, reason);
   }
   run_summary summary;
   statics_summary statics;
@@ -259,7 +259,7 @@ static int conclude(equilibrium_run *r, corot_status status) {
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
   tell(r, reason, &summary);
-  return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
+  return run_late_code(code, late);
 }
 
 static int search(const scenario *s, const run_options *options) {
