@@ -188,7 +188,6 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .steps = r->steps,
       .reactions = r->reactions_at_end,
   };
-  if (!statics->reactions) return corot_fail(COROT_ENOMEM, "reactions: out of memory");
   corot_statics_critical(r->statics, &statics->stable, &statics->unstable);
   *summary = (run_summary){
       .status = code == 0            ? "ok"
@@ -213,6 +212,7 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .warnings = &r->warnings,
       .seen = &r->seen,
   };
+  if (!statics->reactions) return corot_fail(COROT_ENOMEM, "reactions: out of memory");
   COROT_TRY(hashes_of(r->scenario->resolved, r->mesh, &summary->hashes));
   hashes_static(&summary->hashes);
   return COROT_OK;
