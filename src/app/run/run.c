@@ -289,7 +289,7 @@ static int conclude(run *r, corot_status status) {
   } else if (stop_signal() && !schedule_over(r->schedule, r->t)) {
     code = run_interrupted(sizeof reason, reason);
   }
-  stop_heeded();
+  if (code > EXIT_SIGNAL) stop_heeded();
   progress_clear(&r->progress);
 
   /* What could be written before can be written now. */
@@ -305,14 +305,14 @@ static int conclude(run *r, corot_status status) {
 
   run_summary summary;
   r->failure = run_failure_of(status, code);
-  stop_forget();
-  stop_release();
   late = run_warn_after(r->scenario, r->model, r->state, r->outputs, false, r->options,
                         &r->warnings, &r->seen);
   corot_status summed = summarize(r, reason, code, &summary);
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
+  stop_forget();
+  stop_release();
   tell(r, &summary);
   return run_late_code(code, late);
 }

@@ -170,12 +170,14 @@ corot_status run_write_result(const scenario *s, const outputs *o, const run_sum
   COROT_TRY(result_make(s, o, summary, &result));
   json_t *files = NULL;
   char *text = NULL;
-  corot_status status = folder_files(options->dir, &files);
+  bool hasty = summary->exit_code > EXIT_SIGNAL; /* who interrupts a run waits for its end */
+  corot_status status = folder_files(options->dir, hasty, &files);
   if (status == COROT_OK && json_object_set_new(result, "files", files))
     status = corot_fail(COROT_ENOMEM, "result.json: out of memory");
   if (status == COROT_OK) status = result_text(result, &text);
   json_decref(result);
   COROT_TRY(status);
+  stop_heeded(); /* this result is not to meet the one that was prepared */
   status = result_write(options->dir, text);
   if (options->json && (fputs(text, stdout) == EOF || fflush(stdout) == EOF))
     status = corot_fail(COROT_EIO, "stdout: cannot write");

@@ -237,7 +237,7 @@ static int conclude(equilibrium_run *r, corot_status status) {
     code = run_interrupted(sizeof reason, reason);
   else if (code != 0)
     snprintf(reason, sizeof reason, "%s", corot_error());
-  stop_heeded();
+  if (code > EXIT_SIGNAL) stop_heeded();
 
   corot_status late = outputs_close(r->outputs), closed = reactions_close(r->reactions);
   if (late == COROT_OK) late = closed;
@@ -250,14 +250,14 @@ static int conclude(equilibrium_run *r, corot_status status) {
   run_summary summary;
   statics_summary statics;
   r->failure = run_failure_of(status, code);
-  stop_forget();
-  stop_release();
   late = run_warn_after(r->scenario, r->model, r->state, r->outputs, true, r->options, &r->warnings,
                         &r->seen);
   corot_status summed = summarize(r, reason, code, &statics, &summary);
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
+  stop_forget();
+  stop_release();
   tell(r, reason, &summary);
   return run_late_code(code, late);
 }
