@@ -95,7 +95,7 @@ static corot_status least(piece_of_work *work, problem *p, double *seconds, int 
   return COROT_OK;
 }
 
-static corot_status measure(const solid *s, const corot_linear_def *def, problem *p, result *r) {
+static corot_status measure(const specimen *s, const corot_linear_def *def, problem *p, result *r) {
   const double g = 0.01;
   bool dynamic = def->role == COROT_ROLE_DYNAMIC;
   double start = cpu_clock();
@@ -112,7 +112,7 @@ static corot_status measure(const solid *s, const corot_linear_def *def, problem
 }
 
 /* What auto takes: the name is the solver's own. */
-static corot_status ask_auto(const solid *s, corot_role role, const char **name) {
+static corot_status ask_auto(const specimen *s, corot_role role, const char **name) {
   corot_linear_def def = corot_linear_defaults();
   linsol made;
   def.role = role;
@@ -131,7 +131,7 @@ static bool is(const char *name, const struct candidate *c) {
 }
 
 /* Nothing where it is not worth measuring, or not in this build. */
-static corot_status try_candidate(const solid *s, corot_role role, const struct candidate *c,
+static corot_status try_candidate(const specimen *s, corot_role role, const struct candidate *c,
                                   const char *taken, result *r) {
   corot_linear_def def = {c->solver, c->ordering, c->factor, c->preconditioner, 1e-10, role, NULL};
   problem p = {0};
@@ -142,7 +142,7 @@ static corot_status try_candidate(const solid *s, corot_role role, const struct 
   return status;
 }
 
-static void report(const options *o, const struct shape *shape, const solid *s, corot_role role,
+static void report(const options *o, const struct shape *shape, const specimen *s, corot_role role,
                    const result *r, const result *best, const char *taken) {
   bool chosen = strcmp(r->name, taken) == 0;
   double ratio = r->cost / best->cost;
@@ -161,7 +161,7 @@ static void report(const options *o, const struct shape *shape, const solid *s, 
   fflush(stdout);
 }
 
-static corot_status compare(const options *o, const struct shape *shape, const solid *s,
+static corot_status compare(const options *o, const struct shape *shape, const specimen *s,
                             corot_role role, worst *w) {
   result r[NCANDIDATE] = {0}, *best = NULL;
   const char *taken;
@@ -194,7 +194,7 @@ static corot_status of_size(const options *o, const struct shape *shape, int fin
   long n = 3L * (box.cells[0] + 1) * (box.cells[1] + 1) * box.cells[2];
   if (n > o->most) return COROT_OK;
   corot_mesh *mesh;
-  solid s = {0};
+  specimen s = {0};
   COROT_TRY(corot_mesh_box(&box, &mesh));
   corot_status status = solid_create(mesh, "polar", true, &s);
   corot_mesh_destroy(mesh);

@@ -2,6 +2,7 @@
 
 #include <suitesparse/klu.h>
 
+#include "core/ode/state.h"
 #include "core/solid/kernel.h"
 
 /* Operations of the pieces, each on one tet. */
@@ -26,7 +27,9 @@ enum {
   COLLECT = 12,                 /* sums at the nodes */
 };
 
-static const strain_measure *measure(const solid *s) { return &strain_measures[s->model->strain]; }
+static const strain_measure *measure(const specimen *s) {
+  return &strain_measures[solid_of(s->model)->strain];
+}
 
 static double frame_flops(const strain_measure *s, bool held, double steps) {
   if (s->frame == FRAME_IDENTITY) return s->shear == BY_FRAME ? 0 : DET_ALONE;
@@ -52,27 +55,31 @@ static double viscous_flops(void) { return DOT + 1 + SYM_TMUL + MUL + 1 + 27; }
 
 /* --- bytes of arrays --- */
 
-static double vector(const solid *s) { return 8.0 * s->n; }
-static double matrix(const solid *s) { return 72.0 * s->model->pattern.nblock; }
-static double blocks(const solid *s) { return s->model->tets.nblock * (double)sizeof(tet_block); }
-static double frames(const solid *s) { return s->model->tets.nblock * (double)sizeof(mat3); }
-static double dofs(const solid *s) { return 12.0 * s->model->pattern.nnode; }
+static double vector(const specimen *s) { return 8.0 * s->n; }
+static double matrix(const specimen *s) { return 72.0 * solid_of(s->model)->pattern.nblock; }
+static double blocks(const specimen *s) {
+  return solid_of(s->model)->tets.nblock * (double)sizeof(tet_block);
+}
+static double frames(const specimen *s) {
+  return solid_of(s->model)->tets.nblock * (double)sizeof(mat3);
+}
+static double dofs(const specimen *s) { return 12.0 * solid_of(s->model)->pattern.nnode; }
 
-static double slots(const solid *s) {
-  const pattern *p = &s->model->pattern;
+static double slots(const specimen *s) {
+  const pattern *p = &solid_of(s->model)->pattern;
   return 4.0 * (p->nnode + p->first[p->nnode]);
 }
 
 /* What the frame in use is read from. */
-static double frame_bytes(const solid *s, bool held) {
+static double frame_bytes(const specimen *s, bool held) {
   if (measure(s)->frame == FRAME_IDENTITY) return 0;
   return held || measure(s)->frame == FRAME_WARP ? frames(s) : 0;
 }
 
 /* --- kernels --- */
 
-cost cost_force(const solid *s, bool held, double steps) {
-  bool damped = s->model->damped;
+cost cost_force(const specimen *s, bool held, double steps) {
+  bool damped = solid_of(s->model)->damped;
   double flops = DEFORMATION + frame_flops(measure(s), held, steps) + stress_flops(measure(s)) +
                  (damped ? GRADIENT + viscous_flops() + ADD : 0) + NODAL_FORCES + COLLECT;
   return (cost){
@@ -80,17 +87,17 @@ cost cost_force(const solid *s, bool held, double steps) {
       .flops = flops * s->ntet};
 }
 
-cost cost_rhs(const solid *s, double steps) {
+cost cost_rhs(const specimen *s, double steps) {
   cost c = cost_force(s, false, steps);
   c.bytes += 2 * vector(s); /* M^-1, du/dt */
   c.flops += s->n;
   return c;
 }
 
-cost cost_jacobian(const solid *s, bool exact, double steps) {
+cost cost_jacobian(const specimen *s, bool exact, double steps) {
   const strain_measure *m = measure(s);
-  const pattern *p = &s->model->pattern;
-  bool damped = s->model->damped, exact_polar = exact && m->frame == FRAME_POLAR;
+  const pattern *p = &solid_of(s->model)->pattern;
+  bool damped = solid_of(s->model)->damped, exact_polar = exact && m->frame == FRAME_POLAR;
   double terms = 4 + dilatation_flops(m) + 1; /* coefficients, pressure */
   if (m->shear == BY_GRADIENT) terms += GRAM + strain_flops(BY_GRADIENT) + 2 * SCALE_SYMMETRIC;
   if (exact_polar) terms += MUL + 2 + COFACTOR + DET + SCALE + SCALE + 3 + 2 * MUL;
@@ -102,12 +109,13 @@ cost cost_jacobian(const solid *s, bool exact, double steps) {
   if (damped) pair += bases + 9;
   double tet = DEFORMATION + frame_flops(m, false, steps) + terms + vectors + NPAIR * pair;
   double diagonal = (p->nblock - p->nnode) * 18.0 * (damped ? 2 : 1);
-  return (cost){.bytes = blocks(s) + frame_bytes(s, false) + 24.0 * W * s->model->tets.nblock +
-                         4.0 * p->nblock + dofs(s) + vector(s) + (damped ? 2 : 1) * matrix(s),
+  return (cost){.bytes = blocks(s) + frame_bytes(s, false) +
+                         24.0 * W * solid_of(s->model)->tets.nblock + 4.0 * p->nblock + dofs(s) +
+                         vector(s) + (damped ? 2 : 1) * matrix(s),
                 .flops = tet * s->ntet + diagonal};
 }
 
-cost cost_jvp(const solid *s, double steps) {
+cost cost_jvp(const specimen *s, double steps) {
   const strain_measure *m = measure(s);
   double frame = 0; /* its change; that of a product of two factors takes two products */
   if (m->frame == FRAME_POLAR) frame = 2 * MUL + 2 + COFACTOR + DET + SCALE + 3 + APPLY + MUL;
@@ -118,38 +126,38 @@ cost cost_jvp(const solid *s, double steps) {
   double viscous = 2 * GRADIENT + viscous_flops() + 2 * (DOT + 1) + 27 + ADD + 2 * SYM_TMUL +
                    2 * MUL + 2 * ADD + SCALE;
   double tet = DEFORMATION + GRADIENT + frame_flops(m, false, steps) + frame + elastic +
-               (s->model->damped ? viscous + ADD : 0) + NODAL_FORCES + COLLECT;
+               (solid_of(s->model)->damped ? viscous + ADD : 0) + NODAL_FORCES + COLLECT;
   return (cost){.bytes = blocks(s) + frame_bytes(s, false) + slots(s) + dofs(s) + 5 * vector(s),
                 .flops = tet * s->ntet};
 }
 
-cost cost_frames(const solid *s, double steps) {
+cost cost_frames(const specimen *s, double steps) {
   return (cost){.bytes = blocks(s) + dofs(s) + vector(s) + frames(s) + frame_bytes(s, false),
                 .flops = (DEFORMATION + frame_flops(measure(s), false, steps)) * s->ntet};
 }
 
-cost cost_energy(const solid *s, double steps) {
+cost cost_energy(const specimen *s, double steps) {
   const strain_measure *m = measure(s);
   double tet = DEFORMATION + frame_flops(m, false, steps) + strain_flops(m->shear) +
                dilatation_flops(m) + DOT + 7;
-  if (s->model->damped) tet += GRADIENT + viscous_flops() + DOT + 2;
+  if (solid_of(s->model)->damped) tet += GRADIENT + viscous_flops() + DOT + 2;
   return (cost){.bytes = blocks(s) + frame_bytes(s, false) + dofs(s) + 3 * vector(s) +
-                         24.0 * s->model->pattern.nnode,
+                         24.0 * solid_of(s->model)->pattern.nnode,
                 .flops = tet * s->ntet + 5.0 * s->n};
 }
 
-cost cost_combine(const solid *s, const corot_csc *csc) {
+cost cost_combine(const specimen *s, const corot_csc *csc) {
   return (cost){.bytes = 12.0 * csc->nnz + 2 * matrix(s) + 12.0 * csc->n,
                 .flops = 3.0 * csc->nnz + 2.0 * csc->n};
 }
 
-double cost_polar_steps(const solid *s) {
-  const tets *t = &s->model->tets;
+double cost_polar_steps(const specimen *s) {
+  const tets *t = &solid_of(s->model)->tets;
   corot_element_fields none = {0};
   if (corot_elements(s->model, s->state, 0, s->u, &none) != COROT_OK) return 0; /* sets state->u */
   double sum = 0;
   for (int b = 0; b < t->nblock; b++) {
-    mat3 X = deformation(&t->block[b], (const double(*)[4])s->state->u);
+    mat3 X = deformation(&t->block[b], (nodal_field)s->state->u);
     for (int k = 0;; k++) { /* as in core/lanes/polar.h, strains this small being left unscaled */
       mat3 C = mat3_cofactor(X);
       vi rough = ~(mat3_dot(X, X) - 3 < 1e-8);

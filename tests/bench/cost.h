@@ -19,16 +19,16 @@ typedef struct cost {
 
 /* Newton steps that the polar iteration takes for the solid, mean over all blocks of tets, each of
    which waits for its slowest. */
-double cost_polar_steps(const solid *s);
+double cost_polar_steps(const specimen *s);
 
 /* `steps` as above; looked at only where polar factors are found. */
-cost cost_force(const solid *s, bool held, double steps);
-cost cost_rhs(const solid *s, double steps);
-cost cost_jacobian(const solid *s, bool exact, double steps);
-cost cost_jvp(const solid *s, double steps);
-cost cost_frames(const solid *s, double steps);
-cost cost_energy(const solid *s, double steps);
-cost cost_combine(const solid *s, const corot_csc *csc);
+cost cost_force(const specimen *s, bool held, double steps);
+cost cost_rhs(const specimen *s, double steps);
+cost cost_jacobian(const specimen *s, bool exact, double steps);
+cost cost_jvp(const specimen *s, double steps);
+cost cost_frames(const specimen *s, double steps);
+cost cost_energy(const specimen *s, double steps);
+cost cost_combine(const specimen *s, const corot_csc *csc);
 
 /* Making a factor or a preconditioner, and one solution with it. */
 typedef struct solver_cost {

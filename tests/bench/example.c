@@ -74,9 +74,9 @@ enum { NPHASE = 8 };
 static corot_status find_floors(const corot_model *model, const outcome *o, phase out[NPHASE]) {
   const corot_statistics *c = &o->counts;
   const double polar_steps = 3; /* at the strains of the bar */
-  const solid s = {.model = (corot_model *)model,
-                   .ntet = corot_model_mesh(model)->ntet,
-                   .n = corot_model_ndof(model)};
+  const specimen s = {.model = (corot_model *)model,
+                      .ntet = corot_model_mesh(model)->ntet,
+                      .n = corot_model_ndof(model)};
   bool cholesky = strncmp(o->choice.linear_solver, "cholmod", 7) == 0;
   corot_csc *full;
   solver_cost direct;

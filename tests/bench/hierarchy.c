@@ -47,7 +47,7 @@ enum { NCANDIDATE = sizeof candidates / sizeof *candidates };
 typedef struct refined {
   const char *name;
   corot_refinement *levels;
-  solid s;
+  specimen s;
 } refined;
 
 static void refined_clear(refined *r) {
@@ -68,7 +68,7 @@ static corot_status refined_create(const struct shape *shape, int nlevel, refine
   corot_mesh *mesh;
   *r = (refined){.name = shape->name};
   COROT_TRY(refine(shape, nlevel, &mesh, &r->levels));
-  solid *s = &r->s;
+  specimen *s = &r->s;
   corot_status status = solid_create(mesh, "polar", true, s);
   corot_mesh_destroy(mesh);
   if (!status)

@@ -34,56 +34,56 @@ static const char help[] =
     "example: corot-bench kernels --json --tets 18432\n";
 
 static corot_status residual(void *data) {
-  solid *s = data;
+  specimen *s = data;
   return corot_residual(s->model, s->state, 0, s->u, s->v, s->r);
 }
 
 static corot_status rhs(void *data) {
-  solid *s = data;
+  specimen *s = data;
   return corot_rhs(s->model, s->state, 0, s->y, s->ydot);
 }
 
 static corot_status jacobian(void *data) {
-  solid *s = data;
+  specimen *s = data;
   return corot_jacobian(s->model, s->state, 0, s->u, s->v, COROT_TANGENT_HELD, s->K, s->D);
 }
 
 static corot_status jacobian_exact(void *data) {
-  solid *s = data;
+  specimen *s = data;
   return corot_jacobian(s->model, s->state, 0, s->u, s->v, COROT_TANGENT_EXACT, s->K, s->D);
 }
 
 static corot_status jvp(void *data) {
-  solid *s = data;
+  specimen *s = data;
   return corot_jvp(s->model, s->state, 0, s->u, s->v, COROT_TANGENT_EXACT, s->du, s->dv, s->r);
 }
 
 static corot_status frames(void *data) {
-  solid *s = data;
+  specimen *s = data;
   return corot_frames_update(s->model, s->state, 0, s->u, NULL);
 }
 
 static corot_status energy(void *data) {
-  solid *s = data;
+  specimen *s = data;
   corot_energies e;
   return corot_energy(s->model, s->state, 0, s->u, s->v, &e);
 }
 
 typedef struct combination {
-  const solid *solid;
+  const specimen *specimen;
   const corot_csc *csc;
   double *value;
 } combination;
 
 static corot_status combine(void *data) {
   combination *c = data;
-  const solid *s = c->solid;
+  const specimen *s = c->specimen;
   corot_csc_combine(s->model, c->csc, 1, 1e-2, (const double(*)[9])s->D, 1e-4,
                     (const double(*)[9])s->K, c->value);
   return COROT_OK;
 }
 
-static corot_status measure(bool json, const char *bench, const char *strain, const solid *s,
+static corot_status measure(bool json, const char *bench, const char *strain, const specimen *s,
                             piece_of_work *work, void *data, cost least) {
   row r = {.bench = bench, .strain = strain, .ntet = s->ntet, .n = s->n, .least = least};
   COROT_TRY(timing_of(work, data, &r.time));
@@ -91,14 +91,14 @@ static corot_status measure(bool json, const char *bench, const char *strain, co
   return COROT_OK;
 }
 
-static corot_status undamped(bool json, const char *strain, solid *s) {
+static corot_status undamped(bool json, const char *strain, specimen *s) {
   double steps = cost_polar_steps(s);
   COROT_TRY(measure(json, "force", strain, s, residual, s, cost_force(s, false, steps)));
   corot_state_use(s->state, COROT_FRAMES_HELD);
   return measure(json, "force-held", strain, s, residual, s, cost_force(s, true, steps));
 }
 
-static corot_status damped(bool json, const char *strain, solid *s) {
+static corot_status damped(bool json, const char *strain, specimen *s) {
   double n = cost_polar_steps(s);
   COROT_TRY(measure(json, "force-damped", strain, s, residual, s, cost_force(s, false, n)));
   COROT_TRY(measure(json, "rhs", strain, s, rhs, s, cost_rhs(s, n)));
@@ -110,8 +110,8 @@ static corot_status damped(bool json, const char *strain, solid *s) {
   return measure(json, "energy", strain, s, energy, s, cost_energy(s, n));
 }
 
-static corot_status matrices(bool json, solid *s) {
-  combination c = {.solid = s};
+static corot_status matrices(bool json, specimen *s) {
+  combination c = {.specimen = s};
   corot_csc *csc;
   COROT_TRY(jacobian(s));
   COROT_TRY(corot_csc_create(s->model, COROT_FULL, &csc));
@@ -128,7 +128,7 @@ static corot_status all(bool json, corot_mesh *mesh) {
   for (int k = 0; k < NSTRAIN; k++) {
     const char *strain = strain_measures[k].name;
     for (int pass = 0; pass < 2; pass++) {
-      solid s;
+      specimen s;
       COROT_TRY(solid_create(mesh, strain, pass == 1, &s));
       if (k == 0 && pass == 0) report_heading(json, s.ntet, s.n);
       corot_status status = pass == 0 ? undamped(json, strain, &s) : damped(json, strain, &s);

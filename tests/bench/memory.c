@@ -13,7 +13,7 @@ static const char help[] =
     "\n"
     "example: corot-bench memory\n";
 
-static void print(bool json, const char *strain, const solid *s) {
+static void print(bool json, const char *strain, const specimen *s) {
   double model = (double)corot_model_bytes(s->model) / s->ntet;
   double state = (double)corot_state_bytes(s->state) / s->ntet;
   if (json)
@@ -32,7 +32,7 @@ static corot_status all(bool json, int ntet) {
            "both");
   corot_status status = COROT_OK;
   for (int k = 0; k < NSTRAIN && !status; k++) {
-    solid s = {0};
+    specimen s = {0};
     status = solid_create(mesh, strain_measures[k].name, true, &s);
     if (!status) print(json, strain_measures[k].name, &s);
     solid_clear(&s);

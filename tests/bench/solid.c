@@ -11,7 +11,7 @@ corot_status solid_mesh(int ntet, corot_mesh **mesh) {
   return corot_mesh_box(&box, mesh);
 }
 
-static void deform(solid *s) {
+static void deform(specimen *s) {
   const corot_mesh *mesh = corot_model_mesh(s->model);
   const int(*dof)[3] = corot_model_dof(s->model);
   for (int n = 0; n < mesh->nnode; n++) {
@@ -28,7 +28,7 @@ static void deform(solid *s) {
   }
 }
 
-static corot_status fill(const corot_model_def *def, solid *s) {
+static corot_status fill(const corot_model_def *def, specimen *s) {
   COROT_TRY(corot_model_create(def, &s->model));
   COROT_TRY(corot_state_create(s->model, &s->state));
   s->ntet = corot_model_mesh(s->model)->ntet;
@@ -44,7 +44,7 @@ static corot_status fill(const corot_model_def *def, solid *s) {
   return corot_frames_update(s->model, s->state, 0, s->u, NULL);
 }
 
-corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, solid *out) {
+corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, specimen *out) {
   if (!corot_mesh_find_group(mesh, "base"))
     COROT_TRY(corot_mesh_group_plane(mesh, "base", 2, 0, 0));
   corot_material material = {.lambda = 1e5, .mu = 1e4, .density = 1000};
@@ -55,7 +55,7 @@ corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, sol
   def.viscosity = COROT_COROTATED; /* the paper's */
   def.nmaterial = 1, def.material = &material;
   def.nfix = 1, def.fix = &fix;
-  solid s = {0};
+  specimen s = {0};
   corot_status status = fill(&def, &s);
   if (status) {
     solid_clear(&s);
@@ -65,11 +65,11 @@ corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, sol
   return COROT_OK;
 }
 
-void solid_clear(solid *s) {
+void solid_clear(specimen *s) {
   corot_state_destroy(s->state);
   corot_model_destroy(s->model);
   free(s->y);
   free(s->K);
   free(s->D);
-  *s = (solid){0};
+  *s = (specimen){0};
 }

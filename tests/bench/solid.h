@@ -5,7 +5,7 @@
 #include <corot/ode.h>
 #include <stdbool.h>
 
-typedef struct solid {
+typedef struct specimen {
   corot_model *model;
   corot_state *state;
   int ntet, n;             /* tets, degrees of freedom */
@@ -13,7 +13,7 @@ typedef struct solid {
   double *ydot;            /* [2n] */
   double *r, *du, *dv;     /* [n] */
   double (*K)[9], (*D)[9]; /* [corot_model_nblock()] */
-} solid;
+} specimen;
 
 /* A box 0.1 x 0.1 x 0.6 m of about so many tets. */
 corot_status solid_mesh(int ntet, corot_mesh **mesh);
@@ -21,7 +21,7 @@ corot_status solid_mesh(int ntet, corot_mesh **mesh);
 /* Fixed at its lowest face, which lies at z = 0; bent about the y axis by up to 0.3 rad, with
    strains of up to 5 %. Either without damping or with that of the second example of Hauth &
    Strasser (2004). The mesh may be destroyed. */
-corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, solid *out);
-void solid_clear(solid *s);
+corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, specimen *out);
+void solid_clear(specimen *s);
 
 #endif

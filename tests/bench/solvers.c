@@ -8,7 +8,7 @@
 
 enum { KLU_MOST = 12000 };
 
-corot_status problem_create(const solid *s, const corot_linear_def *def, double a, double b,
+corot_status problem_create(const specimen *s, const corot_linear_def *def, double a, double b,
                             double c, problem *p) {
   *p = (problem){0};
   COROT_TRY(corot_linsol_create(s->model, def, &p->s));
@@ -40,7 +40,7 @@ corot_status problem_solve(void *data) {
 }
 
 /* First factorisations, each with a solver made for it. */
-static corot_status first_factors(const solid *s, const corot_linear_def *def, problem *p,
+static corot_status first_factors(const specimen *s, const corot_linear_def *def, problem *p,
                                   timing *time) {
   enum { FEWEST = 3, MOST = 15 };
   double sample[MOST], spent = 0, g = 0.01;
@@ -67,7 +67,7 @@ static corot_status least_cost(const corot_csc *full, problem *p, solver_cost *o
   return COROT_OK;
 }
 
-static corot_status measure(bool json, const solid *s, const corot_csc *full,
+static corot_status measure(bool json, const specimen *s, const corot_csc *full,
                             const corot_linear_def *def, problem *p) {
   row r = {.bench = "factor", .solver = def->solver, .ntet = s->ntet, .n = s->n};
   solver_cost least;
@@ -84,7 +84,7 @@ static corot_status measure(bool json, const solid *s, const corot_csc *full,
   return COROT_OK;
 }
 
-corot_status solvers_measure(bool json, const solid *s) {
+corot_status solvers_measure(bool json, const specimen *s) {
   static const char *const names[] = {"klu", "cholmod", "pcg"};
   corot_csc *full;
   COROT_TRY(corot_csc_create(s->model, COROT_FULL, &full));

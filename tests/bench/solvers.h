@@ -12,7 +12,7 @@ typedef struct problem {
 } problem;
 
 /* S = a M + b D + c K; s->K and s->D are set. What is half made is released by clear. */
-corot_status problem_create(const solid *s, const corot_linear_def *def, double a, double b,
+corot_status problem_create(const specimen *s, const corot_linear_def *def, double a, double b,
                             double c, problem *p);
 void problem_clear(problem *p);
 
@@ -22,6 +22,6 @@ corot_status problem_solve(void *data);
 
 /* Reports factor, refactor and solve of each solver that is built in; s->K and s->D are set. KLU
    is left out beyond 12 000 unknowns, where it takes minutes. */
-corot_status solvers_measure(bool json, const solid *s);
+corot_status solvers_measure(bool json, const specimen *s);
 
 #endif

@@ -153,10 +153,10 @@ static void buffers_wrap(void **state) {
   (void)state;
   for (int l = 0; l < NLAYOUT; l++) {
     sample s = make("green", l, COROT_MASS_LUMPED);
-    const pattern *p = &s.b.model->pattern;
+    const pattern *p = &solid_of(s.b.model)->pattern;
     assert_true(p->nchunk > 10);
-    assert_true(p->window >= CHUNK && p->window <= s.b.model->tets.nblock);
-    if (!layouts[l].mixed) assert_true(2 * p->window < s.b.model->tets.nblock);
+    assert_true(p->window >= CHUNK && p->window <= solid_of(s.b.model)->tets.nblock);
+    if (!layouts[l].mixed) assert_true(2 * p->window < solid_of(s.b.model)->tets.nblock);
     drop(&s);
   }
 }

@@ -60,6 +60,11 @@ COROT_INLINE vd dilatation_of(basis b, mat3 F, mat3 R) {
   return b == BY_FRAME ? mat3_dot(R, F) - 3 : 0.5 * (mat3_dot(F, F) - 3);
 }
 
+/* The law in a frame, lambda tr(e) I + 2 mu e, of a strain or of its rate. */
+COROT_INLINE mat3 hooke(vd lambda, vd mu, mat3 e) {
+  return mat3_add_identity(mat3_scale(2 * mu, e), lambda * mat3_trace(e));
+}
+
 /* First Piola-Kirchhoff stress for a given p in place of lambda tr(e_p). */
 COROT_INLINE mat3 stress_at_pressure(const strain_measure *s, vd p, vd mu, mat3 F, mat3 R) {
   mat3 Bp = basis_of(s->pressure, F, R), Bs = basis_of(s->shear, F, R);

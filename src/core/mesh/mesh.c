@@ -48,3 +48,13 @@ void corot_mesh_destroy(corot_mesh *mesh) {
   free(mesh->x);
   free(mesh);
 }
+
+size_t corot_mesh_bytes(const corot_mesh *mesh) {
+  size_t bytes = sizeof *mesh + mesh->nnode * sizeof *mesh->x + mesh->ntet * sizeof *mesh->tet;
+  for (int k = 0; k < mesh->ngroup; k++) {
+    const corot_group *g = &mesh->group[k];
+    bytes += sizeof *g + strlen(g->name) + 1 + g->nnode * sizeof *g->node +
+             g->ntri * sizeof *g->tri + g->ntet * sizeof *g->tet;
+  }
+  return bytes;
+}

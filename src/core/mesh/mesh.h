@@ -31,6 +31,9 @@ int corot_face_compare(const corot_face *a, const corot_face *b);
 /* The nodes of a face, winding outward from its tet. */
 void corot_face_outward(const corot_face *face, const int (*tet)[4], int tri[3]);
 
+/* Of the mesh and all it holds. */
+size_t corot_mesh_bytes(const corot_mesh *mesh);
+
 /* Whether a triangle's nodes ascend, up to a rotation: two windings of one triangle differ in it.
  */
 bool corot_tri_ascends(const int tri[3]);

@@ -3,13 +3,12 @@
 
 #include <limits.h>
 
-#include "core/ode/state.h"
 #include "model.h"
 
-int corot_model_nblock(const corot_model *m) { return m->pattern.nblock; }
+int corot_model_nblock(const corot_model *m) { return solid_of(m)->pattern.nblock; }
 
 void corot_block_multiply(const corot_model *m, const double (*A)[9], const double *x, double *y) {
-  const pattern *p = &m->pattern;
+  const pattern *p = &solid_of(m)->pattern;
   for (int i = 0; i < m->ndof; i++) y[i] = 0;
   for (int j = 0; j < p->nnode; j++) {
     const int *dj = m->dof[j];
@@ -59,7 +58,7 @@ static corot_status list_upper(const pattern *p, upper_lists *u) {
 /* The entries of one column, or only their number if `csc` has no room yet. */
 static int fill_column(const corot_model *m, const upper_lists *u, corot_triangle triangle, int j,
                        int c, corot_csc *csc, int nnz) {
-  const pattern *p = &m->pattern;
+  const pattern *p = &solid_of(m)->pattern;
   int column = m->dof[j][c];
   if (triangle == COROT_FULL)
     for (int k = u->first[j]; k < u->first[j + 1]; k++)
@@ -92,13 +91,13 @@ static corot_status fill(const corot_model *m, corot_triangle triangle, const up
     return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d columns", csc->n);
   for (int pass = 0; pass < 2; pass++) { /* count, then write */
     int nnz = 0;
-    for (int j = 0; j < m->pattern.nnode; j++)
+    for (int j = 0; j < solid_of(m)->pattern.nnode; j++)
       for (int c = 0; c < 3; c++) {
         if (m->dof[j][c] < 0) continue;
         csc->colptr[m->dof[j][c]] = nnz;
         csc->node[m->dof[j][c]] = j;
         nnz = fill_column(m, u, triangle, j, c, csc, nnz);
-        if (nnz > INT_MAX - 9 * m->pattern.nnode)
+        if (nnz > INT_MAX - 9 * solid_of(m)->pattern.nnode)
           return corot_fail(COROT_EINVAL, "the matrix exceeds 32-bit counts at node %d", j);
       }
     csc->nnz = csc->colptr[csc->n] = nnz;
@@ -116,7 +115,7 @@ corot_status corot_csc_create(const corot_model *m, corot_triangle triangle, cor
   corot_csc *made = calloc(1, sizeof *made);
   corot_status status = COROT_OK;
   if (!made) status = corot_fail(COROT_ENOMEM, "no memory for a matrix");
-  if (!status && triangle == COROT_FULL) status = list_upper(&m->pattern, &u);
+  if (!status && triangle == COROT_FULL) status = list_upper(&solid_of(m)->pattern, &u);
   if (!status) status = fill(m, triangle, &u, made);
   free(u.first), free(u.block), free(u.other);
   if (status) {

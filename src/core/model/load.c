@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/system/levels.h"
+#include "model.h"
 
 static void add_force(const corot_model *m, double *force, int node, const double value[3],
                       double factor) {
@@ -92,7 +92,7 @@ static corot_status add_constant(const corot_model_def *def, const corot_model *
     status = add_point_force(m, from, f);
   else
     corot_mass_lump(m, f);
-  if (!status) status = corot_levels_own(def, nnode, f);
+  if (!status) status = corot_model_restrict(def, nnode, f);
   if (!status && from->kind == COROT_GRAVITY) weigh(nnode, from->value, f);
   for (int n = 0; !status && n < nnode; n++) add_force(m, to->force, n, f[n], 1);
   if (!status) status = keep_held(m, (const double(*)[3])f, to);
@@ -156,8 +156,8 @@ void corot_loads_destroy(corot_model *m) {
   free(m->load);
 }
 
-static double factor_of(const load *l, const load_clock *now) {
-  return now->scale * corot_amplitude_at(&l->amplitude, now->phase, now->t);
+static double factor_of(const load *l, const instant *now) {
+  return now->load_factor * corot_amplitude_at(&l->amplitude, now->side, now->load_t);
 }
 
 /* The area vector of a face where u has taken it [m^2]. */
@@ -168,8 +168,7 @@ static void find_area(const corot_model *m, const double (*u)[4], const int tri[
   area_vector(a, b, area);
 }
 
-void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
-                       double *f) {
+void corot_loads_force(const corot_model *m, const instant *now, const double (*u)[4], double *f) {
   memset(f, 0, m->ndof * sizeof *f);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
@@ -215,7 +214,7 @@ corot_status corot_load_force(const corot_model *m, double t, double factor,
   if (!u) return corot_fail(COROT_ENOMEM, "no memory for the displacement of %d nodes", nnode);
   for (int n = 0; n < nnode; n++) memcpy(u[n], displacement[n], 3 * sizeof **u);
   memset(f, 0, nnode * sizeof *f);
-  const load_clock now = {NAN, t, factor}; /* just after t, as in statics */
+  const instant now = {.side = NAN, .load_t = t, .load_factor = factor}; /* as in statics */
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
     add_nodal_load(m, l, factor_of(l, &now), (const double(*)[4])u, f);
@@ -224,7 +223,7 @@ corot_status corot_load_force(const corot_model *m, double t, double factor,
   return COROT_OK;
 }
 
-void corot_loads_derivative(const corot_model *m, const load_clock *now, const double (*u)[4],
+void corot_loads_derivative(const corot_model *m, const instant *now, const double (*u)[4],
                             const double (*du)[4], double *f) {
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];

@@ -5,11 +5,12 @@
    in each component; a row sums to m/4, and that is what lumping puts on the diagonal. */
 #include <stdlib.h>
 
-#include "core/system/levels.h"
+#include "model.h"
 
 void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
+  const tets *t = &solid_of(m)->tets;
+  for (int b = 0; b < t->nblock; b++) {
+    const tet_block *block = &t->block[b];
     const material *mat = &m->material[block->material];
     for (int l = 0; l < block->ntet; l++)
       for (int a = 0; a < 4; a++) {
@@ -32,7 +33,7 @@ static corot_status lump(const corot_model_def *def, corot_model *m) {
     return corot_fail(COROT_ENOMEM, "no memory for the mass of %d nodes", nnode);
   }
   corot_mass_lump(m, nodal);
-  corot_status status = corot_levels_own(def, nnode, nodal);
+  corot_status status = corot_model_restrict(def, nnode, nodal);
   for (int n = 0; n < nnode; n++)
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
@@ -47,13 +48,14 @@ static corot_status lump(const corot_model_def *def, corot_model *m) {
 
 /* The pairs of a consistent mass. */
 static corot_status couple(corot_model *m) {
-  const pattern *p = &m->pattern;
+  const pattern *p = &solid_of(m)->pattern;
   m->mass_pair = calloc(p->nblock, sizeof *m->mass_pair);
   if (m->mass_damped) m->damping_pair = calloc(p->nblock, sizeof *m->damping_pair);
   if (!m->mass_pair || (m->mass_damped && !m->damping_pair))
     return corot_fail(COROT_ENOMEM, "no memory for the mass of %d pairs of nodes", p->nblock);
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
+  const tets *t = &solid_of(m)->tets;
+  for (int b = 0; b < t->nblock; b++) {
+    const tet_block *block = &t->block[b];
     const material *mat = &m->material[block->material];
     for (int l = 0; l < block->ntet; l++)
       for (int k = 0; k < NPAIR + 4; k++) {
@@ -94,7 +96,7 @@ static void add_product(const corot_model *m, double factor, const double *lumpe
     for (int i = 0; i < m->ndof; i++) y[i] += factor * lumped[i] * x[i];
     return;
   }
-  const pattern *p = &m->pattern;
+  const pattern *p = &solid_of(m)->pattern;
   for (int b = 0; b < p->nnode; b++)
     for (int k = p->colptr[b]; k < p->colptr[b + 1]; k++) {
       double value = factor * pair[k];
@@ -118,7 +120,7 @@ void corot_mass_damp(const corot_model *m, const double *v, double *f) {
 }
 
 void corot_mass_damping_matrix(const corot_model *m, double (*D)[9]) {
-  const pattern *p = &m->pattern;
+  const pattern *p = &solid_of(m)->pattern;
   if (!m->mass_damped) return;
   if (m->damping_pair) {
     for (int k = 0; k < p->nblock; k++)

@@ -5,14 +5,8 @@
 #include <corot/model.h>
 
 #include "amplitude.h"
-#include "core/element/strain.h"
-#include "core/solid/pattern.h"
-
-typedef struct material {
-  double lambda, mu, damping_lambda, damping_mu, damping_mass, density;
-  double lambda_local; /* what of lambda acts on each tet's own dilatation */
-  double own_share;    /* and as a part of it; 1 where lambda is zero */
-} material;
+#include "core/system/system.h"
+#include "instant.h"
 
 /* What of a force acts on a component that is held. */
 typedef struct held_force {
@@ -57,16 +51,12 @@ typedef struct motion {
   motion_law *law; /* [nlaw] */
 } motion;
 
-struct levels;
-
 struct corot_model {
   corot_mesh *mesh;
-  int strain; /* index into strain_measures */
   int nmaterial;
   material *material;
-  bool damped;      /* some viscous coefficient is not zero */
-  bool mass_damped; /* some mass damping is not zero */
-  bool objective;   /* viscous law on the stretch's own rate */
+  bool mass_damped;    /* some mass damping is not zero */
+  solid_system system; /* what deforms; its first term is the solid on the mesh */
 
   int ndof;
   int (*dof)[3];        /* [nnode] or -1 */
@@ -87,28 +77,30 @@ struct corot_model {
   motion *motion;
   int nkink;
   double *kink; /* [nkink] ascending: where a load or a motion changes its law [s] */
-
-  tets tets;
-  dilatation dilatation; /* averages, where some material has them */
-  pattern pattern;
-
-  struct levels *levels; /* NULL: one strain measure on one mesh; see levels.h */
 };
 
-/* Index into strain_measures by name. */
-corot_status corot_model_find_strain(const char *name, int *strain);
+/* The solid on the mesh itself, whose pattern the matrices have. */
+static inline const solid *solid_of(const corot_model *m) { return &m->system.term[0].body; }
 
 /* COROT_EINVAL if the mesh has no such group; `user` says who asked. */
 corot_status corot_model_find_group(const corot_mesh *mesh, const char *name, const char *user,
                                     const corot_group **group);
 
-/* Displacement and velocity at t of all nodes, `stride` doubles each: the free values, the motions'
-   on their nodes, zero on held components. At a kink of a motion, `phase` says which side is meant:
-   the law in force just after that time; NaN: just after t. */
-void corot_model_displacement(const corot_model *m, double phase, double t, const double *u,
+/* m->material from the definition; of_tet [ntet] = the material that fills each tet. *damped: some
+   viscous coefficient is not zero. */
+corot_status corot_materials_create(const corot_model_def *def, corot_model *m, int *of_tet,
+                                    bool *damped);
+
+/* Nodal masses or loads of the finest level become, on the nodes of level 0, those of level 0 if it
+   has its own: T' of corot/hierarchy.h. */
+corot_status corot_model_restrict(const corot_model_def *def, int nnode, double (*nodal)[3]);
+
+/* Displacement and velocity of all nodes, `stride` doubles each: the free values, the motions' on
+   their nodes, zero on held components. */
+void corot_model_displacement(const corot_model *m, const instant *now, const double *u,
                               double *nodal, int stride);
-void corot_model_velocity(const corot_model *m, double phase, double t, const double *v,
-                          double *nodal, int stride);
+void corot_model_velocity(const corot_model *m, const instant *now, const double *v, double *nodal,
+                          int stride);
 
 /* The free values alone: zero on every held component. */
 void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride);
@@ -130,21 +122,14 @@ void corot_mass_damping_matrix(const corot_model *m, double (*D)[9]);
 corot_status corot_loads_create(const corot_model_def *def, corot_model *m);
 void corot_loads_destroy(corot_model *m);
 
-/* When the loads are looked at: at t, by the law in force just after `phase` (NaN: just after t),
-   times `scale`. */
-typedef struct load_clock {
-  double phase, t, scale;
-} load_clock;
-
 /* f [ndof] = the external force, on the body displaced by u [nnode]. */
-void corot_loads_force(const corot_model *m, const load_clock *now, const double (*u)[4],
-                       double *f);
+void corot_loads_force(const corot_model *m, const instant *now, const double (*u)[4], double *f);
 
 /* Whether that depends on u. */
 bool corot_loads_follow(const corot_model *m);
 
 /* f += its change in the direction du. */
-void corot_loads_derivative(const corot_model *m, const load_clock *now, const double (*u)[4],
+void corot_loads_derivative(const corot_model *m, const instant *now, const double (*u)[4],
                             const double (*du)[4], double *f);
 
 /* m->motion from the definition; marks the nodes' components in `held`. */
@@ -156,8 +141,8 @@ typedef struct rigid_motion {
   double velocity[3], spin[3], center[3]; /* [m/s], [rad/s], [m] */
 } rigid_motion;
 
-/* Whether all that is held moves by one of these, just after `phase`. Not where that is NaN: then
-   the supports may stop between two times. */
-bool corot_motions_carry(const corot_model *m, double phase, double t, rigid_motion *all);
+/* Whether all that is held moves by one of these. Not where the side of kinks is open: then the
+   supports may stop between two times. */
+bool corot_motions_carry(const corot_model *m, const instant *now, rigid_motion *all);
 
 #endif

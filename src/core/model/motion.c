@@ -149,14 +149,14 @@ void corot_motions_destroy(corot_model *m) {
   free(m->motion);
 }
 
-/* Where a motion stands at t, and how fast it goes, by the law in force at `phase`. */
+/* Where a motion stands at t, and how fast it goes, at an instant. */
 typedef struct progress {
   double angle, rate, shift[3], velocity[3];
 } progress;
 
-static progress progress_at(const motion *a, double phase, double t) {
+static progress progress_at(const motion *a, const instant *now) {
   progress p = {0};
-  if (isnan(phase)) phase = t;
+  double t = now->t, phase = isnan(now->side) ? t : now->side;
   for (int k = 0; k < a->nspan; k++) {
     const motion_span *s = &a->span[k];
     if (phase < s->from) continue;
@@ -198,12 +198,12 @@ static void spin_arms(const motion *a, const double X[3], double w[3], double d[
   }
 }
 
-void corot_model_displacement(const corot_model *m, double phase, double t, const double *u,
+void corot_model_displacement(const corot_model *m, const instant *now, const double *u,
                               double *nodal, int stride) {
   corot_model_spread(m, u, nodal, stride);
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
-    progress p = progress_at(a, phase, t);
+    progress p = progress_at(a, now);
     double sine = sin(p.angle), half = sin(p.angle / 2), versine = 2 * half * half;
     for (int i = 0; i < a->nnode; i++) {
       double w[3], d[3];
@@ -214,12 +214,12 @@ void corot_model_displacement(const corot_model *m, double phase, double t, cons
   }
 }
 
-void corot_model_velocity(const corot_model *m, double phase, double t, const double *v,
-                          double *nodal, int stride) {
+void corot_model_velocity(const corot_model *m, const instant *now, const double *v, double *nodal,
+                          int stride) {
   corot_model_spread(m, v, nodal, stride);
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
-    progress p = progress_at(a, phase, t);
+    progress p = progress_at(a, now);
     double cosine = cos(p.angle), sine = sin(p.angle);
     for (int i = 0; i < a->nnode; i++) {
       double w[3], d[3];
@@ -231,13 +231,13 @@ void corot_model_velocity(const corot_model *m, double phase, double t, const do
   }
 }
 
-bool corot_motions_carry(const corot_model *m, double phase, double t, rigid_motion *all) {
+bool corot_motions_carry(const corot_model *m, const instant *now, rigid_motion *all) {
   const motion *moving = NULL;
   progress p = {0}, of_it = {0};
-  if (isnan(phase)) return false;
+  if (isnan(now->side)) return false;
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
-    p = progress_at(a, phase, t);
+    p = progress_at(a, now);
     if (p.rate == 0 && p.velocity[0] == 0 && p.velocity[1] == 0 && p.velocity[2] == 0) continue;
     if (moving || a->nlaw > 0) return false;
     moving = a, of_it = p;

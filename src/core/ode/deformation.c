@@ -1,6 +1,6 @@
 /* How far a state is from small strains and turns: what the laws of small strains are judged by. */
 #include "core/solid/kernel.h"
-#include "core/system/levels.h"
+#include "state.h"
 
 /* The principal stretches of the lanes that are strained beyond the limit. */
 COROT_INLINE void note_stretches(const tet_block *block, mat3 C, vi within, double limit,
@@ -33,10 +33,10 @@ COROT_INLINE void note_turns(const tet_block *block, mat3 F, vi upright, double 
   }
 }
 
-COROT_INLINE void note_determinants(const corot_model *m, int b, vd det, corot_deformation *d) {
-  for (int l = 0; l < m->tets.block[b].ntet; l++) {
+COROT_INLINE void note_determinants(const solid *body, int b, vd det, corot_deformation *d) {
+  for (int l = 0; l < body->tets.block[b].ntet; l++) {
     d->ninverted += !(det[l] > 0);
-    if (!(det[l] >= d->det_min)) d->det_min = det[l], d->det_tet = m->tets.number[b * W + l];
+    if (!(det[l] >= d->det_min)) d->det_min = det[l], d->det_tet = body->tets.number[b * W + l];
   }
 }
 
@@ -44,19 +44,18 @@ COROT_INLINE void note_determinants(const corot_model *m, int b, vd det, corot_d
    smallest of those, so most tets need no eigenvalues. A turn by `angle` alone takes F from the
    identity by |F - I| = 2 sqrt(2) sin(angle/2), which is far enough above the angle that the small
    strains, to which turns are of interest, do not hide one. */
-static COROT_CLONES void deformation_loop(const corot_model *m, const corot_state *s,
-                                          double strain_limit, double turn_limit,
-                                          corot_deformation *d) {
+static COROT_CLONES void deformation_loop(const solid *body, nodal_field u, double strain_limit,
+                                          double turn_limit, corot_deformation *d) {
   double least = strain_limit - 0.5 * strain_limit * strain_limit;
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
-    mat3 F = deformation(block, (const double(*)[4])s->u), C = mat3_gram(F);
+  for (int b = 0; b < body->tets.nblock; b++) {
+    const tet_block *block = &body->tets.block[b];
+    mat3 F = deformation(block, u), C = mat3_gram(F);
     vd det = mat3_det(F, mat3_cofactor(F));
     mat3 twice_e = mat3_add_identity(C, vd_all(-1)), H = mat3_add_identity(F, vd_all(-1));
     vi upright = det > vd_all(0);
     vi strained = upright & (mat3_dot(twice_e, twice_e) > vd_all(4 * least * least));
     vi turned = upright & (mat3_dot(H, H) > vd_all(turn_limit * turn_limit));
-    note_determinants(m, b, det, d);
+    note_determinants(body, b, det, d);
     if (vi_any(strained)) note_stretches(block, C, strained, strain_limit, d);
     if (vi_any(turned)) note_turns(block, F, turned, turn_limit, d);
   }
@@ -65,11 +64,12 @@ static COROT_CLONES void deformation_loop(const corot_model *m, const corot_stat
 void corot_deformation_measure(const corot_model *m, corot_state *s, double t, const double *u,
                                double strain_limit, double turn_limit, corot_deformation *out) {
   corot_deformation d = {.stretch_min = 1, .stretch_max = 1, .det_min = INFINITY, .det_tet = -1};
-  corot_state_displace(m, s, t, u);
-  deformation_loop(m, s, strain_limit, turn_limit, &d);
+  const instant now = corot_state_at(s, t);
+  const solid *body = solid_of(m);
+  deformation_loop(body, corot_state_displace(m, s, &now, u), strain_limit, turn_limit, &d);
   double volume = 0;
-  for (int b = 0; b < m->tets.nblock; b++)
-    for (int l = 0; l < m->tets.block[b].ntet; l++) volume += m->tets.block[b].volume[l];
+  for (int b = 0; b < body->tets.nblock; b++)
+    for (int l = 0; l < body->tets.block[b].ntet; l++) volume += body->tets.block[b].volume[l];
   d.strained /= volume;
   d.turned /= volume;
   *out = d;

@@ -1,11 +1,12 @@
 /* What a run shows of a state: nodal vectors, and tensors of the tets. */
 #include "core/solid/kernel.h"
-#include "core/system/levels.h"
+#include "state.h"
 
 void corot_nodal(const corot_model *m, double t, const double *u, const double *v,
                  double (*displacement)[3], double (*velocity)[3]) {
-  if (displacement) corot_model_displacement(m, NAN, t, u, displacement[0], 3);
-  if (velocity) corot_model_velocity(m, NAN, t, v, velocity[0], 3);
+  const instant now = {.t = t, .side = NAN, .moving = true};
+  if (displacement) corot_model_displacement(m, &now, u, displacement[0], 3);
+  if (velocity) corot_model_velocity(m, &now, v, velocity[0], 3);
 }
 
 /* sqrt(3/2 dev:dev) of sym(A). */
@@ -31,36 +32,41 @@ COROT_INLINE void store_lane(const corot_element_fields *f, int tet, int l, mat3
 
 /* Unlike the loops in kernel.h it goes on after an inversion: the other tets are still worth
  * seeing. */
-static COROT_CLONES int elements_loop(const corot_model *m, const corot_state *s,
+static COROT_CLONES int elements_loop(const solid *body, const solid_state *s, nodal_field u,
                                       const corot_element_fields *fields) {
-  const strain_measure *measure = &strain_measures[m->strain];
+  const strain_measure *measure = &strain_measures[body->strain];
   bool linear = strain_is_linear(measure);
   int first = -1;
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
-    const material *mat = &m->material[block->material];
+  for (int b = 0; b < body->tets.nblock; b++) {
+    const tet_block *block = &body->tets.block[b];
+    const material *mat = &body->material[block->material];
     vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])s->u);
-    mat3 R = frame_in_use(measure, m, s, b, F, &inverted);
+    mat3 F = deformation(block, u);
+    mat3 R = frame_in_use(measure, body, &s->frames, b, F, &inverted);
     vd lambda = vd_all(mat->lambda), mu = vd_all(mat->mu);
-    mat3 P = m->dilatation.npool ? stress_at_pressure(measure, lambda * s->dilatation[b], mu, F, R)
-                                 : stress(measure, lambda, mu, F, R);
+    mat3 P = body->dilatation.npool
+                 ? stress_at_pressure(measure, lambda * s->dilatation[b], mu, F, R)
+                 : stress(measure, lambda, mu, F, R);
     vd det = mat3_det(F, mat3_cofactor(F));
     mat3 cauchy = linear ? P : mat3_scale(1.0 / det, mat3_mul(P, mat3_transpose(F)));
     vd mises = von_mises_of(cauchy);
     mat3 e = strain_of(measure->shear, F, R);
     for (int l = 0; l < block->ntet; l++)
-      store_lane(fields, m->tets.number[b * W + l], l, R, e, mises, det);
-    if (first < 0) first = first_inverted(m, b, inverted);
+      store_lane(fields, body->tets.number[b * W + l], l, R, e, mises, det);
+    if (first < 0) first = first_inverted(body, b, inverted);
   }
   return first;
 }
 
 corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
                             const corot_element_fields *fields) {
-  corot_state_displace(m, s, t, u);
-  corot_status above = m->levels ? corot_levels_hand_down(m, s, t) : COROT_OK;
-  corot_kernel_dilatation(m, s);
-  corot_status status = corot_state_check(s, elements_loop(m, s, fields));
-  return status ? status : above;
+  const instant now = corot_state_at(s, t);
+  const solid *body = solid_of(m);
+  solid_state *of = &s->system.of[0];
+  nodal_field all_u = corot_state_displace(m, s, &now, u);
+  corot_status above = corot_system_settle(&m->system, &s->system, age_of(s, t), all_u);
+  if (above && above != COROT_RETRY) return above;
+  corot_kernel_dilatation(body, of, all_u);
+  corot_status status = corot_solid_check(of, elements_loop(body, of, all_u, fields));
+  return status ? corot_system_told(&m->system, &s->system, 0, status) : above;
 }

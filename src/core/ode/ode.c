@@ -4,90 +4,35 @@
 #include <string.h>
 
 #include "core/model/load_force.h"
-#include "core/solid/kernel.h"
-#include "core/system/levels.h"
+#include "core/solid/measures.h"
+#include "state.h"
 #include "trial.h"
 
-/* Adds to s->r the element forces of nodes first to last - 1, each node's own in the order of the
-   tets. Returns the sum of these r, which is finite only if they are. */
-static double collect(const corot_model *m, const corot_state *s, int first, int last) {
-  const double *force = (const double *)s->force;
-  const int *begin = m->pattern.first, *slot = m->pattern.slot;
-  double check = 0;
-  for (int n = first; n < last; n++) {
-    double f[3] = {0, 0, 0};
-    for (int k = begin[n]; k < begin[n + 1]; k++)
-      for (int c = 0; c < 3; c++) f[c] += force[slot[k] + c * W];
-    for (int c = 0; c < 3; c++) {
-      int i = m->dof[n][c];
-      if (i >= 0) check += s->r[i] += f[c];
-    }
-  }
-  return check;
-}
-
-corot_status corot_sum_forces(const corot_model *m, corot_state *s, double t, force_kernel *kernel,
-                              bool option) {
-  const int *ready = m->pattern.ready;
-  double check = 0;
-  for (int c = 0; c < m->pattern.nchunk; c++) {
-    COROT_TRY(corot_state_check(s, kernel(m, s, option, c)));
-    check += collect(m, s, ready[c], ready[c + 1]);
-  }
-  if (!isfinite(check))
-    return corot_fail(COROT_RETRY, "the forces exceed double precision at t = %g", t);
-  return COROT_OK;
-}
-
-corot_status corot_nodal_forces(const corot_model *m, corot_state *s, force_kernel *kernel,
-                                bool option, double (*f)[4]) {
-  const double *force = (const double *)s->force;
-  const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
-  for (int c = 0; c < m->pattern.nchunk; c++) {
-    COROT_TRY(corot_state_check(s, kernel(m, s, option, c)));
-    for (int n = ready[c]; n < ready[c + 1]; n++)
-      for (int i = 0; i < 3; i++) {
-        f[n][i] = 0;
-        for (int k = begin[n]; k < begin[n + 1]; k++) f[n][i] += force[slot[k] + i * W];
-      }
-  }
-  return COROT_OK;
-}
-
-static load_clock loads_now(const corot_state *s, double t) {
-  if (s->still) return (load_clock){NAN, s->load_time, s->load_factor};
-  return (load_clock){s->phase, t, 1};
-}
-
-/* f = the loads on the body where it is in s->u. */
-static void external_force(const corot_model *m, const corot_state *s, double t, double *f) {
-  load_clock now = loads_now(s, t);
-  corot_loads_force(m, &now, (const double(*)[4])s->u, f);
+/* Where forces exceed double precision no tet is to blame, but a time. */
+static corot_status status_at(const corot_state *s, double t, corot_status status) {
+  if (status != COROT_RETRY || s->system.inverted >= 0) return status;
+  return corot_fail(COROT_RETRY, "%s at t = %g", corot_error(), t);
 }
 
 void corot_force_of_loads(const corot_model *m, corot_state *s, double t, const double *u,
                           double *f) {
-  if (corot_loads_follow(m)) corot_state_displace(m, s, t, u);
-  external_force(m, s, t, f);
+  const instant now = corot_state_at(s, t);
+  if (corot_loads_follow(m)) corot_state_displace(m, s, &now, u);
+  corot_loads_force(m, &now, (nodal_field)s->u, f);
   for (int i = m->body_ndof; i < m->ndof; i++) f[i] = 0;
-}
-
-/* f += their change in the direction s->du. */
-static void external_derivative(const corot_model *m, const corot_state *s, double t, double *f) {
-  load_clock now = loads_now(s, t);
-  corot_loads_derivative(m, &now, (const double(*)[4])s->u, (const double(*)[4])s->du, f);
 }
 
 corot_status corot_residual_trial(const corot_model *m, corot_state *s, double t, const double *u,
                                   const double *v, double *r) {
-  corot_state_displace(m, s, t, u);
-  bool damped = m->damped && !s->still;
-  if (damped) corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
-  external_force(m, s, t, s->r);
-  if (!s->still) corot_mass_damp(m, v, s->r);
-  corot_kernel_dilatation(m, s);
-  COROT_TRY(m->levels ? corot_levels_force(m, s, t, damped)
-                      : corot_sum_forces(m, s, t, corot_kernel_force, damped));
+  const instant now = corot_state_at(s, t);
+  bool damped = solid_of(m)->damped && now.moving;
+  nodal_field all_u = corot_state_displace(m, s, &now, u);
+  nodal_field all_v = damped ? corot_state_move(m, s, &now, v) : NULL;
+  corot_loads_force(m, &now, all_u, s->r);
+  if (now.moving) corot_mass_damp(m, v, s->r);
+  corot_status status = corot_system_force(&m->system, &s->system, age_of(s, t), all_u, all_v,
+                                           (const int(*)[3])m->dof, s->r);
+  COROT_TRY(status_at(s, t, status));
   memcpy(r, s->r, m->ndof * sizeof *r);
   return COROT_OK;
 }
@@ -148,42 +93,40 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
   (void)v; /* viscous forces are linear in it */
-  corot_state_displace(m, s, t, u);
-  size_t bytes = m->pattern.nblock * sizeof *K;
+  const instant now = corot_state_at(s, t);
+  const solid *body = solid_of(m);
+  nodal_field all_u = corot_state_displace(m, s, &now, u);
+  size_t bytes = body->pattern.nblock * sizeof *K;
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
   if (tangent == COROT_TANGENT_AUTO) tangent = COROT_TANGENT_HELD;
-  corot_kernel_dilatation(m, s);
-  corot_tangent own = m->levels ? COROT_TANGENT_HELD : tangent;
-  if (m->levels) COROT_TRY(corot_levels_hand_down(m, s, t));
-  for (int c = 0; c < m->pattern.nchunk; c++)
-    COROT_TRY(corot_state_check(s, corot_kernel_tangent(m, s, own, c, K, m->damped ? D : NULL)));
-  if (K) corot_kernel_dilatation_tangent(m, s, K);
-  if (m->levels) COROT_TRY(corot_levels_add_matrices(m, s, t, tangent, K, m->damped ? D : NULL));
+  COROT_TRY(corot_system_matrices(&m->system, &s->system, age_of(s, t), all_u, tangent, K,
+                                  body->damped ? D : NULL));
   if (D) corot_mass_damping_matrix(m, D);
   return COROT_OK;
+}
+
+/* s->du and s->dv = a direction, on all nodes: held ones stay. */
+static nodal_field spread(const corot_model *m, const double *direction, double (*all)[4]) {
+  corot_model_spread(m, direction, all[0], 4);
+  return (nodal_field)all;
 }
 
 corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const double *u,
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
-  corot_state_displace(m, s, t, u);
-  if (s->still) { /* v plays no part, and neither does dv */
-    memset(s->v, 0, s->nnode * sizeof *s->v);
-    memset(s->dv, 0, s->nnode * sizeof *s->dv);
-  } else {
-    corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
-    corot_model_spread(m, dv, s->dv[0], 4);
-  }
-  corot_model_spread(m, du, s->du[0], 4);
+  const instant now = corot_state_at(s, t);
+  bool damped = solid_of(m)->damped && now.moving;
+  nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = spread(m, du, s->du);
+  nodal_field all_v = damped ? corot_state_move(m, s, &now, v) : NULL;
+  nodal_field all_dv = damped ? spread(m, dv, s->dv) : NULL;
   memset(s->r, 0, m->ndof * sizeof *s->r);
-  external_derivative(m, s, t, s->r);
-  if (!s->still) corot_mass_damp(m, dv, s->r);
-  bool exact = tangent > COROT_TANGENT_HELD;
-  corot_kernel_dilatation(m, s);
-  corot_kernel_dilatation_change(m, s, exact);
-  COROT_TRY(m->levels ? corot_levels_derivative(m, s, t, tangent)
-                      : corot_sum_forces(m, s, t, corot_kernel_derivative, exact));
+  corot_loads_derivative(m, &now, all_u, all_du, s->r);
+  if (now.moving) corot_mass_damp(m, dv, s->r);
+  corot_status status =
+      corot_system_derivative(&m->system, &s->system, age_of(s, t), all_u, all_v, all_du, all_dv,
+                              tangent, (const int(*)[3])m->dof, s->r);
+  COROT_TRY(status_at(s, t, status));
   memcpy(jv, s->r, m->ndof * sizeof *jv);
   return COROT_OK;
 }
@@ -200,15 +143,16 @@ static double dot(int n, const double *a, const double *b) {
   return sum;
 }
 
-/* Kinetic energy and momenta from M v, which goes through s->r. */
-static void add_inertia(const corot_model *m, corot_state *s, const double *v, corot_energies *e) {
+/* Kinetic energy and momenta from M v, which stays in s->r. */
+static void add_inertia(const corot_model *m, corot_state *s, nodal_field all_u, const double *v,
+                        corot_energies *e) {
   corot_mass_multiply(m, v, s->r);
   e->kinetic = 0.5 * dot(m->body_ndof, v, s->r);
   for (int n = 0; n < m->body_nnode; n++) {
     double x[3], p[3];
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
-      x[c] = m->mesh->x[n][c] + s->u[n][c];
+      x[c] = m->mesh->x[n][c] + all_u[n][c];
       p[c] = i >= 0 ? s->r[i] : 0;
       e->momentum[c] += p[c];
     }
@@ -216,26 +160,27 @@ static void add_inertia(const corot_model *m, corot_state *s, const double *v, c
   }
 }
 
-/* Power of the internal and viscous forces on moving supports: what the supports put in. Components
-   at rest have no velocity. */
-static corot_status support_power(const corot_model *m, corot_state *s, double t, double *power) {
-  double(*f)[4] = s->du; /* directions play no part here */
-  COROT_TRY(m->levels ? corot_levels_nodal_force(m, s, t, m->damped, f)
-                      : corot_nodal_forces(m, s, corot_kernel_force, m->damped, f));
+/* Power of the internal and viscous forces, which become f [nnode], on moving supports: what the
+   supports put in. Components at rest have no velocity. */
+static corot_status support_power(const corot_model *m, corot_state *s, double t, nodal_field u,
+                                  nodal_field v, double (*f)[4], double *power) {
+  memset(f, 0, s->nnode * sizeof *f);
+  COROT_TRY(corot_system_force(&m->system, &s->system, age_of(s, t), u,
+                               solid_of(m)->damped ? v : NULL, NULL, f[0]));
   for (int n = 0; n < m->body_nnode; n++)
     for (int i = 0; i < 3; i++)
-      if (m->dof[n][i] < 0) *power -= f[n][i] * s->v[n][i];
+      if (m->dof[n][i] < 0) *power -= f[n][i] * v[n][i];
   return COROT_OK;
 }
 
 /* Of a field of nodes (or NULL) and of the forces r [ndof], on what is free, along a rigid motion:
-   a force where the body is now, s->u. */
-static double along(const corot_model *m, const corot_state *s, const rigid_motion *g,
-                    const double (*f)[4], const double *r) {
+   a force where the body is now, displaced by u. */
+static double along(const corot_model *m, nodal_field u, const rigid_motion *g, nodal_field f,
+                    const double *r) {
   double sum = 0;
   for (int n = 0; n < m->body_nnode; n++) {
     double arm[3], w[3] = {g->velocity[0], g->velocity[1], g->velocity[2]};
-    for (int c = 0; c < 3; c++) arm[c] = m->mesh->x[n][c] + s->u[n][c] - g->center[c];
+    for (int c = 0; c < 3; c++) arm[c] = m->mesh->x[n][c] + u[n][c] - g->center[c];
     add_cross(w, g->spin, arm);
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
@@ -247,78 +192,81 @@ static double along(const corot_model *m, const corot_state *s, const rigid_moti
 
 double corot_carried(const corot_model *m, corot_state *s, double t, const double *u,
                      const double *v) {
+  const instant now = corot_state_at(s, t);
   rigid_motion g;
-  if (!corot_motions_carry(m, s->phase, t, &g)) return 0;
-  corot_state_displace(m, s, t, u);
+  if (!corot_motions_carry(m, &now, &g)) return 0;
+  nodal_field all_u = corot_state_displace(m, s, &now, u);
   corot_mass_multiply(m, v, s->r);
-  return along(m, s, &g, NULL, s->r);
+  return along(m, all_u, &g, NULL, s->r);
 }
 
 corot_status corot_energy(const corot_model *m, corot_state *s, double t, const double *u,
                           const double *v, corot_energies *energies) {
+  const instant now = corot_state_at(s, t);
   corot_energies e = {0};
   rigid_motion g;
-  bool carried = m->nmotion > 0 && corot_motions_carry(m, s->phase, t, &g);
-  corot_state_displace(m, s, t, u);
-  corot_model_velocity(m, s->phase, t, v, s->v[0], 4);
-  corot_kernel_dilatation(m, s);
-  double *viscous = &e.power_dissipated;
-  if (m->levels)
-    COROT_TRY(corot_levels_energy(m, s, t, m->damped, &e.elastic, viscous));
-  else
-    COROT_TRY(corot_state_check(s, corot_kernel_energy(m, s, m->damped, &e.elastic, viscous)));
+  bool carried = m->nmotion > 0 && corot_motions_carry(m, &now, &g);
+  nodal_field all_u = corot_state_displace(m, s, &now, u);
+  nodal_field all_v = corot_state_move(m, s, &now, v), force = (nodal_field)s->du;
+  COROT_TRY(corot_system_energy(&m->system, &s->system, age_of(s, t), all_u,
+                                solid_of(m)->damped ? all_v : NULL, &e.elastic,
+                                &e.power_dissipated));
 
-  /* the supports and the loads; support_power leaves the forces of all nodes in s->du */
-  if (m->nmotion) COROT_TRY(support_power(m, s, t, &e.power_supports));
-  external_force(m, s, t, s->r);
+  /* the supports, which need the forces on all nodes, and the loads */
+  if (m->nmotion)
+    COROT_TRY(status_at(s, t, support_power(m, s, t, all_u, all_v, s->du, &e.power_supports)));
+  corot_loads_force(m, &now, all_u, s->r);
   e.power_external = e.power_supports + dot(m->body_ndof, s->r, v);
   e.power_carried = e.power_supports;
-  if (carried) e.power_carried -= along(m, s, &g, (const double(*)[4])s->du, s->r);
+  if (carried) e.power_carried -= along(m, all_u, &g, force, s->r);
   if (m->mass_damped) {
     memset(s->r, 0, m->ndof * sizeof *s->r);
     corot_mass_damp(m, v, s->r);
     e.power_dissipated -= dot(m->body_ndof, s->r, v);
-    if (carried) e.power_carried -= along(m, s, &g, NULL, s->r);
+    if (carried) e.power_carried -= along(m, all_u, &g, NULL, s->r);
   }
 
   /* add_inertia leaves M v in s->r */
-  add_inertia(m, s, v, &e);
-  if (carried) e.carried = along(m, s, &g, NULL, s->r);
+  add_inertia(m, s, all_u, v, &e);
+  if (carried) e.carried = along(m, all_u, &g, NULL, s->r);
   *energies = e;
   return COROT_OK;
 }
 
+/* f [nnode] = -(what is in s->du). */
+static void negate(const corot_state *s, double (*f)[3]) {
+  for (int n = 0; n < s->nnode; n++)
+    for (int c = 0; c < 3; c++) f[n][c] = -s->du[n][c];
+}
+
 corot_status corot_elastic_force(const corot_model *m, corot_state *s, double t, const double *u,
                                  double (*f)[3]) {
-  if (!m->levels) return corot_internal_force(m, s, t, u, corot_model_strain(m), 1, 1, f);
-  corot_frames frames = s->levels->frames;
-  corot_state_displace(m, s, t, u);
-  corot_levels_use(s->levels, COROT_FRAMES_EXACT);
-  corot_status status = corot_levels_nodal_force(m, s, t, false, s->du);
-  corot_levels_use(s->levels, frames);
-  COROT_TRY(status);
-  for (int n = 0; n < m->mesh->nnode; n++)
-    for (int c = 0; c < 3; c++) f[n][c] = -s->du[n][c];
+  const instant now = corot_state_at(s, t);
+  corot_frames frames = s->system.frames;
+  nodal_field all_u = corot_state_displace(m, s, &now, u);
+  memset(s->du, 0, s->nnode * sizeof *s->du);
+  s->system.frames = COROT_FRAMES_EXACT;
+  corot_status status =
+      corot_system_force(&m->system, &s->system, age_of(s, t), all_u, NULL, NULL, s->du[0]);
+  s->system.frames = frames;
+  COROT_TRY(status_at(s, t, status));
+  negate(s, f);
   return COROT_OK;
 }
 
 corot_status corot_internal_force(const corot_model *m, corot_state *s, double t, const double *u,
                                   const char *strain, double lambda_part, double mu_part,
                                   double (*f)[3]) {
+  const instant now = corot_state_at(s, t);
+  force_sum sum = {.r = s->du[0], .sign = 1};
   int index;
-  COROT_TRY(corot_model_find_strain(strain, &index));
-  corot_state_displace(m, s, t, u);
-  corot_kernel_internal_dilatation(m, s, index);
-  const double *force = (const double *)s->force;
-  const int *ready = m->pattern.ready, *begin = m->pattern.first, *slot = m->pattern.slot;
-  for (int c = 0; c < m->pattern.nchunk; c++) {
-    COROT_TRY(corot_state_check(s, corot_kernel_internal(m, s, index, lambda_part, mu_part, c)));
-    for (int n = ready[c]; n < ready[c + 1]; n++)
-      for (int i = 0; i < 3; i++) {
-        double sum = 0;
-        for (int k = begin[n]; k < begin[n + 1]; k++) sum -= force[slot[k] + i * W];
-        f[n][i] = sum;
-      }
-  }
+  COROT_TRY(corot_strain_index(strain, &index));
+  nodal_field all_u = corot_state_displace(m, s, &now, u);
+  memset(s->du, 0, s->nnode * sizeof *s->du);
+  corot_status status =
+      corot_solid_internal(solid_of(m), &s->system.of[0], all_u, index, lambda_part, mu_part, &sum);
+  s->system.inverted = s->system.of[0].inverted;
+  COROT_TRY(status);
+  negate(s, f);
   return COROT_OK;
 }

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 #include "core/solid/kernel.h"
-#include "core/system/levels.h"
+#include "state.h"
 
 /* Symmetric: xx yy zz xy yz xz. */
 typedef struct stress6 {
@@ -21,8 +21,9 @@ typedef struct stress6 {
 } stress6;
 
 typedef struct recovery {
-  const corot_model *model;
-  const corot_state *state;
+  const solid *body;
+  nodal_field u;
+  bool linear;    /* the stress is, in the displacement */
   stress6 *sum;   /* [nnode] of volume times stress, of one material */
   double *volume; /* [nnode] around each node, of that material */
   double moved;   /* the largest displacement */
@@ -36,10 +37,9 @@ typedef struct norms {
 
 COROT_INLINE stress6 stress_of(const recovery *r, int b, int l, mat3 F) {
   static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
-  const corot_model *m = r->model;
-  const material *mat = &m->material[m->tets.block[b].material];
-  bool linear = strain_is_linear(&strain_measures[m->strain]) && !m->levels,
-       deviator = m->dilatation.npool > 0;
+  const solid *body = r->body;
+  const material *mat = &body->material[body->tets.block[b].material];
+  bool linear = r->linear, deviator = body->dilatation.npool > 0;
   double e[6], trace = 0;
   for (int k = 0; k < 6; k++) {
     int i = ij[k][0], j = ij[k][1];
@@ -68,12 +68,12 @@ static double energy_of(const material *mat, const stress6 *a) {
 
 /* Adds the stresses of a material's tets to their nodes. */
 static void gather(const recovery *r, int which) {
-  const tets *t = &r->model->tets;
-  for (int n = 0; n < r->model->mesh->nnode; n++) r->sum[n] = (stress6){{0}}, r->volume[n] = 0;
+  const tets *t = &r->body->tets;
+  for (int n = 0; n < r->body->mesh->nnode; n++) r->sum[n] = (stress6){{0}}, r->volume[n] = 0;
   for (int b = 0; b < t->nblock; b++) {
     const tet_block *block = &t->block[b];
     if (block->material != which) continue;
-    mat3 F = deformation(block, (const double(*)[4])r->state->u);
+    mat3 F = deformation(block, r->u);
     for (int l = 0; l < block->ntet; l++) {
       stress6 s = stress_of(r, b, l, F);
       for (int a = 0; a < 4; a++) {
@@ -88,19 +88,19 @@ static void gather(const recovery *r, int which) {
 /* Strains are differences of displacements, and of F'F from the identity: a hundred times what
    double precision leaves of either. */
 COROT_INLINE double rounding_of(const recovery *r, int b, int l) {
-  const tet_block *block = &r->model->tets.block[b];
+  const tet_block *block = &r->body->tets.block[b];
   double e = 100 * DBL_EPSILON * (1 + r->moved * sqrt(mat3_dot(block->g, block->g)[l]));
-  return block->volume[l] * 2 * r->model->material[block->material].mu * e * e;
+  return block->volume[l] * 2 * r->body->material[block->material].mu * e * e;
 }
 
 /* Adds what a material's tets differ by, and what their stresses amount to. */
 static void compare(const recovery *r, int which, norms *sum) {
-  const tets *t = &r->model->tets;
-  const material *mat = &r->model->material[which];
+  const tets *t = &r->body->tets;
+  const material *mat = &r->body->material[which];
   for (int b = 0; b < t->nblock; b++) {
     const tet_block *block = &t->block[b];
     if (block->material != which) continue;
-    mat3 F = deformation(block, (const double(*)[4])r->state->u);
+    mat3 F = deformation(block, r->u);
     for (int l = 0; l < block->ntet; l++) {
       stress6 s = stress_of(r, b, l, F), all = {{0}};
       double each = 0;
@@ -120,21 +120,25 @@ static void compare(const recovery *r, int which, norms *sum) {
   }
 }
 
-static double largest_displacement(const corot_state *s) {
+static double largest_displacement(int nnode, nodal_field u) {
   double largest = 0;
-  for (int n = 0; n < s->nnode; n++)
-    for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(s->u[n][c]));
+  for (int n = 0; n < nnode; n++)
+    for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(u[n][c]));
   return largest;
 }
 
 corot_status corot_stress_jumps(const corot_model *m, corot_state *s, double t, const double *u,
                                 double *share) {
   size_t nnode = (size_t)m->mesh->nnode;
-  recovery r = {m, s, malloc(nnode * sizeof *r.sum), malloc(nnode * sizeof *r.volume), 0};
+  recovery r = {.body = solid_of(m),
+                .linear = corot_system_is_linear(&m->system),
+                .sum = malloc(nnode * sizeof *r.sum),
+                .volume = malloc(nnode * sizeof *r.volume)};
+  const instant now = corot_state_at(s, t);
   norms n = {0};
   if (r.sum && r.volume) {
-    corot_state_displace(m, s, t, u);
-    r.moved = largest_displacement(s);
+    r.u = corot_state_displace(m, s, &now, u);
+    r.moved = largest_displacement(m->mesh->nnode, r.u);
     for (int k = 0; k < m->nmaterial; k++) {
       gather(&r, k);
       compare(&r, k, &n);

@@ -1,130 +1,100 @@
-/* Loops over the tets, all of them or those of one chunk. Each reads the nodal fields in the state,
+/* Loops over the tets, all of them or those of one chunk. Each takes the nodal fields it reads,
    writes where it says, and returns the number of the first inverted tet, or -1; after an inversion
-   the output means nothing. */
+   the output means nothing. Frames are those of state->frames. */
 #ifndef COROT_CORE_SOLID_KERNEL_H
 #define COROT_CORE_SOLID_KERNEL_H
 
-#include "core/ode/state.h"
-
-/* A kernel of element forces. */
-typedef int force_kernel(const corot_model *m, corot_state *state, bool option, int chunk);
-
-/* s->r += the forces that the kernel finds, on free degrees of freedom. */
-corot_status corot_sum_forces(const corot_model *m, corot_state *s, double t, force_kernel *kernel,
-                              bool option);
-
-/* f [nnode] = these forces on all nodes; the fourth column is not set. */
-corot_status corot_nodal_forces(const corot_model *m, corot_state *s, force_kernel *kernel,
-                                bool option, double (*f)[4]);
+#include "solid.h"
 
 /* Before the loops below, and without effect where dilatations are not averaged: the means that
-   stand in for the dilatation of state->u, of the frames in use; for a measure with its own frames,
-   index `strain`; and their change in the direction state->du. */
-void corot_kernel_dilatation(const corot_model *m, corot_state *state);
-void corot_kernel_internal_dilatation(const corot_model *m, corot_state *state, int strain);
-void corot_kernel_dilatation_change(const corot_model *m, corot_state *state, bool exact);
+   stand in for the dilatation of u, of the frames in use; for a measure with its own frames, index
+   `strain`; and their change in the direction du. */
+void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field u);
+void corot_kernel_internal_dilatation(const solid *body, solid_state *state, nodal_field u,
+                                      int strain);
+void corot_kernel_dilatation_change(const solid *body, solid_state *state, nodal_field u,
+                                    nodal_field du, bool exact);
 
-/* state->force = -(internal + viscous force) for state->u and, if `damped`, state->v. */
-int corot_kernel_force(const corot_model *m, corot_state *state, bool damped, int chunk);
+/* state->force = -(internal force for u and, unless v is NULL, viscous force). */
+int corot_kernel_force(const solid *body, solid_state *state, nodal_field u, nodal_field v,
+                       int chunk);
 
-/* state->force = the change of that for the directions state->du and state->dv; `exact`: with that
-   of the frames. */
-int corot_kernel_derivative(const corot_model *m, corot_state *state, bool exact, int chunk);
+/* state->force = the change of that for the directions du and dv; `exact`: with that of the frames.
+ */
+int corot_kernel_derivative(const solid *body, solid_state *state, nodal_field u, nodal_field v,
+                            nodal_field du, nodal_field dv, bool exact, int chunk);
 
-/* Elastic energy and, if `damped`, the power of the viscous forces. */
-int corot_kernel_energy(const corot_model *m, corot_state *state, bool damped, double *elastic,
-                        double *power);
+/* Elastic energy and, unless v is NULL, the power of the viscous forces. */
+int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field u, nodal_field v,
+                        double *elastic, double *power);
 
 /* R [tets.nblock] = the measure's own frames. */
-int corot_kernel_frames(const corot_model *m, corot_state *state, mat3 *R);
+int corot_kernel_frames(const solid *body, nodal_field u, mat3 *R);
 
-/* spin [tets.nblock] = the angular velocity of the measure's own frames for the velocity
-   state->v: dR/dt = [spin]x R. */
-int corot_kernel_spin(const corot_model *m, corot_state *state, vec3 *spin);
+/* spin [tets.nblock] = the angular velocity of the measure's own frames for the velocity v:
+   dR/dt = [spin]x R. */
+int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, vec3 *spin);
 
 /* state->force = -(the internal force of a measure, index `strain`, with its own frames and with
    the material's coefficients times the factors given). */
-int corot_kernel_internal(const corot_model *m, corot_state *state, int strain, double lambda_part,
-                          double mu_part, int chunk);
+int corot_kernel_internal(const solid *body, solid_state *state, nodal_field u, int strain,
+                          double lambda_part, double mu_part, int chunk);
 
 /* Adds the element matrices to K and D, either of which may be NULL, and completes the columns of
    the nodes that are ready then. */
-int corot_kernel_tangent(const corot_model *m, corot_state *state, corot_tangent tangent, int chunk,
-                         double (*K)[9], double (*D)[9]);
+int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,
+                         corot_tangent tangent, int chunk, double (*K)[9], double (*D)[9]);
 
 /* Once the element matrices are: adds to K what the averages of the dilatation add. */
-void corot_kernel_dilatation_tangent(const corot_model *m, corot_state *state, double (*K)[9]);
-
-/* Of a hierarchical model whose framer has its frames in now_R: the force as corot_kernel_force,
-   and the framer's moment += V vee(R'F sigma) of the elastic stress. */
-int corot_kernel_handed_force(const corot_model *m, corot_state *state, bool damped, int chunk);
-
-/* The changes of both for state->du, state->dv and the framer's dR; and the moment. */
-int corot_kernel_handed_derivative(const corot_model *m, corot_state *state, bool damped,
-                                   int chunk);
-
-/* state->R = the framer's frames over each tet. */
-void corot_kernel_hand_down(const corot_model *m, corot_state *state);
-
-/* Of the framer, whose polar frames have been handed down: state->force = -(the force by which they
-   turn), from the moments. */
-int corot_kernel_turning_force(const corot_model *m, corot_state *state, bool unused, int chunk);
-
-/* Its change for state->du, state->dR and state->dmoment. */
-int corot_kernel_turning_derivative(const corot_model *m, corot_state *state, bool unused,
-                                    int chunk);
-
-/* state->dR = the change of the frames state->now_R for state->du. */
-void corot_kernel_frames_change(const corot_model *m, corot_state *state);
+void corot_kernel_dilatation_tangent(const solid *body, solid_state *state, double (*K)[9]);
 
 /* --- shared by the loops --------------------------------------------------------------------- */
 
 /* The blocks of a chunk end before this one. */
-COROT_INLINE int chunk_end(const corot_model *m, int chunk) {
-  return chunk < m->tets.nblock / CHUNK ? (chunk + 1) * CHUNK : m->tets.nblock;
+COROT_INLINE int chunk_end(const solid *body, int chunk) {
+  return chunk < body->tets.nblock / CHUNK ? (chunk + 1) * CHUNK : body->tets.nblock;
 }
 
 /* Gradient of a nodal field. */
-COROT_INLINE mat3 gradient(const tet_block *block, const double (*x)[4]) {
+COROT_INLINE mat3 gradient(const tet_block *block, nodal_field x) {
   mat3 G;
   vd x0[3], xa[3];
   vd_gather3(x, block->node[0], x0);
   for (int a = 0; a < 3; a++) {
     vd_gather3(x, block->node[a + 1], xa);
     EACH_IJ {
-      vd term = (xa[i] - x0[i]) * block->g.m[a][j];
-      G.m[i][j] = a == 0 ? term : G.m[i][j] + term;
+      vd part = (xa[i] - x0[i]) * block->g.m[a][j];
+      G.m[i][j] = a == 0 ? part : G.m[i][j] + part;
     }
   }
   return G;
 }
 
 /* F = I + grad u. */
-COROT_INLINE mat3 deformation(const tet_block *block, const double (*u)[4]) {
+COROT_INLINE mat3 deformation(const tet_block *block, nodal_field u) {
   return mat3_add_identity(gradient(block, u), vd_all(1));
 }
 
-/* The frame in use, and the lanes whose F is not that of a deformation. Cauchy
-   strain is linear in F, so there nothing can invert. */
-COROT_INLINE mat3 frame_in_use(const strain_measure *s, const corot_model *m,
-                               const corot_state *state, int b, mat3 F, vi *inverted) {
+/* The frame in use of block b, and the lanes whose F is not that of a deformation. Cauchy strain is
+   linear in F, so there nothing can invert. */
+COROT_INLINE mat3 frame_in_use(const strain_measure *s, const solid *body, const frame_source *from,
+                               int b, mat3 F, vi *inverted) {
   if (strain_is_linear(s)) return mat3_identity();
-  const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+  const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
   vi bad;
   mat3 R;
-  if (state->frames == COROT_FRAMES_EXACT || s->frame == FRAME_IDENTITY) {
+  if (from->kind == COROT_FRAMES_EXACT || s->frame == FRAME_IDENTITY) {
     R = frame_of(s->frame, F, Q0, &bad);
   } else {
     bad = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
-    R = state->R[b];
-    if (state->frames == COROT_FRAMES_EXTRAPOLATED)
-      R = rotate_by(state->spin[b], state->elapsed, R);
+    R = from->R[b];
+    if (from->kind == COROT_FRAMES_EXTRAPOLATED) R = rotate_by(from->spin[b], from->age, R);
   }
   *inverted |= bad;
   return R;
 }
 
-/* What every loop starts from: the tets of block b in the state's displacement. */
+/* What every loop starts from: the tets of block b displaced by u. */
 typedef struct element {
   const tet_block *block;
   const material *mat;
@@ -132,19 +102,19 @@ typedef struct element {
   vi inverted;
 } element;
 
-COROT_INLINE element element_at(const strain_measure *s, const corot_model *m,
-                                const corot_state *state, int b) {
-  element e = {.block = &m->tets.block[b]};
-  e.mat = &m->material[e.block->material];
-  e.F = deformation(e.block, (const double(*)[4])state->u);
-  e.R = frame_in_use(s, m, state, b, e.F, &e.inverted);
+COROT_INLINE element element_at(const strain_measure *s, const solid *body,
+                                const frame_source *from, nodal_field u, int b) {
+  element e = {.block = &body->tets.block[b]};
+  e.mat = &body->material[e.block->material];
+  e.F = deformation(e.block, u);
+  e.R = frame_in_use(s, body, from, b, e.F, &e.inverted);
   return e;
 }
 
 /* Nodal forces A g_a of block b into the buffer; A is -V P. */
-COROT_INLINE void store_forces(const corot_model *m, corot_state *state, int b, mat3 A) {
-  const mat3 *g = &m->tets.block[b].g;
-  vd(*force)[3] = state->force[b % m->pattern.window];
+COROT_INLINE void store_forces(const solid *body, solid_state *state, int b, mat3 A) {
+  const mat3 *g = &body->tets.block[b].g;
+  vd(*force)[3] = state->force[b % body->pattern.window];
   for (int i = 0; i < 3; i++) {
     vd rest = vd_all(0);
     for (int a = 1; a < 4; a++) {
@@ -157,9 +127,9 @@ COROT_INLINE void store_forces(const corot_model *m, corot_state *state, int b, 
 }
 
 /* The mesh's number of the first inverted tet of block b; -1 if there is none. */
-COROT_INLINE int first_inverted(const corot_model *m, int b, vi inverted) {
+COROT_INLINE int first_inverted(const solid *body, int b, vi inverted) {
   for (int l = 0; l < W; l++)
-    if (inverted[l]) return m->tets.number[b * W + l];
+    if (inverted[l]) return body->tets.number[b * W + l];
   return -1;
 }
 

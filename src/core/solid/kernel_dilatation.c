@@ -2,17 +2,17 @@
 #include "kernel.h"
 
 /* theta [nblock] of the tets becomes the mean that stands in for it. */
-static void average(const corot_model *m, double *pool, vd *theta) {
-  const dilatation *d = &m->dilatation;
+static void average(const solid *body, double *pool, vd *theta) {
+  const dilatation *d = &body->dilatation;
   memset(pool, 0, d->npool * sizeof *pool);
-  for (int b = 0; b < m->tets.nblock; b++) {
-    vd part = m->tets.block[b].volume * theta[b];
+  for (int b = 0; b < body->tets.nblock; b++) {
+    vd part = body->tets.block[b].volume * theta[b];
     for (int a = 0; a < 4; a++)
       for (int l = 0; l < W; l++) pool[d->pool[b][a][l]] += part[l];
   }
   for (int p = 0; p < d->npool; p++) pool[p] /= d->volume[p];
-  for (int b = 0; b < m->tets.nblock; b++) {
-    double own = m->material[m->tets.block[b].material].own_share;
+  for (int b = 0; b < body->tets.nblock; b++) {
+    double own = body->material[body->tets.block[b].material].own_share;
     vd sum = vd_all(0);
     for (int a = 0; a < 4; a++)
       for (int l = 0; l < W; l++) sum[l] += pool[d->pool[b][a][l]];
@@ -21,81 +21,85 @@ static void average(const corot_model *m, double *pool, vd *theta) {
 }
 
 /* An inverted tet is left to the loop that comes after. */
-COROT_CLONES static void own_dilatation(const corot_model *m, const corot_state *state, vd *theta) {
-  const strain_measure *s = &strain_measures[m->strain];
-  for (int b = 0; b < m->tets.nblock; b++) {
-    mat3 F = deformation(&m->tets.block[b], (const double(*)[4])state->u), R = F;
+COROT_CLONES static void own_dilatation(const solid *body, const solid_state *state, nodal_field u,
+                                        vd *theta) {
+  const strain_measure *s = &strain_measures[body->strain];
+  for (int b = 0; b < body->tets.nblock; b++) {
+    mat3 F = deformation(&body->tets.block[b], u), R = F;
     vi inverted = {0};
-    if (s->pressure == BY_FRAME) R = frame_in_use(s, m, state, b, F, &inverted);
+    if (s->pressure == BY_FRAME) R = frame_in_use(s, body, &state->frames, b, F, &inverted);
     theta[b] = dilatation_of(s->pressure, F, R);
   }
 }
 
-void corot_kernel_dilatation(const corot_model *m, corot_state *state) {
-  if (!m->dilatation.npool) return;
-  own_dilatation(m, state, state->dilatation);
-  average(m, state->pool, state->dilatation);
+void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field u) {
+  if (!body->dilatation.npool) return;
+  own_dilatation(body, state, u, state->dilatation);
+  average(body, state->pool, state->dilatation);
 }
 
-COROT_CLONES static void internal_dilatation(const corot_model *m, const corot_state *state,
+COROT_CLONES static void internal_dilatation(const solid *body, nodal_field u,
                                              const strain_measure *s, vd *theta) {
-  for (int b = 0; b < m->tets.nblock; b++) {
-    mat3 F = deformation(&m->tets.block[b], (const double(*)[4])state->u), R = F;
+  for (int b = 0; b < body->tets.nblock; b++) {
+    mat3 F = deformation(&body->tets.block[b], u), R = F;
     mat3 Q0 = mat3_identity();
     vi inverted = {0};
-    if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(m->mesh, m->tets.number + b * W);
+    if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(body->mesh, body->tets.number + b * W);
     if (s->pressure == BY_FRAME) R = frame_of(s->frame, F, &Q0, &inverted);
     theta[b] = dilatation_of(s->pressure, F, R);
   }
 }
 
-void corot_kernel_internal_dilatation(const corot_model *m, corot_state *state, int strain) {
-  if (!m->dilatation.npool) return;
-  internal_dilatation(m, state, &strain_measures[strain], state->dilatation);
-  average(m, state->pool, state->dilatation);
+void corot_kernel_internal_dilatation(const solid *body, solid_state *state, nodal_field u,
+                                      int strain) {
+  if (!body->dilatation.npool) return;
+  internal_dilatation(body, u, &strain_measures[strain], state->dilatation);
+  average(body, state->pool, state->dilatation);
 }
 
-COROT_CLONES static void change_of_dilatation(const corot_model *m, const corot_state *state,
-                                              bool exact, vd *change) {
-  const strain_measure *s = &strain_measures[m->strain];
-  for (int b = 0; b < m->tets.nblock; b++) {
-    element e = element_at(s, m, state, b);
-    mat3 dF = gradient(e.block, (const double(*)[4])state->du);
+COROT_CLONES static void change_of_dilatation(const solid *body, const solid_state *state,
+                                              nodal_field u, nodal_field du, bool exact,
+                                              vd *change) {
+  const strain_measure *s = &strain_measures[body->strain];
+  for (int b = 0; b < body->tets.nblock; b++) {
+    element e = element_at(s, body, &state->frames, u, b);
+    mat3 dF = gradient(e.block, du);
     mat3 dR = mat3_scale(vd_all(0), e.R);
     if (exact && s->frame != FRAME_IDENTITY) {
-      const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+      const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
       dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
     }
     change[b] = dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
   }
 }
 
-void corot_kernel_dilatation_change(const corot_model *m, corot_state *state, bool exact) {
-  if (!m->dilatation.npool) return;
-  change_of_dilatation(m, state, exact, state->dilatation_change);
-  average(m, state->pool, state->dilatation_change);
+void corot_kernel_dilatation_change(const solid *body, solid_state *state, nodal_field u,
+                                    nodal_field du, bool exact) {
+  if (!body->dilatation.npool) return;
+  change_of_dilatation(body, state, u, du, exact, state->dilatation_change);
+  average(body, state->pool, state->dilatation_change);
 }
 
 /* state->gathered = sum over a pool's tets of V d tr(e_p) / du. */
-static void gather_slopes(const corot_model *m, corot_state *state, int pool) {
-  const dilatation *d = &m->dilatation;
+static void gather_slopes(const solid *body, solid_state *state, int pool) {
+  const dilatation *d = &body->dilatation;
   for (int k = d->tet_first[pool]; k < d->tet_first[pool + 1]; k++) {
     int b = d->tet[k] / W, l = d->tet[k] % W;
     for (int a = 0; a < 4; a++)
       for (int c = 0; c < 3; c++)
-        state->gathered[m->tets.block[b].node[a][l]][c] += state->slope[b][a][c][l];
+        state->gathered[body->tets.block[b].node[a][l]][c] += state->slope[b][a][c][l];
   }
 }
 
-void corot_kernel_dilatation_tangent(const corot_model *m, corot_state *state, double (*K)[9]) {
-  const dilatation *d = &m->dilatation;
-  const pattern *p = &m->pattern;
+void corot_kernel_dilatation_tangent(const solid *body, solid_state *state, double (*K)[9]) {
+  const dilatation *d = &body->dilatation;
+  const pattern *p = &body->pattern;
   double(*q)[3] = state->gathered;
   for (int pool = 0; pool < d->npool; pool++) {
     const int *ring = d->ring + d->ring_first[pool];
     int n = d->ring_first[pool + 1] - d->ring_first[pool];
     if (!n) continue;
-    gather_slopes(m, state, pool);
+    gather_slopes(body, state, pool);
     double factor = d->lambda[pool] / (4 * d->volume[pool]);
     for (int j = 0; j < n; j++) {
       double *qj = q[ring[j]];

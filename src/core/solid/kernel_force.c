@@ -11,50 +11,50 @@ COROT_INLINE mat3 viscous_stress(const strain_measure *s, bool objective, const 
   return stress_viscous(s, lambda, mu, F, R, V);
 }
 
-COROT_INLINE int force_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                            bool damped, bool averaged, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    element e = element_at(s, m, state, b);
+COROT_INLINE int force_loop(const strain_measure *s, const solid *body, solid_state *state,
+                            nodal_field u, nodal_field v, bool averaged, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
+    element e = element_at(s, body, &state->frames, u, b);
     vd minus = -e.block->volume;
     vd lambda = minus * e.mat->lambda, mu = minus * e.mat->mu;
     mat3 A = averaged ? stress_at_pressure(s, lambda * state->dilatation[b], mu, e.F, e.R)
                       : stress(s, lambda, mu, e.F, e.R);
-    if (damped) {
-      mat3 V = gradient(e.block, (const double(*)[4])state->v);
-      A = mat3_add(A, viscous_stress(s, m->objective, e.mat, minus, e.F, e.R, V));
+    if (v) {
+      mat3 V = gradient(e.block, v);
+      A = mat3_add(A, viscous_stress(s, body->objective, e.mat, minus, e.F, e.R, V));
     }
-    store_forces(m, state, b, A);
-    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
+    store_forces(body, state, b, A);
+    if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
   }
   return -1;
 }
 
 /* The hot loop is compiled for each measure, so that its branches on the measure fall away; with
    averages, which take their own time, once for all. */
-COROT_CLONES int corot_kernel_force(const corot_model *m, corot_state *state, bool damped,
-                                    int chunk) {
-  if (m->dilatation.npool)
-    return force_loop(&strain_measures[m->strain], m, state, damped, true, chunk);
+COROT_CLONES int corot_kernel_force(const solid *body, solid_state *state, nodal_field u,
+                                    nodal_field v, int chunk) {
+  if (body->dilatation.npool)
+    return force_loop(&strain_measures[body->strain], body, state, u, v, true, chunk);
 #define FORCE_OF(index, ...) \
   case index:                \
-    return force_loop(&strain_measures[index], m, state, damped, false, chunk);
-  switch (m->strain) { STRAIN_MEASURES(FORCE_OF) }
+    return force_loop(&strain_measures[index], body, state, u, v, false, chunk);
+  switch (body->strain) { STRAIN_MEASURES(FORCE_OF) }
 #undef FORCE_OF
   abort(); /* no model has another */
 }
 
-COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                             bool damped, double *elastic, double *power) {
+COROT_INLINE int energy_loop(const strain_measure *s, const solid *body, const solid_state *state,
+                             nodal_field u, nodal_field v, double *elastic, double *power) {
   double sum_elastic = 0, sum_power = 0;
-  for (int b = 0; b < m->tets.nblock; b++) {
-    element e = element_at(s, m, state, b);
-    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
+  for (int b = 0; b < body->tets.nblock; b++) {
+    element e = element_at(s, body, &state->frames, u, b);
+    if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
     vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
-    const vd *average = m->dilatation.npool ? &state->dilatation[b] : NULL;
+    const vd *average = body->dilatation.npool ? &state->dilatation[b] : NULL;
     sum_elastic += vd_sum(e.block->volume * strain_energy(s, lambda, mu, e.F, e.R, average));
-    if (!damped) continue;
-    mat3 V = gradient(e.block, (const double(*)[4])state->v);
-    mat3 P = viscous_stress(s, m->objective, e.mat, vd_all(1), e.F, e.R, V);
+    if (!v) continue;
+    mat3 V = gradient(e.block, v);
+    mat3 P = viscous_stress(s, body->objective, e.mat, vd_all(1), e.F, e.R, V);
     sum_power += vd_sum(e.block->volume * mat3_dot(P, V));
   }
   *elastic = sum_elastic;
@@ -62,68 +62,67 @@ COROT_INLINE int energy_loop(const strain_measure *s, const corot_model *m, coro
   return -1;
 }
 
-COROT_CLONES int corot_kernel_energy(const corot_model *m, corot_state *state, bool damped,
-                                     double *elastic, double *power) {
-  return energy_loop(&strain_measures[m->strain], m, state, damped, elastic, power);
+COROT_CLONES int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field u,
+                                     nodal_field v, double *elastic, double *power) {
+  return energy_loop(&strain_measures[body->strain], body, state, u, v, elastic, power);
 }
 
-COROT_INLINE int frames_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                             mat3 *R) {
-  for (int b = 0; b < m->tets.nblock; b++) {
+COROT_INLINE int frames_loop(const strain_measure *s, const solid *body, nodal_field u, mat3 *R) {
+  for (int b = 0; b < body->tets.nblock; b++) {
     vi inverted = {0};
-    mat3 F = deformation(&m->tets.block[b], (const double(*)[4])state->u);
-    const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+    mat3 F = deformation(&body->tets.block[b], u);
+    const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
     R[b] = frame_of(s->frame, F, Q0, &inverted);
-    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(m, b, inverted);
+    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_frames(const corot_model *m, corot_state *state, mat3 *R) {
-  return frames_loop(&strain_measures[m->strain], m, state, R);
+COROT_CLONES int corot_kernel_frames(const solid *body, nodal_field u, mat3 *R) {
+  return frames_loop(&strain_measures[body->strain], body, u, R);
 }
 
-COROT_INLINE int spin_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+COROT_INLINE int spin_loop(const strain_measure *s, const solid *body, nodal_field u, nodal_field v,
                            vec3 *spin) {
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
-    const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+  for (int b = 0; b < body->tets.nblock; b++) {
+    const tet_block *block = &body->tets.block[b];
+    const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
     vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])state->u);
-    mat3 V = gradient(block, (const double(*)[4])state->v);
+    mat3 F = deformation(block, u);
+    mat3 V = gradient(block, v);
     mat3 R = frame_of(s->frame, F, Q0, &inverted);
-    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(m, b, inverted);
+    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
     mat3 dR = frame_derivative(s->frame, F, Q0, R, V);
     spin[b] = mat3_vee(mat3_scale(vd_all(0.5), mat3_mul(dR, mat3_transpose(R))));
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_spin(const corot_model *m, corot_state *state, vec3 *spin) {
-  return spin_loop(&strain_measures[m->strain], m, state, spin);
+COROT_CLONES int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, vec3 *spin) {
+  return spin_loop(&strain_measures[body->strain], body, u, v, spin);
 }
 
-COROT_INLINE int internal_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                               double lambda_part, double mu_part, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    const tet_block *block = &m->tets.block[b];
-    const material *mat = &m->material[block->material];
+COROT_INLINE int internal_loop(const strain_measure *s, const solid *body, solid_state *state,
+                               nodal_field u, double lambda_part, double mu_part, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
+    const tet_block *block = &body->tets.block[b];
+    const material *mat = &body->material[block->material];
     mat3 Q0 = mat3_identity();
-    if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(m->mesh, m->tets.number + b * W);
+    if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(body->mesh, body->tets.number + b * W);
     vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])state->u);
+    mat3 F = deformation(block, u);
     mat3 R = frame_of(s->frame, F, &Q0, &inverted);
-    if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(m, b, inverted);
+    if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(body, b, inverted);
     vd lambda = -block->volume * (lambda_part * mat->lambda),
        mu = -block->volume * (mu_part * mat->mu);
-    mat3 A = m->dilatation.npool ? stress_at_pressure(s, lambda * state->dilatation[b], mu, F, R)
-                                 : stress(s, lambda, mu, F, R);
-    store_forces(m, state, b, A);
+    mat3 A = body->dilatation.npool ? stress_at_pressure(s, lambda * state->dilatation[b], mu, F, R)
+                                    : stress(s, lambda, mu, F, R);
+    store_forces(body, state, b, A);
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_internal(const corot_model *m, corot_state *state, int strain,
-                                       double lambda_part, double mu_part, int chunk) {
-  return internal_loop(&strain_measures[strain], m, state, lambda_part, mu_part, chunk);
+COROT_CLONES int corot_kernel_internal(const solid *body, solid_state *state, nodal_field u,
+                                       int strain, double lambda_part, double mu_part, int chunk) {
+  return internal_loop(&strain_measures[strain], body, state, u, lambda_part, mu_part, chunk);
 }

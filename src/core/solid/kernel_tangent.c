@@ -106,23 +106,24 @@ COROT_INLINE void complete_columns(const pattern *p, int first, int last, double
   }
 }
 
-COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, corot_state *state,
-                              corot_tangent tangent, int chunk, double (*K)[9], double (*D)[9]) {
+COROT_INLINE int tangent_loop(const strain_measure *s, const solid *body, solid_state *state,
+                              nodal_field u, corot_tangent tangent, int chunk, double (*K)[9],
+                              double (*D)[9]) {
   bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
-  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    const int(*place)[W] = (const int(*)[W])m->pattern.place[b];
-    element e = element_at(s, m, state, b);
-    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
+  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
+    const int(*place)[W] = (const int(*)[W])body->pattern.place[b];
+    element e = element_at(s, body, &state->frames, u, b);
+    if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
     vd lambda = e.block->volume * e.mat->lambda, mu = e.block->volume * e.mat->mu;
     vd dlambda = e.block->volume * e.mat->damping_lambda, dmu = e.block->volume * e.mat->damping_mu;
-    bool averaged = m->dilatation.npool;
+    bool averaged = body->dilatation.npool;
     vd theta = averaged ? state->dilatation[b] : dilatation_of(s->pressure, e.F, e.R);
     vd local = e.block->volume * e.mat->lambda_local;
     tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e.F, e.R);
     node_vectors n = node_vectors_of(e.block, &t);
     if (averaged) store_slopes(e.block, &n, state->slope[b]);
-    bool objective = D && m->objective && s->frame == FRAME_POLAR;
+    bool objective = D && body->objective && s->frame == FRAME_POLAR;
     node_rates rates;
     if (objective) rates = node_rates_of(e.block, e.F, e.R);
     for (int k = 0; k < NPAIR; k++) {
@@ -140,54 +141,56 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const corot_model *m, cor
                 constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]));
     }
   }
-  const pattern *p = &m->pattern;
+  const pattern *p = &body->pattern;
   if (K) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], K);
   if (D) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], D);
   return -1;
 }
 
-COROT_CLONES int corot_kernel_tangent(const corot_model *m, corot_state *state,
+COROT_CLONES int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,
                                       corot_tangent tangent, int chunk, double (*K)[9],
                                       double (*D)[9]) {
-  const strain_measure *s = &strain_measures[m->strain];
+  const strain_measure *s = &strain_measures[body->strain];
   if (tangent == COROT_TANGENT_CLAMPED) /* compiled apart, so as not to burden the others */
-    return tangent_loop(s, m, state, COROT_TANGENT_CLAMPED, chunk, K, D);
-  return tangent_loop(s, m, state, tangent, chunk, K, D);
+    return tangent_loop(s, body, state, u, COROT_TANGENT_CLAMPED, chunk, K, D);
+  return tangent_loop(s, body, state, u, tangent, chunk, K, D);
 }
 
-COROT_INLINE int derivative_loop(const strain_measure *s, const corot_model *m, corot_state *state,
+COROT_INLINE int derivative_loop(const strain_measure *s, const solid *body, solid_state *state,
+                                 nodal_field u, nodal_field v, nodal_field du, nodal_field dv,
                                  bool exact, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    element e = element_at(s, m, state, b);
-    if (vi_any(e.inverted)) return first_inverted(m, b, e.inverted);
+  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
+    element e = element_at(s, body, &state->frames, u, b);
+    if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
-    mat3 dF = gradient(e.block, (const double(*)[4])state->du);
+    mat3 dF = gradient(e.block, du);
     mat3 dR = mat3_scale(vd_all(0), e.R);
     if (exact && s->frame != FRAME_IDENTITY) {
-      const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+      const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
       dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
     }
     vd minus = -e.block->volume;
-    bool averaged = m->dilatation.npool;
+    bool averaged = body->dilatation.npool;
     vd theta = averaged ? state->dilatation[b] : dilatation_of(s->pressure, e.F, e.R);
     vd change = averaged ? state->dilatation_change[b]
                          : dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
     vd elastic = minus * e.mat->lambda, shear = minus * e.mat->mu;
     mat3 dA = stress_derivative(s, elastic * theta, elastic * change, shear, e.F, e.R, dF, dR);
-    if (m->damped) {
-      mat3 V = gradient(e.block, (const double(*)[4])state->v);
-      mat3 dV = gradient(e.block, (const double(*)[4])state->dv);
+    if (v) {
+      mat3 V = gradient(e.block, v);
+      mat3 dV = gradient(e.block, dv);
       vd lambda = minus * e.mat->damping_lambda, mu = minus * e.mat->damping_mu;
-      dA = mat3_add(dA, m->objective && s->frame == FRAME_POLAR
+      dA = mat3_add(dA, body->objective && s->frame == FRAME_POLAR
                             ? stress_objective_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV)
                             : stress_viscous_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV));
     }
-    store_forces(m, state, b, dA);
+    store_forces(body, state, b, dA);
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_derivative(const corot_model *m, corot_state *state, bool exact,
+COROT_CLONES int corot_kernel_derivative(const solid *body, solid_state *state, nodal_field u,
+                                         nodal_field v, nodal_field du, nodal_field dv, bool exact,
                                          int chunk) {
-  return derivative_loop(&strain_measures[m->strain], m, state, exact, chunk);
+  return derivative_loop(&strain_measures[body->strain], body, state, u, v, du, dv, exact, chunk);
 }

@@ -171,25 +171,25 @@ size_t corot_coarsening_bytes(const coarsening *c) {
 
 /* --- Using it -------------------------------------------------------------------------------- */
 
-void corot_coarsen(const coarsening *c, const double (*u)[4], double *w) {
+void corot_coarsen(const coarsening *c, const double (*u)[4], double (*w)[4]) {
   const int *point = c->point;
   for (int n = 0; n < c->nnode; n++) {
     double sum[3] = {0, 0, 0};
     if (!point) memcpy(sum, u[n], sizeof sum);
     for (int k = 0; k < c->npoint; k++)
       for (int i = 0; i < 3; i++) sum[i] += c->weight[k] * u[point[k]][i];
-    for (int i = 0; i < 3; i++) w[3 * n + i] = sum[i];
+    for (int i = 0; i < 3; i++) w[n][i] = sum[i];
     if (point) point += c->npoint;
   }
 }
 
-void corot_coarsen_transposed(const coarsening *c, const double *g, double (*f)[4]) {
+void corot_coarsen_transposed(const coarsening *c, const double (*g)[4], double (*f)[4]) {
   const int *point = c->point;
-  for (int n = 0; n < c->nnode; n++, g += 3) {
+  for (int n = 0; n < c->nnode; n++) {
     if (!point)
-      for (int i = 0; i < 3; i++) f[n][i] += g[i];
+      for (int i = 0; i < 3; i++) f[n][i] += g[n][i];
     for (int k = 0; k < c->npoint; k++)
-      for (int i = 0; i < 3; i++) f[point[k]][i] += c->weight[k] * g[i];
+      for (int i = 0; i < 3; i++) f[point[k]][i] += c->weight[k] * g[n][i];
     if (point) point += c->npoint;
   }
 }

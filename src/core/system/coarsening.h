@@ -1,5 +1,5 @@
 /* How the tets of a coarser level see a field on the finest one: the linear map L from the nodes of
-   the finest level to those of a part (levels.h), and the part's mesh.
+   the finest level to those of a term (system.h), and its mesh.
 
    By values: the nodes of a level are the first ones of the finest, and L reads their values.
 
@@ -34,10 +34,10 @@ void corot_coarsening_clear(coarsening *c);
 
 size_t corot_coarsening_bytes(const coarsening *c);
 
-/* w [nnode][3] = L u */
-void corot_coarsen(const coarsening *c, const double (*u)[4], double *w);
+/* w [nnode] = L u */
+void corot_coarsen(const coarsening *c, const double (*u)[4], double (*w)[4]);
 
-/* f += L' g for g [nnode][3]. */
-void corot_coarsen_transposed(const coarsening *c, const double *g, double (*f)[4]);
+/* f += L' g for g [nnode]. */
+void corot_coarsen_transposed(const coarsening *c, const double (*g)[4], double (*f)[4]);
 
 #endif

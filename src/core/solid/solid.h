@@ -1,0 +1,141 @@
+/* One body of elements under one strain measure: its forces, their changes, its matrices, energy
+   and frames, as functions of nodal fields. It knows no time, no supports and no loads; core/system
+   adds such bodies up.
+
+   A nodal field has a row of four for each node, of which three are used: the kernels gather whole
+   rows. A velocity of NULL stands for a body whose viscous forces are not asked for. */
+#ifndef COROT_CORE_SOLID_SOLID_H
+#define COROT_CORE_SOLID_SOLID_H
+
+#include <corot/ode.h>
+
+#include "core/element/strain.h"
+#include "pattern.h"
+
+typedef const double (*nodal_field)[4];
+
+typedef struct material {
+  double lambda, mu, damping_lambda, damping_mu, damping_mass, density;
+  double lambda_local; /* what of lambda acts on each tet's own dilatation */
+  double own_share;    /* and as a part of it; 1 where lambda is zero */
+} material;
+
+typedef struct solid {
+  const corot_mesh *mesh;
+  const material *material; /* of the blocks' numbers */
+  int strain;               /* index into strain_measures */
+  bool damped;              /* some viscous coefficient is not zero */
+  bool objective;           /* viscous law on the stretch's own rate */
+  tets tets;
+  dilatation dilatation; /* averages, where some material has them */
+  pattern pattern;
+} solid;
+
+/* Where the frames of an evaluation come from: from F, by the measure's own rule; or they are
+   given, as those that are held, or handed down by another body; or given and turned on since then.
+ */
+typedef struct frame_source {
+  corot_frames kind; /* EXACT: own; HELD: given; EXTRAPOLATED: turned on */
+  const mat3 *R;     /* [tets.nblock] */
+  const vec3 *spin;  /* [tets.nblock] [rad/s] */
+  double age;        /* for so long [s] */
+} frame_source;
+
+/* What the evaluations of one run write to, and the frames that are held between them. */
+typedef struct solid_state {
+  frame_source frames; /* of the evaluations */
+  int inverted;        /* tet number in the mesh, or -1 */
+  mat3 *R;             /* [tets.nblock] the held frames */
+  vec3 *spin;          /* [tets.nblock] their angular velocity [rad/s] */
+  mat3 *now_R;         /* [tets.nblock] those in use, to compare with or to hand down */
+  mat3 *new_R;         /* [tets.nblock] those of an update, until it is known to succeed */
+  vd *dilatation; /* [tets.nblock] means in place of tr(e_p); NULL, as the next, where there are
+                     none: see dilatation.h */
+  vd *dilatation_change; /* [tets.nblock] the same of a derivative */
+  double *pool;          /* [dilatation.npool] */
+  vd (*slope)[4][3];     /* [tets.nblock][local node] V times d tr(e_p) / du */
+  double (*gathered)[3]; /* [nnode] zero between uses */
+  vd (*force)[4][3];     /* [window][local node][component] element forces, see pattern.h */
+} solid_state;
+
+/* Where the forces on nodes are added up. */
+typedef struct force_sum {
+  const int (*row)[3]; /* [nnode] rows of the components in r, -1: nowhere; NULL: all of them, and r
+                          is a nodal field */
+  double *r;
+  double sign;  /* 1 or -1, of what is added */
+  int from;     /* nodes before this one take no part */
+  double check; /* of all that was added to: finite only if they are */
+} force_sum;
+
+/* --- Making one ------------------------------------------------------------------------------ */
+
+/* `of_tet` [ntet] says what each tet is made of, 0 <= of_tet < nmaterial; `together` as in tets.h;
+   volumes count `volume` times; `more` (or NULL) as in pattern.h. The mesh, the materials and the
+   strain are set; what is half made is cleared by the caller. */
+corot_status corot_solid_fill(solid *body, int nmaterial, const int *of_tet, int together,
+                              double volume, const pattern *more);
+void corot_solid_clear(solid *body);
+size_t corot_solid_bytes(const solid *body);
+
+/* The held frames are those of the body at rest, the frames of evaluations the measure's own. What
+   is half made is cleared by the caller. */
+corot_status corot_solid_state_fill(const solid *body, solid_state *s);
+void corot_solid_state_clear(solid_state *s);
+size_t corot_solid_state_bytes(const solid *body, const solid_state *s);
+
+/* --- Evaluations ----------------------------------------------------------------------------- */
+
+/* All return COROT_RETRY where a tet is inverted, s->inverted, or where forces exceed double
+   precision, s->inverted being -1. */
+
+/* Adds the internal and viscous forces to the sum, which the caller starts with a check of zero. */
+corot_status corot_solid_force(const solid *body, solid_state *s, nodal_field u, nodal_field v,
+                               force_sum *sum);
+
+/* Their change for du and dv; `exact`: with that of the frames. */
+corot_status corot_solid_derivative(const solid *body, solid_state *s, nodal_field u, nodal_field v,
+                                    nodal_field du, nodal_field dv, bool exact, force_sum *sum);
+
+/* K and D [pattern.nblock], either of which may be NULL, += the element matrices. */
+corot_status corot_solid_matrices(const solid *body, solid_state *s, nodal_field u,
+                                  corot_tangent tangent, double (*K)[9], double (*D)[9]);
+
+/* Elastic energy [J] and the power of the viscous forces [W]. */
+corot_status corot_solid_energy(const solid *body, solid_state *s, nodal_field u, nodal_field v,
+                                double *elastic, double *power);
+
+/* Adds minus the internal force of another measure, index `strain`, with frames of its own and with
+   the coefficients times the factors given. */
+corot_status corot_solid_internal(const solid *body, solid_state *s, nodal_field u, int strain,
+                                  double lambda_part, double mu_part, force_sum *sum);
+
+/* s->frames.R is where they are, displaced by u. The frames of the measure's rule: R [tets.nblock].
+ */
+corot_status corot_solid_frames(const solid *body, solid_state *s, nodal_field u, mat3 *R);
+
+/* s->spin = their angular velocity; *spin_max = the largest of it and what it is [rad/s]. */
+corot_status corot_solid_spin(const solid *body, solid_state *s, nodal_field u, nodal_field v,
+                              double *spin_max);
+
+/* R [tets.nblock] = the frames in use. */
+corot_status corot_solid_frames_in_use(const solid *body, solid_state *s, nodal_field u, mat3 *R);
+
+/* Largest and mean angle between two sets of frames. */
+void corot_solid_compare_frames(const solid *body, const mat3 *A, const mat3 *B,
+                                corot_frames_change *change);
+
+/* --- For the kernels' callers ---------------------------------------------------------------- */
+
+/* Remembers the tet that a kernel returned; COROT_RETRY if there is one. */
+corot_status corot_solid_check(solid_state *s, int tet);
+
+/* A chunk's element forces are in s->force, and its kernel returned `tet`: adds those of the nodes
+   that are complete now, each node's own in the order of the tets. */
+corot_status corot_solid_collect(const solid *body, solid_state *s, int tet, int chunk,
+                                 force_sum *sum);
+
+/* After the last chunk. */
+corot_status corot_force_sum_check(const force_sum *sum);
+
+#endif

@@ -1,0 +1,171 @@
+/* In frames from above the stress is P = R sigma(sym(R'F) - I) for every measure. Elastic and
+   viscous stress are added in the frame, where the moments take the elastic one. */
+#include "kernel_handed.h"
+
+/* Of matrices of the leader's tets, that over block b. */
+COROT_INLINE mat3 above_block(const int *above, const mat3 *of_leader, int b) {
+  if (!above) return of_leader[b];
+  const mat3 *A = &of_leader[above[b] / W];
+  int lane = above[b] % W;
+  mat3 B;
+  EACH_IJ B.m[i][j] = vd_all(A->m[i][j][lane]);
+  return B;
+}
+
+/* Adds a vector of each tet of block b to that of the leader's tet over it. */
+COROT_INLINE void add_up(const int *above, vec3 a, int b, vec3 *of_leader) {
+  if (!above) {
+    of_leader[b] = a;
+    return;
+  }
+  double(*sum)[W] = (double(*)[W])of_leader[above[b] / W].v;
+  for (int c = 0; c < 3; c++)
+    for (int k = 0; k < W; k++) sum[c][above[b] % W] += a.v[c][k];
+}
+
+/* Coefficients times a tet's volume. */
+typedef struct coefficients {
+  vd lambda, mu, damping_lambda, damping_mu;
+} coefficients;
+
+COROT_INLINE coefficients coefficients_of(const solid *body, const tet_block *block) {
+  const material *mat = &body->material[block->material];
+  vd V = block->volume;
+  return (coefficients){V * mat->lambda, V * mat->mu, V * mat->damping_lambda, V * mat->damping_mu};
+}
+
+/* Cauchy strain is linear in F: there nothing can invert. */
+COROT_INLINE vi inverted_in(const solid *body, mat3 F) {
+  if (strain_is_linear(&strain_measures[body->strain])) return (vi){0};
+  return ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
+}
+
+COROT_INLINE int handed_force_loop(const solid *body, solid_state *state, const from_leader *lead,
+                                   nodal_field u, nodal_field v, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
+    const tet_block *block = &body->tets.block[b];
+    coefficients k = coefficients_of(body, block);
+    mat3 F = deformation(block, u);
+    mat3 R = above_block(lead->above, lead->R, b);
+    vi inverted = inverted_in(body, F);
+    if (vi_any(inverted)) return first_inverted(body, b, inverted);
+
+    mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
+    mat3 sigma = hooke(k.lambda, k.mu, e);
+    add_up(lead->above, mat3_vee(mat3_mul(mat3_tmul(R, F), sigma)), b, lead->moment);
+    if (v) {
+      mat3 V = gradient(block, v);
+      mat3 rate = mat3_sym_tmul(R, V);
+      sigma = mat3_add(sigma, hooke(k.damping_lambda, k.damping_mu, rate));
+    }
+    store_forces(body, state, b, mat3_scale(vd_all(-1), mat3_mul(R, sigma)));
+  }
+  return -1;
+}
+
+COROT_CLONES int corot_kernel_handed_force(const solid *body, solid_state *state,
+                                           const from_leader *lead, nodal_field u, nodal_field v,
+                                           int chunk) {
+  return handed_force_loop(body, state, lead, u, v, chunk);
+}
+
+void corot_kernel_hand_down(const solid *body, const from_leader *lead, mat3 *R) {
+  for (int b = 0; b < body->tets.nblock; b++) R[b] = above_block(lead->above, lead->R, b);
+}
+
+/* dR is zero where the frames do not follow. */
+COROT_INLINE int handed_derivative_loop(const solid *body, solid_state *state,
+                                        const from_leader *lead, nodal_field u, nodal_field v,
+                                        nodal_field du, nodal_field dv, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
+    const tet_block *block = &body->tets.block[b];
+    coefficients k = coefficients_of(body, block);
+    mat3 F = deformation(block, u);
+    mat3 R = above_block(lead->above, lead->R, b), dR = above_block(lead->above, lead->dR, b);
+    mat3 dF = gradient(block, du);
+    vi inverted = inverted_in(body, F);
+    if (vi_any(inverted)) return first_inverted(body, b, inverted);
+
+    mat3 de = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
+    mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
+    mat3 sigma = hooke(k.lambda, k.mu, e), dsigma = hooke(k.lambda, k.mu, de);
+    mat3 A = mat3_tmul(R, F), dA = mat3_add(mat3_tmul(dR, F), mat3_tmul(R, dF));
+    vec3 dmoment = mat3_vee(mat3_add(mat3_mul(dA, sigma), mat3_mul(A, dsigma)));
+    add_up(lead->above, mat3_vee(mat3_mul(A, sigma)), b, lead->moment);
+    add_up(lead->above, dmoment, b, lead->dmoment);
+    if (v) {
+      mat3 V = gradient(block, v);
+      mat3 dV = gradient(block, dv);
+      mat3 rate = mat3_sym_tmul(R, V);
+      mat3 drate = mat3_add(mat3_sym_tmul(dR, V), mat3_sym_tmul(R, dV));
+      sigma = mat3_add(sigma, hooke(k.damping_lambda, k.damping_mu, rate));
+      dsigma = mat3_add(dsigma, hooke(k.damping_lambda, k.damping_mu, drate));
+    }
+    mat3 dP = mat3_add(mat3_mul(dR, sigma), mat3_mul(R, dsigma));
+    store_forces(body, state, b, mat3_scale(vd_all(-1), dP));
+  }
+  return -1;
+}
+
+COROT_CLONES int corot_kernel_handed_derivative(const solid *body, solid_state *state,
+                                                const from_leader *lead, nodal_field u,
+                                                nodal_field v, nodal_field du, nodal_field dv,
+                                                int chunk) {
+  return handed_derivative_loop(body, state, lead, u, v, du, dv, chunk);
+}
+
+/* The frame's rotation for a unit of moment: z = G^-1 moment, the stress -V P = -R [z]x. */
+COROT_INLINE int turning_force_loop(const solid *leader, solid_state *state,
+                                    const from_leader *lead, nodal_field u, int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(leader, chunk); b++) {
+    mat3 F = deformation(&leader->tets.block[b], u), R = lead->R[b];
+    vec3 z = mat3_apply(polar_inverse_g(mat3_sym_tmul(R, F)), lead->moment[b]);
+    store_forces(leader, state, b, mat3_scale(vd_all(-1), mat3_mul(R, mat3_skew(z))));
+  }
+  return -1;
+}
+
+COROT_CLONES int corot_kernel_turning_force(const solid *leader, solid_state *state,
+                                            const from_leader *lead, nodal_field u, int chunk) {
+  return turning_force_loop(leader, state, lead, u, chunk);
+}
+
+/* G dz = dmoment - dG z */
+COROT_INLINE int turning_derivative_loop(const solid *leader, solid_state *state,
+                                         const from_leader *lead, nodal_field u, nodal_field du,
+                                         int chunk) {
+  for (int b = chunk * CHUNK; b < chunk_end(leader, chunk); b++) {
+    const tet_block *block = &leader->tets.block[b];
+    mat3 F = deformation(block, u), R = lead->R[b];
+    mat3 dF = gradient(block, du), dR = lead->dR[b];
+    mat3 dS = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
+    mat3 Ginv = polar_inverse_g(mat3_sym_tmul(R, F));
+    vec3 z = mat3_apply(Ginv, lead->moment[b]);
+    vec3 dz = mat3_apply(Ginv, vec3_less(lead->dmoment[b], apply_g_change(dS, z)));
+    mat3 dP = mat3_add(mat3_mul(dR, mat3_skew(z)), mat3_mul(R, mat3_skew(dz)));
+    store_forces(leader, state, b, mat3_scale(vd_all(-1), dP));
+  }
+  return -1;
+}
+
+COROT_CLONES int corot_kernel_turning_derivative(const solid *leader, solid_state *state,
+                                                 const from_leader *lead, nodal_field u,
+                                                 nodal_field du, int chunk) {
+  return turning_derivative_loop(leader, state, lead, u, du, chunk);
+}
+
+COROT_INLINE void frames_change_loop(frame_rule rule, const solid *leader, const mat3 *R,
+                                     nodal_field u, nodal_field du, mat3 *dR) {
+  for (int b = 0; b < leader->tets.nblock; b++) {
+    const tet_block *block = &leader->tets.block[b];
+    const mat3 *Q0 = rule == FRAME_WARP ? &leader->tets.rest_basis[b] : NULL;
+    mat3 F = deformation(block, u);
+    mat3 dF = gradient(block, du);
+    dR[b] = frame_derivative(rule, F, Q0, R[b], dF);
+  }
+}
+
+COROT_CLONES void corot_kernel_frames_change(const solid *leader, const mat3 *R, nodal_field u,
+                                             nodal_field du, mat3 *dR) {
+  frames_change_loop(strain_measures[leader->strain].frame, leader, R, u, du, dR);
+}
