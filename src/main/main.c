@@ -13,6 +13,8 @@
 #include "report/command/commands.h"
 #include "study/command/command_study.h"
 
+#include "crash.h"
+
 static const char help[] =
     "corot: deformable solids as ordinary differential equations, integrated with error control\n"
     "\n"
@@ -89,6 +91,7 @@ int main(int argc, char **argv) {
   };
   hold_standard_streams();
   keep_to_one_thread(argv);
+  crash_watch();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
   signal(SIGXFSZ, SIG_IGN); /* so is a file that may not grow further */
   int code = dispatch("corot", help, table, argc, argv);

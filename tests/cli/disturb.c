@@ -3,6 +3,8 @@
 
    DISTURB_KILL=SIGNAL:N   the process gets the signal before its N-th call that changes a file or a
                            folder; DISTURB_COUNT=FILE gets the number of such calls at its end
+   DISTURB_FAULT=KIND:N    before the N-th such call it has a fault: "null", an address of nothing;
+                           "stack", a recursion without end; "abort"
    DISTURB_CLOCK=N         from the N-th look at it on, the clock of the day and the one that never
                            goes back are an hour late
    DISTURB_VANISH=N        the folder DISTURB_FOLDER is removed, all that is in it included, before
@@ -23,7 +25,8 @@
 #include <unistd.h>
 
 static _Atomic long changes, looks;
-static long kill_at, clock_at, vanish_at;
+static long kill_at, clock_at, vanish_at, fault_at;
+static char fault[8];
 static int number, inside;
 static char *folder, *count_file;
 
@@ -31,6 +34,8 @@ __attribute__((constructor)) static void begin(void) {
   const char *kill_text = getenv("DISTURB_KILL"), *clock_text = getenv("DISTURB_CLOCK");
   const char *vanish_text = getenv("DISTURB_VANISH"), *file = getenv("DISTURB_COUNT");
   if (kill_text) sscanf(kill_text, "%d:%ld", &number, &kill_at);
+  const char *fault_text = getenv("DISTURB_FAULT");
+  if (fault_text) sscanf(fault_text, "%7[a-z]:%ld", fault, &fault_at);
   if (clock_text) clock_at = atol(clock_text);
   if (vanish_text) vanish_at = atol(vanish_text);
   if (file) count_file = strdup(file);
@@ -50,9 +55,22 @@ static int remove_one(const char *path, const struct stat *info, int flag, struc
   return remove(path);
 }
 
+static void recur(volatile char *above) {
+  volatile char here[1024] = {*above};
+  recur(here);
+  here[1] = 0; /* so that it is no loop */
+}
+
+static void crash(void) {
+  if (strcmp(fault, "abort") == 0) abort();
+  if (strcmp(fault, "stack") == 0) recur(fault);
+  *(volatile int *)NULL = 0;
+}
+
 static void change(void) {
   if (inside) return;
   long n = ++changes;
+  if (n == fault_at) crash();
   if (n == kill_at) raise(number);
   if (n != vanish_at) return;
   inside = 1;

@@ -31,6 +31,12 @@ no_out() { [ ! -s stdout ] || complain "$what: something on stdout"; }
 no_err() { [ ! -s stderr ] || complain "$what: something on stderr"; }
 json() { python3 -c "import json, sys; d = json.load(open('stdout')); assert $1, d" || complain "$what: not $1"; }
 
+# until_true COMMAND...: waits for it, half a minute at most.
+until_true() {
+  tries=0
+  until "$@" || [ $tries = 600 ]; do sleep 0.05; tries=$((tries + 1)); done
+}
+
 cat >model.yaml <<'YAML'
 title: a block under a shear load
 mesh: {box: {size: [0.1, 0.1, 0.2], cells: [1, 1, 2], split: kuhn}}

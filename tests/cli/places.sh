@@ -70,6 +70,39 @@ for name in table.json table.csv index.sqlite report.html; do
   [ "$(cat file)" = text ] && [ -L copy/$name ] || complain "$name: a link, or where it leads, has changed"
 done
 
+# Pipes that nobody reads, and sockets, in the place of each file: nothing waits for them.
+expect 0 study csv study
+socket() { python3 -c 'import socket, sys; socket.socket(socket.AF_UNIX).bind(sys.argv[1])' "$1"; }
+# among FOLDER CODE NAME COMMAND...: with that file of a copy of the folder replaced by each.
+among() {
+  folder=$1 code=$2 name=$3
+  shift 3
+  for make in mkfifo socket; do
+    rm -rf there
+    cp -r "$folder" there
+    rm -f there/$name
+    $make there/$name
+    what="corot $*, $name made by $make"
+    timeout -s KILL 60 "$corot" "$@" >stdout 2>stderr
+    got=$?
+    [ $got = "$code" ] || complain "$what: exit code $got"
+    err "${name##*/}"
+    [ ! -f there/$name ] && [ -e there/$name ] || complain "$what: it is replaced"
+  done
+}
+for name in steps.csv history.csv energy.csv probes.csv fields.pvd fields/fields_000000.vtu result.json; do
+  among run 5 $name run model.yaml -o there --quiet
+done
+among run 5 fields/fields_000000.vtu report there
+among study 5 table.csv study csv there
+run=runs/$(ls study/runs | head -n 1)
+for name in energy.csv messages.txt; do
+  rm -rf undone
+  cp -r study undone
+  rm undone/$run/result.json
+  among undone 5 $run/$name study study.yaml -o there --quiet --timeout 30
+done
+
 # --- A limit of the size of files ---
 
 mkdir small

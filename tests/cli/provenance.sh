@@ -81,8 +81,26 @@ expect 0 budget model.yaml -o budget --levels 2 --skip space --set time.end=0.02
 grep -q '<p class="warning">The runs are of 2 different builds' budget/report.html || complain "the page of a budget does not say it"
 limit='find-limit model.yaml -o limit --key time.end --from 0.01 --to 0.02 --scan 2'
 expect 0 $limit; no_err
+cp limit/limit.json stdout; json "d['mixed'] is None"
 for run in limit/runs/*/; do change "$run"; done
 expect 0 $limit; err "of the runs that are done are of another build (commit 777777777777; this is "
+cp limit/limit.json stdout; json "d['mixed'] is None"
+mixed='The runs are of 2 different builds of corot: '
+rm -r "$(ls -d limit/runs/*/ | head -n 1)"
+expect 0 $limit; out "$mixed"
+cp limit/limit.json stdout; json "d['mixed'].startswith('$mixed')"
+
+# Times of another build are no times of this one.
+printf '%s\n' 'repeat: 2' 'reference: none' >>study.yaml
+sed -i 's/polar, green, cauchy/polar/' study.yaml
+expect 0 study study.yaml -o timed; grep -qi 'build' stderr && complain "one build is told of"
+python3 - timed/runs/*/timings.json <<'PY'
+import json, sys
+d = json.load(open(sys.argv[1]))
+d["runs"][1]["provenance"]["commit"] = 40 * "7"
+json.dump(d, open(sys.argv[1], "w"))
+PY
+expect 0 study collect timed; err "$mixed"; err ' of commit 777777777777 ('"$(ls timed/runs)"', timed)'
 
 # --- The commit of a checkout ---
 

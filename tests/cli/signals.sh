@@ -3,11 +3,6 @@
 . "$(dirname "$0")/lib.sh"
 signals='INT:2 TERM:15 HUP:1 USR1:10 XCPU:24'
 
-# until_true COMMAND...: waits for it, half a minute at most.
-until_true() {
-  tries=0
-  until "$@" || [ $tries = 600 ]; do sleep 0.05; tries=$((tries + 1)); done
-}
 has() { [ -s "$1" ]; }
 # Whether a process catches SIGALRM, the last of those it begins to heed.
 heeds() {
@@ -54,6 +49,14 @@ for signal in $signals; do
     until_true heeds $!; kill -$name $!; ended $! mesh/in/depth $number
   done
 done
+
+# What has been written by then is not read again, nor waited for on the disk.
+what="SIGTERM after many outputs"
+"$corot" run model.yaml -o many --set 'loads=[]' --set 'time={end: 1.0e6, output: 1.0e-5}' --set output.fields=none \
+  --set output.states=none >stdout 2>stderr &
+until_true eval '[ "$(stat -c %s many/energy.csv)" -gt 100000000 ]'; kill -TERM $!; ended $! many 15
+json "all('sha256' not in f and f['size'] > 0 for f in d['files']) and 'probes.csv' in [f['name'] for f in d['files']]"
+rm -rf many
 
 # What takes long and asks nobody: a large matrix, with all that comes before it.
 large='mesh.box={size: [0.1, 0.1, 0.2], cells: [40, 40, 80]}'

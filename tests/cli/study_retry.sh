@@ -2,10 +2,6 @@
 # what ends a run that would not end.
 . "$(dirname "$0")/lib.sh"
 study() { printf '%s\n' "study: which one" "base: model.yaml" "set: {time.end: 0.02}" 'reference: none' "$@" >study.yaml; }
-until_true() {
-  tries=0
-  until "$@" || [ $tries = 600 ]; do sleep 0.05; tries=$((tries + 1)); done
-}
 
 # why DIR KIND RETRY: failure.json of the only run there that has one.
 why() {
@@ -25,12 +21,14 @@ for wrong in 0 -1 1s nan; do expect 2 study study.yaml --timeout $wrong; err "--
 expect 1 budget model.yaml -o budget --set time.end=1e6 --set output.fields=none --timeout 0.2 --quiet
 expect 2 find-limit model.yaml --timeout 0; err "--timeout 0: expected seconds > 0"
 
-# One that waits for a pipe nobody reads cannot even be asked.
-study 'axes: [{key: integrator.rtol, values: [1e-3, 1e-4]}]'
+# One that waits for a pipe that is full cannot even be asked.
+study 'axes: [{key: integrator.rtol, values: [1e-3, 1e-4]}, {key: output.fields, values: [none]}, {key: time.output, values: [5e-6]}]'
 expect 0 study study.yaml -o deaf --quiet
 run=$(ls -d deaf/runs/* | head -1)
 rm "$run/result.json" "$run/probes.csv"; mkfifo "$run/probes.csv"
+exec 9<>"$run/probes.csv" # which reads nothing
 expect 1 study study.yaml -o deaf --timeout 1; err "1 of 2 runs done (0 now), 1 failed"; why deaf timeout False
+exec 9>&-
 rm "$run/probes.csv"
 expect 0 study study.yaml -o deaf --retry-failed --timeout 60; err "2 of 2 runs done (1 now), 0 failed"
 

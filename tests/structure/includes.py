@@ -20,23 +20,6 @@ import sys
 
 SHARED_TESTS = "tests/unit"
 
-# Include lines that stand, though they should not: (file, what it includes). One that no longer
-# stands is an offence of this list.
-KNOWN = {
-    ("src/app/run/result.c", "result_statics.h"),
-    ("src/app/run/run.c", "app/command/cli.h"),
-    ("src/app/run/run.c", "run_common.h"),
-    ("src/app/run/run.c", "static.h"),
-    ("src/app/run/run_common.c", "app/command/cli.h"),
-    ("src/app/run/static.c", "app/command/cli.h"),
-    ("src/app/scenario/scenario.c", "scenario_parts.h"),
-    ("src/core/model/csc.c", "core/ode/state.h"),
-    ("src/core/solid/kernel.h", "core/ode/state.h"),
-    ("src/core/system/levels.h", "core/model/model.h"),
-    ("src/core/system/levels.h", "core/ode/state.h"),
-    ("src/core/system/levels_evaluate.c", "core/ode/trial.h"),
-}
-
 
 def read_order(text):
     """'a < b, c < d' -> {'a': 0, 'b': 1, 'c': 1, 'd': 2}"""
@@ -134,13 +117,12 @@ def read_includes(tree, path):
 
 
 class Check:
-    def __init__(self, tree, known):
-        self.tree, self.known = tree, set(known)
+    def __init__(self, tree):
+        self.tree = tree
         self.rooms = Rooms(os.path.join(tree, "tests/structure/rooms"))
         self.files = find_files(tree)
         self.offences = []
         self.edges = {}  # module -> {module: "file:line: includes ..."}
-        self.used_known = set()
 
     def offend(self, path, line, why):
         self.offences.append(f"{path}:{line}: {why}")
@@ -162,9 +144,6 @@ class Check:
 
     def look_at(self, path, line, name, quoted):
         """One include line: offends, or becomes an edge between modules."""
-        if (path, name) in self.known:
-            self.used_known.add((path, name))
-            return
         if quoted:
             used, why = self.resolve(path, name)
         else:
@@ -224,17 +203,13 @@ class Check:
                 self.look_at(path, line, name, quoted)
         self.find_circles()
         self.find_twins()
-        for path, name in sorted(self.known - self.used_known):
-            self.offences.append(
-                f'tests/structure/includes.py: KNOWN: {path} no longer includes "{name}": delete that'
-            )
         return self.offences
 
 
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    check = Check(sys.argv[1], KNOWN)
+    check = Check(sys.argv[1])
     offences = check.run()
     if not check.files:
         offences = ["no files found"]

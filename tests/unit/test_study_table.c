@@ -459,7 +459,7 @@ static void medians_of_repetitions(void **state) {
   const double cpu[] = {3, 1, 2, 8};
   timings t = {0};
   for (int i = 0; i < 4; i++)
-    assert_ok(timings_add(dir, &m->run[m->cell[0].run], &t, cpu[i], 10 * cpu[i]));
+    assert_ok(timings_add(dir, &m->run[m->cell[0].run], &t, cpu[i], 10 * cpu[i], NULL));
   timings_free(&t);
   json_t *table = NULL;
   int ndamaged;

@@ -76,12 +76,19 @@ static bool is_device(const char *path) {
   return stat(path, &info) == 0 && (S_ISCHR(info.st_mode) || S_ISFIFO(info.st_mode));
 }
 
+static corot_status refuse(const char *path) {
+  return corot_fail(COROT_EIO, "%s: is not a regular file, and stays as it is", path);
+}
+
 /* A file that is not there counts as removed. */
 static corot_status remove_file(const char *dir, const char *name) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
+  struct stat info;
   corot_status status = COROT_OK;
-  if (!is_device(path) && unlink(path) != 0 && errno != ENOENT)
+  if (lstat(path, &info) == 0 && S_ISSOCK(info.st_mode))
+    status = refuse(path);
+  else if (!is_device(path) && unlink(path) != 0 && errno != ENOENT)
     status = corot_fail(COROT_EIO, "%s: cannot remove it: %s", path, strerror(errno));
   free(path);
   return status;
@@ -115,27 +122,35 @@ corot_status file_check_regular(const char *path) {
                     S_ISDIR(info.st_mode) ? "a folder" : "a device or a pipe");
 }
 
-static corot_status refuse(const char *path) {
-  return corot_fail(COROT_EIO, "%s: is not a regular file, and stays as it is", path);
-}
-
 /* How a file of ours is opened for writing: never through a link, nor where something other than a
-   regular file stands. What is written to a device of characters or to a pipe replaces nothing. */
+   regular file stands. What is written to a device of characters or to a pipe replaces nothing; a
+   pipe must have its reader already. */
 static corot_status find_flags(const char *path, int *flags) {
   struct stat info;
   *flags = O_WRONLY | O_CLOEXEC;
-  if (is_device(path)) return COROT_OK;
+  if (is_device(path)) {
+    *flags |= O_NONBLOCK;
+    return COROT_OK;
+  }
   *flags |= O_CREAT | O_NOFOLLOW;
   return lstat(path, &info) != 0 || S_ISREG(info.st_mode) ? COROT_OK : refuse(path);
+}
+
+/* Only to open it does not wait. */
+static corot_status open_to_write(const char *path, int flags, int *fd) {
+  int made = open(path, flags, 0666);
+  if (made < 0 && errno == ENXIO && flags & O_NONBLOCK)
+    return corot_fail(COROT_EIO, "%s: is a pipe that nobody reads", path);
+  if (made < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+  if (flags & O_NONBLOCK) fcntl(made, F_SETFL, fcntl(made, F_GETFL) & ~O_NONBLOCK);
+  *fd = made;
+  return COROT_OK;
 }
 
 corot_status file_create(const char *path, int *fd) {
   int flags;
   COROT_TRY(find_flags(path, &flags));
-  int made = open(path, flags | (flags & O_CREAT ? O_TRUNC : 0), 0666);
-  if (made < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
-  *fd = made;
-  return COROT_OK;
+  return open_to_write(path, flags | (flags & O_CREAT ? O_TRUNC : 0), fd);
 }
 
 corot_status file_write(int fd, const char *path, const void *data, size_t size) {
@@ -181,10 +196,7 @@ static corot_status create_temporary(const char *path, int *fd) {
     unlink(path);
     flags |= O_EXCL;
   }
-  int made = open(path, flags, 0666);
-  if (made < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
-  *fd = made;
-  return COROT_OK;
+  return open_to_write(path, flags, fd);
 }
 
 static corot_status write_whole(const char *path, const void *data, size_t size, bool durable) {

@@ -33,7 +33,8 @@ corot_status file_check_regular(const char *path);
 /* Opens `path` for writing from its beginning, made or emptied first. Stores a descriptor.
 
    This and the following never write through a link to a file, and never replace what is not a
-   regular file (a folder, a device, a link): COROT_EIO, and it stays as it is. */
+   regular file (a folder, a device, a link): COROT_EIO, and it stays as it is. Nor do they wait for
+   somebody to read a pipe of that name: COROT_EIO. */
 corot_status file_create(const char *path, int *fd);
 
 /* Writes all of it, however often the system has to be asked. `path` is for the message. */

@@ -15,10 +15,14 @@
 #include "hash.h"
 #include "inventory.h"
 
-/* Its entry for an open file; NULL: no memory. */
-static corot_status describe(int fd, const char *path, const char *name, json_t **entry) {
+/* Its entry for an open file of so many bytes. */
+static corot_status describe(int fd, const char *path, const char *name, long long size, bool hasty,
+                             json_t **entry) {
   char digest[HASH_SIZE];
-  long long size;
+  if (hasty) {
+    *entry = json_pack("{s:s, s:I}", "name", name, "size", (json_int_t)size);
+    return *entry ? COROT_OK : corot_fail(COROT_ENOMEM, "%s: out of memory", path);
+  }
   if (fsync(fd) != 0 && errno != EINVAL)
     return corot_fail(COROT_EIO, "%s: cannot write to the disk: %s", path, strerror(errno));
   COROT_TRY(hash_file(fd, path, &size, digest));
@@ -27,7 +31,7 @@ static corot_status describe(int fd, const char *path, const char *name, json_t 
 }
 
 /* Adds a file if it is there, which *found tells. What is no regular file has no contents. */
-static corot_status add(const char *dir, const char *name, json_t *list, bool *found) {
+static corot_status add(const char *dir, const char *name, bool hasty, json_t *list, bool *found) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
   struct stat info;
@@ -42,7 +46,7 @@ static corot_status add(const char *dir, const char *name, json_t *list, bool *f
   if (*found && fd < 0)
     status = corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
   if (fd >= 0) {
-    status = describe(fd, path, name, &entry);
+    status = describe(fd, path, name, (long long)info.st_size, hasty, &entry);
     close(fd);
   }
   if (entry && json_array_append_new(list, entry))
@@ -51,17 +55,17 @@ static corot_status add(const char *dir, const char *name, json_t *list, bool *f
   return status;
 }
 
-corot_status folder_files(const char *dir, json_t **list) {
+corot_status folder_files(const char *dir, bool hasty, json_t **list) {
   json_t *made = json_array();
   bool found = true;
   char frame[64];
   corot_status status = made ? COROT_OK : corot_fail(COROT_ENOMEM, "%s: out of memory", dir);
   for (int i = 0; i < INVENTORY_SIZE && status == COROT_OK; i++)
-    if (inventory[i].listed) status = add(dir, inventory[i].name, made, &found);
+    if (inventory[i].listed) status = add(dir, inventory[i].name, hasty, made, &found);
   found = true;
   for (int i = 0; found && status == COROT_OK; i++) {
     snprintf(frame, sizeof frame, "fields/fields_%06d.vtu", i);
-    status = add(dir, frame, made, &found);
+    status = add(dir, frame, hasty, made, &found);
   }
   if (status == COROT_OK)
     *list = made;
@@ -112,6 +116,12 @@ static corot_status check_one(const char *dir, const json_t *file, bool contents
   return status;
 }
 
+/* One that was made in haste: sizes must do. */
+static bool is_interrupted(const json_t *result) {
+  const char *status = json_string_value(json_object_get(result, "status"));
+  return status && strcmp(status, "interrupted") == 0;
+}
+
 static corot_status check_all(const char *dir, const json_t *result, bool contents) {
   const json_t *file;
   size_t i;
@@ -127,7 +137,7 @@ corot_status folder_check(const char *dir, const json_t *result) {
 }
 
 corot_status folder_verify(const char *dir, const json_t *result) {
-  return check_all(dir, result, true);
+  return check_all(dir, result, !is_interrupted(result));
 }
 
 corot_status folder_verify_file(const char *dir, const json_t *result, const char *name,
@@ -140,7 +150,7 @@ corot_status folder_verify_file(const char *dir, const json_t *result, const cha
   json_array_foreach(files, i, file) {
     const char *listed = json_string_value(json_object_get(file, "name"));
     if (!listed || strcmp(listed, name) != 0) continue;
-    corot_status status = check_one(dir, file, true, &there);
+    corot_status status = check_one(dir, file, !is_interrupted(result), &there);
     *lost = status == COROT_EFORMAT && !there;
     return *lost ? COROT_OK : status;
   }

@@ -288,32 +288,32 @@ static int conclude(run *r, corot_status status) {
   } else if (stop_signal() && !schedule_over(r->schedule, r->t)) {
     code = run_interrupted(sizeof reason, reason);
   }
-  stop_heeded();
+  if (code > EXIT_SIGNAL) stop_heeded();
   progress_clear(&r->progress);
 
-  /* What could be written before can be written now; if it cannot, the first reason stands. */
+  /* What could be written before can be written now. */
   corot_status late = COROT_OK;
   if (r->shown < reached(r) && code != EXIT_SYSTEM) late = write_moment(r, reached(r), true);
   corot_status closed = outputs_close(r->outputs);
   if (late == COROT_OK) late = closed;
-  if (code == 0 && late != COROT_OK) {
-    code = run_exit_code(late);
+  if (run_late_code(code, late) != code) {
+    code = run_late_code(code, late);
     status = late;
-    snprintf(reason, sizeof reason, "%s", corot_error());
+    run_add_reason(sizeof reason, reason);
   }
 
   run_summary summary;
   r->failure = run_failure_of(status, code);
-  stop_forget();
-  stop_release();
   late = run_warn_after(r->scenario, r->model, r->state, r->outputs, false, r->options,
                         &r->warnings, &r->seen);
   corot_status summed = summarize(r, reason, code, &summary);
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
+  stop_forget();
+  stop_release();
   tell(r, &summary);
-  return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
+  return run_late_code(code, late);
 }
 
 static corot_status open_outputs(run *r) {

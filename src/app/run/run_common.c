@@ -4,6 +4,7 @@
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "app/folder/folder.h"
@@ -23,6 +24,17 @@ int run_exit_code(corot_status status) {
   if (status == COROT_EINVAL || status == COROT_EFORMAT) return EXIT_SCENARIO;
   if (status == COROT_ENOMEM || status == COROT_EIO) return EXIT_SYSTEM;
   return EXIT_INTEGRATOR;
+}
+
+int run_late_code(int code, corot_status late) {
+  int refused = run_exit_code(late);
+  if (code == EXIT_OK) return refused;
+  return refused == EXIT_SYSTEM && code < EXIT_SIGNAL ? EXIT_SYSTEM : code;
+}
+
+void run_add_reason(size_t size, char *reason) {
+  size_t length = strlen(reason);
+  snprintf(reason + length, size - length, "%s%s", length > 0 ? "; " : "", corot_error());
 }
 
 run_failure run_failure_of(corot_status status, int code) {
@@ -155,12 +167,14 @@ corot_status run_write_result(const scenario *s, const outputs *o, const run_sum
   COROT_TRY(result_make(s, o, summary, &result));
   json_t *files = NULL;
   char *text = NULL;
-  corot_status status = folder_files(options->dir, &files);
+  bool hasty = summary->exit_code > EXIT_SIGNAL; /* who interrupts a run waits for its end */
+  corot_status status = folder_files(options->dir, hasty, &files);
   if (status == COROT_OK && json_object_set_new(result, "files", files))
     status = corot_fail(COROT_ENOMEM, "result.json: out of memory");
   if (status == COROT_OK) status = result_text(result, &text);
   json_decref(result);
   COROT_TRY(status);
+  stop_heeded(); /* this result is not to meet the one that was prepared */
   status = result_write(options->dir, text);
   if (options->json && (fputs(text, stdout) == EOF || fflush(stdout) == EOF))
     status = corot_fail(COROT_EIO, "stdout: cannot write");

@@ -10,6 +10,13 @@
 
 int run_exit_code(corot_status status);
 
+/* The exit code of a run that ended with `code` and could not write the rest of its files as `late`
+   says: what the system refused may pass, and whatever else there was is found again then. */
+int run_late_code(int code, corot_status late);
+
+/* Adds the message of the last failure to the reason that there is. */
+void run_add_reason(size_t size, char *reason);
+
 /* Why a run that ended with this status and exit code is not ok. */
 run_failure run_failure_of(corot_status status, int code);
 

@@ -187,7 +187,6 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .steps = r->steps,
       .reactions = r->reactions_at_end,
   };
-  if (!statics->reactions) return corot_fail(COROT_ENOMEM, "reactions: out of memory");
   corot_statics_critical(r->statics, &statics->stable, &statics->unstable);
   *summary = (run_summary){
       .status = code == 0            ? "ok"
@@ -212,6 +211,7 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .warnings = &r->warnings,
       .seen = &r->seen,
   };
+  if (!statics->reactions) return corot_fail(COROT_ENOMEM, "reactions: out of memory");
   COROT_TRY(hashes_of(r->scenario->resolved, r->mesh, &summary->hashes));
   hashes_static(&summary->hashes);
   return COROT_OK;
@@ -236,28 +236,28 @@ static int conclude(equilibrium_run *r, corot_status status) {
     code = run_interrupted(sizeof reason, reason);
   else if (code != 0)
     snprintf(reason, sizeof reason, "%s", corot_error());
-  stop_heeded();
+  if (code > EXIT_SIGNAL) stop_heeded();
 
   r->reactions_at_end = outputs_reactions(r->outputs);
   corot_status late = outputs_close(r->outputs);
-  if (code == 0 && late != COROT_OK) {
-    code = run_exit_code(late);
+  if (run_late_code(code, late) != code) {
+    code = run_late_code(code, late);
     status = late;
-    snprintf(reason, sizeof reason, "%s", corot_error());
+    run_add_reason(sizeof reason, reason);
   }
   run_summary summary;
   statics_summary statics;
   r->failure = run_failure_of(status, code);
-  stop_forget();
-  stop_release();
   late = run_warn_after(r->scenario, r->model, r->state, r->outputs, true, r->options, &r->warnings,
                         &r->seen);
   corot_status summed = summarize(r, reason, code, &statics, &summary);
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
+  stop_forget();
+  stop_release();
   tell(r, reason, &summary);
-  return late != COROT_OK && code == 0 ? run_exit_code(late) : code;
+  return run_late_code(code, late);
 }
 
 static int search(const scenario *s, const run_options *options) {

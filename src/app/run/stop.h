@@ -2,7 +2,8 @@
    the time limit that a study sets.
 
    A run looks at stop_signal() where it can end in good order. Where it cannot within a second (a
-   mesh is read, a large matrix factorised, a disk does not answer), the handler of a timer puts a
+   mesh is read, a large matrix factorised, gigabytes of a run that is over are read for their
+   hashes, a disk does not answer), the handler of a timer puts a
    result.json in place that was prepared beforehand, and ends the process. The handlers call
    nothing but what POSIX calls safe in them. */
 #ifndef COROT_APP_RUN_STOP_H
@@ -44,7 +45,8 @@ void stop_hold(void);
 /* How far the run has come, for that text [s]. */
 void stop_reached(double t);
 
-/* The run has seen the request, and ends in good order however long it takes. */
+/* The run has seen the request, or puts its own result.json in place: it ends in good order,
+   however long it takes. */
 void stop_heeded(void);
 
 #endif

@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "app/folder/folder.h"
+
 static corot_status foreign(const vtu_file *f, const char *what) {
   return corot_fail(COROT_EFORMAT,
                     "%s: %s: not a file of fields as corot writes them on this machine", f->path,
@@ -72,7 +74,9 @@ void vtu_close(vtu_file *f) {
 }
 
 corot_status vtu_open(const char *path, vtu_file *f) {
-  *f = (vtu_file){.path = path, .fd = open(path, O_RDONLY | O_CLOEXEC)};
+  *f = (vtu_file){.path = path, .fd = -1};
+  COROT_TRY(file_check_regular(path));
+  f->fd = open(path, O_RDONLY | O_CLOEXEC);
   struct stat about;
   if (f->fd < 0 || fstat(f->fd, &about) != 0) {
     corot_fail(COROT_EIO, "%s: %s", path, strerror(errno));

@@ -5,10 +5,12 @@
 #include <string.h>
 
 #include "app/command/cli.h"
+#include "app/folder/folder.h"
 #include "app/folder/read_csv.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
 #include "command_study.h"
+#include "study/execute/builds.h"
 #include "study/execute/store.h"
 #include "study/execute/variants.h"
 #include "study/measure/limit.h"
@@ -65,6 +67,7 @@ typedef struct search {
   double energy; /* at `from`, at its largest [J]; NaN: not yet known */
   int signal_number;
   bool looked; /* at what there was before */
+  builds made_by;
 } search;
 
 /* --- Arguments --- */
@@ -127,12 +130,26 @@ static corot_status largest_energy(const char *dir, double *largest) {
   return status;
 }
 
+/* Unstable runs have a build, too. */
+static corot_status enter_build(search *s, const study_run *run) {
+  char *path = store_path(s->arguments->options.dir, run, "result.json");
+  json_t *result = NULL;
+  bool there = false;
+  corot_status status = path ? folder_look(path, &there) : COROT_ENOMEM;
+  if (status == COROT_OK && there) status = json_file_read(path, &result);
+  free(path);
+  if (status == COROT_OK && result) builds_add(&s->made_by, run, result, false);
+  json_decref(result);
+  return status;
+}
+
 static corot_status judge(search *s, const study_run *run, limit_trial *trial) {
   run_record record;
   COROT_TRY(store_look(s->arguments->options.dir, run, &record));
   trial->stable = record.state == RUN_DONE;
   snprintf(trial->reason, sizeof trial->reason, "%s", record.reason ? record.reason : "");
   run_record_free(&record);
+  COROT_TRY(enter_build(s, run));
   if (!trial->stable) return COROT_OK;
 
   char *dir = store_path(s->arguments->options.dir, run, "");
@@ -183,7 +200,7 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
 
 /* --- What was found --- */
 
-static json_t *result_json(const search *s, const limit_result *r) {
+static json_t *result_json(search *s, const limit_result *r) {
   json_t *trials = json_array();
   for (int i = 0; i < r->ntrial; i++) {
     const limit_trial *t = &r->trial[i];
@@ -191,14 +208,16 @@ static json_t *result_json(const search *s, const limit_result *r) {
         trials, json_pack("{s:f, s:b, s:o}", "value", t->value, "stable", t->stable, "reason",
                           *t->reason ? json_text_string(t->reason) : json_null()));
   }
-  return json_pack("{s:o, s:s, s:s, s:o, s:o, s:i, s:f, s:o, s:o}", "title",
+  builds_sort(&s->made_by);
+  return json_pack("{s:o, s:s, s:s, s:o, s:o, s:i, s:f, s:o, s:o, s:o}", "title",
                    json_text_string(s->scenario->title), "scenario", s->scenario->path, "key",
                    s->key, "stable", r->stable > 0 ? json_real(r->stable) : json_null(), "unstable",
                    json_text_real(r->unstable), "stable_again", r->nreturn, "energy_factor",
-                   s->factor, "energy", json_text_real(s->energy), "trials", trials);
+                   s->factor, "energy", json_text_real(s->energy), "mixed",
+                   builds_sentence(s->made_by.list), "trials", trials);
 }
 
-static void print_result(const search *s, const limit_result *r) {
+static void print_result(const search *s, const limit_result *r, const char *mixed) {
   for (int i = 0; i < r->ntrial; i++)
     show("%12.6g  %s%s\n", r->trial[i].value,
          r->trial[i].stable ? "stable" : "unstable: ", r->trial[i].reason);
@@ -210,16 +229,17 @@ static void print_result(const search *s, const limit_result *r) {
     show("%s: stable up to %.4g, unstable from %.4g on\n", s->key, r->stable, r->unstable);
   if (r->nreturn > 0)
     show("%d larger values are stable again: this limit is not the only one\n", r->nreturn);
+  if (mixed) show("%s\n", mixed);
 }
 
-static int conclude(const search *s, const limit_result *r) {
+static int conclude(search *s, const limit_result *r) {
   json_t *found = result_json(s, r);
   corot_status status = found ? json_file_write(s->arguments->options.dir, "limit.json", found)
                               : corot_fail(COROT_ENOMEM, "out of memory");
   if (status == COROT_OK && s->arguments->json)
     status = json_text_show(found);
   else if (status == COROT_OK)
-    print_result(s, r);
+    print_result(s, r, json_string_value(json_object_get(found, "mixed")));
   json_decref(found);
   if (status != COROT_OK) return failure(status);
   return r->stable > 0 && isfinite(r->unstable) ? EXIT_OK : EXIT_CHECK;
@@ -240,6 +260,7 @@ static int find(void *context, const scenario *of, const variants_arguments *a) 
   search *s = context;
   s->scenario = of;
   s->arguments = a;
+  s->made_by = builds_begin();
   limit_result *r = calloc(1, sizeof *r);
   if (!r) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
   corot_status status = limit_find(&s->def, try_values, s, r);
@@ -250,6 +271,7 @@ static int find(void *context, const scenario *of, const variants_arguments *a) 
     code = usage_error("corot find-limit", "%s", corot_error());
   else
     code = status == COROT_OK ? conclude(s, r) : failure(status);
+  builds_free(&s->made_by);
   free(r);
   return code;
 }

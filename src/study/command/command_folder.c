@@ -99,7 +99,11 @@ int command_study_csv(int argc, char **argv) {
   int code = only_folder("csv", argc, argv, &dir);
   if (code >= 0) return code;
   char *path = folder_path(dir, "table.csv");
-  if (!path) return failure(COROT_ENOMEM);
+  corot_status status = path ? file_check_regular(path) : COROT_ENOMEM;
+  if (status != COROT_OK) {
+    free(path);
+    return failure(status);
+  }
   FILE *file = fopen(path, "re");
   if (!file) code = failure(corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno)));
   for (int c; file && (c = getc(file)) != EOF;) putchar(c);

@@ -62,6 +62,15 @@ void builds_add(builds *b, const study_run *run, const json_t *result, bool refe
   if (!enter(b, run->id, json_object_get(result, "provenance"), reference)) builds_free(b);
 }
 
+void builds_add_timed(builds *b, const study_run *run, const json_t *result,
+                      const json_t *provenance) {
+  char id[64];
+  snprintf(id, sizeof id, "%s, timed", run->id);
+  if (!b->list || json_object_get(b->entered, id)) return;
+  if (provenance_equal(provenance, json_object_get(result, "provenance"))) return;
+  if (!enter(b, id, provenance, false)) builds_free(b);
+}
+
 void builds_sort(builds *b) {
   size_t first = 0;
   for (size_t i = 1; i < json_array_size(b->list); i++)

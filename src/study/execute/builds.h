@@ -1,6 +1,7 @@
 /* Which builds of the program the runs of a study are of (app/folder/provenance.h): a list
 
-     [{provenance, runs: [ids], references: how many of them are runs of references}, ...]
+     [{provenance, runs: [ids, and "ID, timed" of repetitions for the clock], references: how many
+   of them are runs of references}, ...]
 
    with the build of most runs first. Numbers and times of one build need not be those of another,
    though scenario, mesh and version are the same. */
@@ -11,7 +12,7 @@
 
 typedef struct builds {
   json_t *list;    /* NULL: memory ran out */
-  json_t *entered; /* an object with the ids as keys */
+  json_t *entered; /* an object with what is in their "runs" as keys */
 } builds;
 
 builds builds_begin(void);
@@ -19,6 +20,10 @@ void builds_free(builds *b);
 
 /* Enters a run that is done, unless it is there. */
 void builds_add(builds *b, const study_run *run, const json_t *result, bool reference);
+
+/* Enters a timed repetition of it if another build made that, as "ID, timed". */
+void builds_add_timed(builds *b, const study_run *run, const json_t *result,
+                      const json_t *provenance);
 
 /* Puts the build of most runs first. */
 void builds_sort(builds *b);

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/folder/folder.h"
 #include "app/run/run_clock.h"
 #include "app/text/no_memory.h"
 #include "app/text/say.h"
@@ -79,7 +80,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
    nothing. */
 static void read_messages(const char *path, size_t size, char *text) {
   text[0] = '\0';
-  FILE *file = fopen(path, "re");
+  FILE *file = file_check_regular(path) == COROT_OK ? fopen(path, "re") : NULL;
   if (!file) return;
   size_t length = fread(text, 1, size - 1, file);
   fclose(file);

@@ -7,9 +7,8 @@
 #include "pool.h"
 #include "study/plan/json_file.h"
 
-/* The times of the repetition that has just ended; false: it left none. */
-static corot_status read_times(execution *e, const study_run *run, double *cpu, double *wall,
-                               bool *found) {
+/* Enters the repetition that has just ended; false: it left no times. */
+static corot_status enter_times(execution *e, const study_run *run, timings *t, bool *found) {
   char *path = store_path(e->o->dir, run, "timed/result.json");
   if (!path) return no_memory();
   json_t *result = NULL;
@@ -19,20 +18,21 @@ static corot_status read_times(execution *e, const study_run *run, double *cpu, 
   const json_t *times = json_object_get(result, "timings");
   const json_t *c = json_object_get(times, "cpu"), *w = json_object_get(times, "wall");
   *found = json_is_number(c) && json_is_number(w);
-  *cpu = json_number_value(c);
-  *wall = json_number_value(w);
+  status = COROT_OK;
+  if (*found)
+    status = timings_add(e->o->dir, run, t, json_number_value(c), json_number_value(w),
+                         json_object_get(result, "provenance"));
   json_decref(result);
-  return COROT_OK;
+  return status;
 }
 
 static corot_status repeat_once(execution *e, int i, timings *t) {
   int same, ended;
-  double cpu, wall;
   bool found = false;
   COROT_TRY(execution_start(e, i, "timed", "output={fields: none, states: none}"));
   COROT_TRY(pool_wait(&same, &ended));
-  if (ended == 0) COROT_TRY(read_times(e, e->task[i].run, &cpu, &wall, &found));
-  if (found) return timings_add(e->o->dir, e->task[i].run, t, cpu, wall);
+  if (ended == 0) COROT_TRY(enter_times(e, e->task[i].run, t, &found));
+  if (found) return COROT_OK;
   if (store_is_timeout(ended) || pool_signal()) return COROT_OK;
   return corot_fail(
       COROT_EIO,

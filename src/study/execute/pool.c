@@ -5,8 +5,10 @@
 #include <fcntl.h>
 #include <math.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -76,6 +78,16 @@ static void limit_time(double timeout) {
   setitimer(ITIMER_REAL, &limit, NULL);
 }
 
+/* A pipe would keep it waiting for a reader. */
+static int open_messages(const char *path) {
+  struct stat info;
+  int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_NOFOLLOW | O_NONBLOCK, 0666);
+  if (file >= 0 && fstat(file, &info) == 0 && S_ISREG(info.st_mode)) return file;
+  if (file >= 0 || errno == ENXIO || errno == ELOOP)
+    dprintf(STDERR_FILENO, "%s: is not a regular file, and stays as it is\n", path);
+  return -1;
+}
+
 /* In the new process: never returns. */
 static void become(const char *const *argv, const char *messages, pid_t parent,
                    const sigset_t *mask, double timeout) {
@@ -90,7 +102,7 @@ static void become(const char *const *argv, const char *messages, pid_t parent,
   limit_time(timeout);
   sigprocmask(SIG_SETMASK, mask, NULL);
   int nothing = open("/dev/null", O_RDONLY);
-  int file = open(messages, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0666);
+  int file = open_messages(messages);
   if (nothing < 0 || file < 0) _exit(5);
   dup2(nothing, 0);
   dup2(file, 1);

@@ -152,7 +152,7 @@ static bool is_request(int number) {
 run_failure store_failure(int ended) {
   if (store_is_timeout(ended)) return (run_failure){"timeout", false};
   if (is_request(-ended) || ended > 127) return (run_failure){"interrupted", true};
-  if (ended < 0) return (run_failure){"crash", false};
+  if (ended < 0) return (run_failure){"crash", true}; /* mostly for want of memory */
   if (ended == EXIT_SYSTEM || ended == 127) return (run_failure){"io", true};
   if (ended == EXIT_INTEGRATOR) return (run_failure){"integrator", false};
   return (run_failure){"scenario", ended == 0}; /* 0: it was changed meanwhile */
@@ -197,15 +197,20 @@ corot_status store_check(const char *dir, store_lock lock) {
 
 /* --- Timings --- */
 
-static corot_status timings_grow(timings *t, double cpu, double wall) {
-  size_t size = (size_t)(t->n + 1) * sizeof *t->cpu;
-  double *more = realloc(t->cpu, size);
-  if (more) t->cpu = more;
-  double *longer = more ? realloc(t->wall, size) : NULL;
-  if (!longer) return no_memory();
-  t->wall = longer;
+static bool grow(void **array, int n, size_t size) {
+  void *more = realloc(*array, (size_t)n * size);
+  if (more) *array = more;
+  return more != NULL;
+}
+
+static corot_status timings_grow(timings *t, double cpu, double wall, json_t *provenance) {
+  int n = t->n + 1;
+  if (!grow((void **)&t->cpu, n, sizeof *t->cpu) || !grow((void **)&t->wall, n, sizeof *t->wall) ||
+      !grow((void **)&t->provenance, n, sizeof(json_t *)))
+    return no_memory();
   t->cpu[t->n] = cpu;
-  t->wall[t->n++] = wall;
+  t->wall[t->n] = wall;
+  t->provenance[t->n++] = json_incref(provenance);
   return COROT_OK;
 }
 
@@ -218,7 +223,8 @@ corot_status timings_read(const char *dir, const study_run *run, timings *out) {
   for (size_t i = 0; i < json_array_size(runs) && status == COROT_OK; i++) {
     const json_t *entry = json_array_get(runs, i);
     status = timings_grow(&t, json_number_value(json_object_get(entry, "cpu")),
-                          json_number_value(json_object_get(entry, "wall")));
+                          json_number_value(json_object_get(entry, "wall")),
+                          json_object_get(entry, "provenance"));
   }
   json_decref(json);
   if (status == COROT_OK)
@@ -228,12 +234,13 @@ corot_status timings_read(const char *dir, const study_run *run, timings *out) {
   return status;
 }
 
-corot_status timings_add(const char *dir, const study_run *run, timings *t, double cpu,
-                         double wall) {
-  COROT_TRY(timings_grow(t, cpu, wall));
+corot_status timings_add(const char *dir, const study_run *run, timings *t, double cpu, double wall,
+                         json_t *provenance) {
+  COROT_TRY(timings_grow(t, cpu, wall, provenance));
   json_t *list = json_array();
   for (int i = 0; i < t->n; i++)
-    list = json_text_push(list, json_pack("{s:f, s:f}", "cpu", t->cpu[i], "wall", t->wall[i]));
+    list = json_text_push(list, json_pack("{s:f, s:f, s:O?}", "cpu", t->cpu[i], "wall", t->wall[i],
+                                          "provenance", t->provenance[i]));
   json_t *json = json_pack("{s:s, s:o}", "hash", run->hash, "runs", list);
   char *path = store_path(dir, run, "");
   corot_status status = json && path ? json_file_write(path, "timings.json", json) : no_memory();
@@ -243,6 +250,8 @@ corot_status timings_add(const char *dir, const study_run *run, timings *t, doub
 }
 
 void timings_free(timings *t) {
+  for (int i = 0; i < t->n; i++) json_decref(t->provenance[i]);
+  free(t->provenance);
   free(t->cpu);
   free(t->wall);
   *t = (timings){0};

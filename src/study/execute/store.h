@@ -5,7 +5,8 @@
      runs/ID/failure.json  why there is no result.json: {"hash", "reason", "exit_code" | "signal",
                            "failure": {"kind", "retry"}} as in result.json; the kind is "crash" or
                            "timeout", too
-     runs/ID/timings.json  timed repetitions: {"hash", "runs": [{"cpu", "wall"}, ...]} [s]
+     runs/ID/timings.json  timed repetitions: {"hash", "runs": [{"cpu", "wall",
+                           "provenance" as in result.json}, ...]} [s]
      runs/ID/messages.txt  what the run had to say, if anything
      table.json, table.csv, index.sqlite   collected from them (collect.h)
      .lock                 held while a study is at work here
@@ -57,13 +58,14 @@ corot_status store_fail(const char *dir, const study_run *run, int ended, const 
 /* Timed repetitions, all of the same run. */
 typedef struct timings {
   int n;
-  double *cpu, *wall; /* [n] [s] */
+  double *cpu, *wall;  /* [n] [s] */
+  json_t **provenance; /* [n] what each was made by; NULL: it does not say */
 } timings;
 
 /* None recorded: n = 0. */
 corot_status timings_read(const char *dir, const study_run *run, timings *out);
-corot_status timings_add(const char *dir, const study_run *run, timings *t, double cpu,
-                         double wall);
+corot_status timings_add(const char *dir, const study_run *run, timings *t, double cpu, double wall,
+                         json_t *provenance);
 void timings_free(timings *t);
 
 /* Makes the folder the study's own, or fails with COROT_EINVAL: it is another study's, or one is at

@@ -67,7 +67,7 @@ static corot_status measure_cell(measuring *g, const table_reference *references
   const table_reference *r = c->reference >= 0 ? &references[c->reference] : NULL;
   bool known = r && r->known;
   t->approximations = approximations_of(result);
-  COROT_TRY(costs_read(g->dir, t->run, result, &t->cost));
+  COROT_TRY(costs_read(g->dir, t->run, result, &g->builds, &t->cost));
   corot_status status =
       measure_run(g, t->run, result, known ? c->reference : -1, &t->error, &t->drift);
   if (status != COROT_OK) return note(status, &t->note);

@@ -67,7 +67,8 @@ static double number_at(const json_t *object, const char *key) {
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-corot_status costs_read(const char *dir, const study_run *run, const json_t *result, costs *out) {
+corot_status costs_read(const char *dir, const study_run *run, const json_t *result,
+                        builds *made_by, costs *out) {
   const json_t *count = json_object_get(result, "statistics");
   const json_t *time = json_object_get(result, "timings");
   costs c = {.steps = number_at(count, "nst"),
@@ -77,6 +78,7 @@ corot_status costs_read(const char *dir, const study_run *run, const json_t *res
   timings t = {0};
   COROT_TRY(timings_read(dir, run, &t));
   c.repeats = t.n;
+  for (int i = 0; i < t.n; i++) builds_add_timed(made_by, run, result, t.provenance[i]);
   if (t.n > 0) {
     spread(t.n, t.cpu, &c.cpu_min, &c.cpu, &c.cpu_max);
     spread(t.n, t.wall, &c.wall_min, &c.wall, &c.wall_max);
