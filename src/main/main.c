@@ -43,7 +43,8 @@ static const char help[] =
     "     or some runs did                   there are no results in a folder, or files of\n"
     "  2  the command line makes no sense    others that only --force replaces\n"
     "  3  a scenario, study or mesh is bad or missing\n"
-    "  128 + N  interrupted by signal N, after writing what there was (130: Ctrl-C, 143: kill)\n"
+    "  128 + N  interrupted by signal N, after writing what there was (130: Ctrl-C, 143: kill);\n"
+    "           or ended by a fault (139, 134), which is said, with what was written by then\n"
     "\n"
     "example: corot run models/bar/bar.yaml -o out/bar --set integrator.rtol=1e-6\n";
 

@@ -422,7 +422,8 @@ static void what_cannot_be_said(void **state) {
   for (int i = 0; i < 4; i++) run[i] = &m->run[m->cell[i].run];
   assert_ok(store_clear(dir, run[0]));
   assert_ok(store_clear(dir, run[1]));
-  assert_ok(store_fail(dir, run[1], -11, "killed by signal 11"));
+  assert_ok(store_fail(dir, run[0], -11, "killed by signal 11")); /* is tried again */
+  assert_ok(store_fail(dir, run[1], 4, "gave up"));
   char *path = store_path(dir, run[2], "states.bin");
   assert_int_equal(truncate(path, 1500), 0);
   free(path);
@@ -437,9 +438,10 @@ static void what_cannot_be_said(void **state) {
   const json_t *cells = json_object_get(table, "cells"), *c[8];
   for (size_t i = 0; i < 8; i++) c[i] = json_array_get(cells, i);
   assert_string_equal(text(c[0], "status"), "missing");
+  assert_string_equal(text(c[0], "reason"), "killed by signal 11");
   assert_true(json_is_null(json_object_get(c[0], "cost")));
   assert_string_equal(text(c[1], "status"), "failed");
-  assert_string_equal(text(c[1], "reason"), "killed by signal 11");
+  assert_string_equal(text(c[1], "reason"), "gave up");
   assert_string_equal(text(c[2], "status"), "done");
   assert_true(json_is_null(json_object_get(c[2], "error")));
   assert_non_null(strstr(text(c[2], "note"), "its reference at 1 s"));

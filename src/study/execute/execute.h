@@ -9,7 +9,7 @@ typedef struct execute_totals {
   int nrun;    /* in this shard */
   int ndone;   /* of them, at the end */
   int nfailed; /* for a reason of their own, which is recorded */
-  int nlost;   /* stopped from outside or for want of disk or memory: will be tried again */
+  int nlost;   /* stopped from outside, for want of disk or memory, or by a crash: tried again */
   int nnew;    /* of those done: now */
 } execute_totals;
 
