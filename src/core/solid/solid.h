@@ -89,7 +89,8 @@ size_t corot_solid_state_bytes(const solid *body, const solid_state *s);
 /* All return COROT_RETRY where a tet is inverted, s->inverted, or where forces exceed double
    precision, s->inverted being -1. */
 
-/* Adds the internal and viscous forces to the sum, which the caller starts with a check of zero. */
+/* Adds minus the internal and viscous forces to the sum, which the caller starts with a check of
+   zero. */
 corot_status corot_solid_force(const solid *body, solid_state *s, nodal_field u, nodal_field v,
                                force_sum *sum);
 
@@ -105,16 +106,15 @@ corot_status corot_solid_matrices(const solid *body, solid_state *s, nodal_field
 corot_status corot_solid_energy(const solid *body, solid_state *s, nodal_field u, nodal_field v,
                                 double *elastic, double *power);
 
-/* Adds minus the internal force of another measure, index `strain`, with frames of its own and with
-   the coefficients times the factors given. */
+/* Adds minus the internal force of any measure, index `strain`, in its own frames and with the
+   coefficients times the factors given. */
 corot_status corot_solid_internal(const solid *body, solid_state *s, nodal_field u, int strain,
                                   double lambda_part, double mu_part, force_sum *sum);
 
-/* s->frames.R is where they are, displaced by u. The frames of the measure's rule: R [tets.nblock].
- */
+/* R [tets.nblock] = the frames of u by the measure's rule. */
 corot_status corot_solid_frames(const solid *body, solid_state *s, nodal_field u, mat3 *R);
 
-/* s->spin = their angular velocity; *spin_max = the largest of it and what it is [rad/s]. */
+/* s->spin = the angular velocity of these, for v; *spin_max = the largest of it [rad/s]. */
 corot_status corot_solid_spin(const solid *body, solid_state *s, nodal_field u, nodal_field v,
                               double *spin_max);
 

@@ -120,7 +120,7 @@ size_t corot_system_state_bytes(const solid_system *y, const system_state *s);
    since the held frames were found [s]. COROT_RETRY where a tet is inverted, s->inverted, or where
    forces exceed double precision, s->inverted being -1. */
 
-/* r += internal and viscous forces: `row` [nnode] says where, -1 nowhere; NULL: on all components,
+/* r -= internal and viscous forces: `row` [nnode] says where, -1 nowhere; NULL: on all components,
    r being a nodal field. */
 corot_status corot_system_force(const solid_system *y, system_state *s, double age, nodal_field u,
                                 nodal_field v, const int (*row)[3], double *r);
