@@ -366,7 +366,7 @@ corot_status corot_equilibrium_judge(equilibrium *e, corot_stability *stability)
   corot_status status = factor(e, COROT_TANGENT_EXACT);
   corot_state_use(e->state, e->def->frames);
   if (status < 0 && status != COROT_ESINGULAR) return status;
-  bool blind = e->pencil->chosen.ops->iterations != NULL;
-  *stability = status ? COROT_UNSTABLE : blind ? COROT_STABILITY_UNKNOWN : COROT_STABLE;
+  bool known = e->pencil->chosen.ops->knows_definiteness;
+  *stability = status ? COROT_UNSTABLE : known ? COROT_STABLE : COROT_STABILITY_UNKNOWN;
   return COROT_OK;
 }

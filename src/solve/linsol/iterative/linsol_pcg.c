@@ -232,5 +232,22 @@ static corot_status pcg_solve(void *solver, double *x) {
 
 static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
 
-const linsol_ops corot_linsol_pcg = {"pcg",     COROT_LOWER, pcg_create,     pcg_factor,
-                                     pcg_solve, pcg_destroy, pcg_iterations, NULL};
+static const linsol_variant variants[] = {
+    {.name = "pcg, block-jacobi", .preconditioner = "block-jacobi"},
+    {.name = "pcg, incomplete-cholesky", .preconditioner = "incomplete-cholesky"},
+    {.name = "pcg, hierarchical", .preconditioner = "hierarchical"},
+    {.name = "pcg, multigrid", .preconditioner = "multigrid"},
+    {.name = NULL},
+};
+
+const linsol_ops corot_linsol_pcg = {
+    .name = "pcg",
+    .variants = variants,
+    .iterative = true,
+    .triangle = COROT_LOWER,
+    .create = pcg_create,
+    .factor = pcg_factor,
+    .solve = pcg_solve,
+    .destroy = pcg_destroy,
+    .iterations = pcg_iterations,
+};
