@@ -39,6 +39,7 @@ static corot_status collect(const precision *p, points *all) {
     points_free(all);
     return corot_fail(COROT_ENOMEM, "out of memory");
   }
+  /* cells come sorted by series, so that the points of each stand together */
   for (int i = 0, k = 0; i < t->ncell; i++) {
     const study_cell *c = &t->cell[i];
     chart_series *s = &all->series[c->series];

@@ -45,6 +45,7 @@ int command_report(int argc, char **argv) {
   if (argc - optind != 1)
     return usage_error("corot report", "expected one folder, found %d", argc - optind);
   if (output && !*output) return usage_error("corot report", "--output: the name is empty");
+  /* the page, beside the results unless another place is named */
   char *path = output ? NULL : folder_path(argv[optind], "report.html");
   if (!output && !path) return failure(COROT_ENOMEM);
   if (!output) output = path;

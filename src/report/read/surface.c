@@ -82,6 +82,7 @@ corot_status surface_create(int nnode, int ntet, const int (*tet)[4], surface *o
   surface s = {0};
   bool complete = f && number;
   if (complete) {
+    /* the faces that belong to one tet alone */
     for (int e = 0; e < ntet; e++)
       for (int k = 0; k < 4; k++) f[4 * e + k] = face_of(e, tet[e], k);
     s.ntri = keep_single((int)nface, f);

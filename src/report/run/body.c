@@ -219,10 +219,12 @@ static corot_status write_data(const body *b, FILE *out) {
   write_geometry(b, out);
   COROT_TRY(write_moments(b, out));
   COROT_TRY(conditions_write(b->run, b->f, &b->s, b->nshown, b->t, out));
+  /* the displacement moves the body */
   for (int k = UX; k <= UZ; k++) {
     fprintf(out, ",\"%s\":", about[k].name);
     COROT_TRY(write_steps(count(b, k) * (size_t)b->nshown, b->value[k], out));
   }
+  /* fields that vary colour it */
   fputs(",\"fields\":[", out);
   const char *separator = "";
   for (int k = SPEED; k < NVALUE; k++) {

@@ -234,9 +234,11 @@ static corot_status find_arrows(const conditions *c, const json_t *map, places *
 static corot_status write_load(const conditions *c, const json_t *map, FILE *out) {
   char text[256];
   const json_t *v = describe_load(map, sizeof text, text);
+  /* where its arrows stand */
   places p;
   COROT_TRY(find_arrows(c, map, &p));
   corot_status status = pick(c, CONDITIONS_ARROWS, &p);
+  /* what it is, where, and how it changes in time */
   fputs("{\"text\":", out);
   encode_text(text, out);
   fprintf(out, ",\"whole\":%s,\"vector\":", lookup(map, "gravity") ? "true" : "false");

@@ -62,6 +62,7 @@ static corot_status write_run(const void *what, FILE *out) {
   const char *title = lookup_text(run->result, "title");
   bool still = run_folder_is_static(run);
   page_begin(*title ? title : run->dir, still ? "static" : "run", out);
+  /* what it came to */
   run_summary_write(run, out);
   write_lost(run, out);
   if (run->budget) budget_write(run->budget, out);
@@ -70,12 +71,14 @@ static corot_status write_run(const void *what, FILE *out) {
         out, "p class=\"warning\"",
         "The budget.json in this folder is not of this run, but of another scenario, mesh or "
         "command: it is left out.");
+  /* to look at */
   COROT_TRY(write_body(run, out));
   page_hint(out);
   COROT_TRY(still ? write_equilibrium(run, out) : write_motion(run, out));
   if (run->energy.nrow > 0) COROT_TRY(section(run, "energy", "Energy", run_figures_energy, out));
   if (run->compare.nrow > 0)
     COROT_TRY(section(run, "strains", "Strain measures", run_figures_compare, out));
+  /* what was asked for */
   run_summary_scenario(run, out);
   page_end(out);
   return COROT_OK;

@@ -33,6 +33,7 @@ static void write_outcome(const run_folder *run, FILE *out) {
 static void write_sentence(const run_folder *run, FILE *out) {
   const json_t *r = run->result;
   double tets = lookup_number(r, "mesh.tets"), dofs = lookup_number(r, "mesh.dofs");
+  /* of an equilibrium */
   if (run_folder_is_static(run)) {
     double nstep = lookup_number(r, "statistics.nstep");
     page_element(out, "p class=\"lead\"",
@@ -42,6 +43,7 @@ static void write_sentence(const run_folder *run, FILE *out) {
                  lookup_number(r, "timings.cpu"));
     return;
   }
+  /* of a run */
   double step = lookup_number(r, "integrator.step");
   char control[48];
   if (step > 0)

@@ -125,6 +125,7 @@ static corot_status write_residuals(const run_folder *run, const json_t *steps, 
     most += json_array_size(lookup(json_array_get(steps, i), "residual")) + 1;
   residuals r;
   COROT_TRY(residuals_create(most, &r));
+  /* a point for each iteration, and the tolerance as a line */
   double at = 0, tolerance = lookup_number(run->result, "statics.tolerance");
   for (size_t i = 0; i < json_array_size(steps); i++) add_step(&r, json_array_get(steps, i), &at);
   const double ends[2] = {0, at}, level[2] = {tolerance, tolerance};

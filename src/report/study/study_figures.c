@@ -25,6 +25,7 @@ static void write_choices(const study_table *t, FILE *out) {
     if (k) fputc(',', out);
     encode_text(study_cost_label[k], out);
   }
+  /* each error with its floor, and which cells are left out of its diagram */
   fputs("],\"errors\":[", out);
   for (int e = 0; e < t->nerror; e++) {
     char label[160];
@@ -97,6 +98,7 @@ static void write_fits(const study_table *t, FILE *out) {
       "<th class=\"number\">constant</th><th class=\"number\">scatter, decades</th><th>verdict</th>"
       "</tr></thead><tbody>\n",
       out);
+  /* a row for each series */
   for (size_t i = 0; i < json_array_size(fits); i++) {
     const json_t *fit = json_array_get(fits, i);
     static const char *const key[] = {"exponent", "constant", "residual"};
@@ -115,6 +117,7 @@ static void draw_tolerance(const study_table *t, double *x, double *y, figure_se
                            FILE *out) {
   char label[160];
   const char *key = "";
+  /* the points of a series stand together, as its cells do */
   for (int i = 0, k = 0; i < t->ncell; i++) {
     const study_cell *c = &t->cell[i];
     figure_series *s = &series[c->series];

@@ -30,6 +30,7 @@ static void write_references(const study_table *t, FILE *out) {
   const char *shared = lookup_text(t->root, "shared");
   if (*shared) page_element(out, "p", "%s", shared);
   page_warning(lookup_text(t->root, "mixed"), out);
+  /* how far each is to be trusted */
   for (size_t i = 0; i < json_array_size(references); i++) {
     const json_t *r = json_array_get(references, i);
     const json_t *agree = lookup(r, "agree");
@@ -38,6 +39,7 @@ static void write_references(const study_table *t, FILE *out) {
     page_element(out, bad ? "p class=\"warning\"" : "p", "Reference%s%s%s%s", *note ? ": " : "",
                  note, *reason ? ": " : "", reason);
   }
+  /* what the meshes do, which no reference knows of */
   const json_t *space = lookup(t->root, "space");
   for (size_t i = 0; i < json_array_size(space); i++) {
     const json_t *s = json_array_get(space, i);

@@ -218,6 +218,7 @@ static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {
 }
 
 corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_step *step) {
+  /* what needs no step, or may not have one */
   if (!(t_stop > self->t) || !isfinite(t_stop))
     return corot_fail(COROT_EINVAL, "integrator: cannot stop at t = %.17g, being at %.17g", t_stop,
                       self->t);
@@ -228,11 +229,13 @@ corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_
   if (self->def.max_steps > 0 && self->nst >= self->def.max_steps)
     return corot_fail(COROT_EINTEGRATE, "%s: max_steps = %ld reached at t = %g",
                       self->ops->kind.name, self->def.max_steps, self->t);
+  /* the method's own step */
   corot_step taken;
   double start = clock_wall();
   corot_status status = self->ops->step(self, t_stop, &taken);
   self->step_s += clock_wall() - start;
   if (status) return status;
+  /* what the step has changed */
   taken.h = taken.t - self->t;
   self->before = self->t;
   self->t = taken.t;
@@ -301,6 +304,7 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
                         .combine_s = p.combine_s,
                         .factor_s = p.factor_s,
                         .solve_s = p.solve_s};
+  /* the method's own counts, and what the steps took beside the phases above */
   self->ops->statistics(self, &s);
   s.nst = self->nst;
   s.hlast = self->hlast;

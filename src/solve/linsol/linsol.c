@@ -4,7 +4,12 @@
 #include <stdlib.h>
 
 corot_linear_def corot_linear_defaults(void) {
-  return (corot_linear_def){"auto", "auto", "auto", "auto", 1e-10, COROT_ROLE_DYNAMIC, NULL};
+  return (corot_linear_def){.solver = "auto",
+                            .ordering = "auto",
+                            .factor = "auto",
+                            .preconditioner = "auto",
+                            .tolerance = 1e-10,
+                            .role = COROT_ROLE_DYNAMIC};
 }
 
 static corot_status check_refinement(const corot_model *model, const corot_refinement *r) {
@@ -17,6 +22,7 @@ static corot_status check_refinement(const corot_model *model, const corot_refin
 static corot_status make(const corot_model *model, const linsol_plan *plan, linsol *s) {
   s->ops = plan->ops;
   s->name = plan->name;
+  s->by_cost = plan->by_cost;
   s->rival = plan->rival;
   if (s->ops->triangle == COROT_FULL) {
     corot_csc_destroy(s->csc);

@@ -8,9 +8,20 @@
 /* What is to be used on one matrix, every "auto" decided. */
 typedef struct linsol_plan linsol_plan;
 
+/* One way to set a solver up: its name in full, and the choices that it stands for; NULL: of no
+   importance. */
+typedef struct linsol_variant {
+  const char *name, *ordering, *factor, *preconditioner;
+} linsol_variant;
+
+/* A linear solver: what it is called, what it is like, and what it does. */
 typedef struct linsol_ops {
   const char *name;
-  corot_triangle triangle; /* the part of the matrix it reads */
+  const linsol_variant *variants; /* up to one without a name */
+  bool iterative;                 /* its factor is a preconditioner, its solution is iterated */
+  bool knows_definiteness;        /* it tells whether A is positive definite: factor refuses other
+                                     matrices,        or count_negative counts */
+  corot_triangle triangle;        /* the part of the matrix it reads */
 
   /* Symbolic analysis, once; `pattern` is borrowed for the solver's life. */
   corot_status (*create)(const corot_csc *pattern, const linsol_plan *plan, void **solver);
@@ -21,7 +32,7 @@ typedef struct linsol_ops {
   corot_status (*solve)(void *solver, double *x);
   void (*destroy)(void *solver);
 
-  /* Iterations so far; NULL: the solver does not iterate. */
+  /* Iterations so far; NULL: the solver is not iterative. */
   long (*iterations)(const void *solver);
 
   /* How many negative pivots A has, of a direct solver whose factor does not object to an
@@ -45,6 +56,7 @@ struct linsol_plan {
   corot_linear_def def;
   const linsol_ops *ops;
   const char *name; /* static: "cholmod supernodal, amd", "klu, metis", "pcg, block-jacobi" */
+  bool by_cost;     /* the solver was chosen by its cost, not asked for by name */
   linsol_rival rival;
   long most_iterations; /* of an iterative solver, for one system; 0: its own limit */
   int *order;           /* [unknowns] of a direct solver: an order of little fill; else NULL */
@@ -63,6 +75,7 @@ void corot_linsol_plan_clear(linsol_plan *plan);
 typedef struct linsol {
   const linsol_ops *ops;
   const char *name; /* as in the plan; static */
+  bool by_cost;     /* as in the plan */
   corot_csc *csc;
   double *value; /* [csc->nnz] */
   void *solver;

@@ -131,6 +131,21 @@ static corot_status cholesky_solve(void *solver, double *x) {
   return COROT_OK;
 }
 
+static const linsol_variant variants[] = {
+    {.name = "cholmod simplicial, amd", .factor = "simplicial", .ordering = "amd"},
+    {.name = "cholmod simplicial, metis", .factor = "simplicial", .ordering = "metis"},
+    {.name = "cholmod supernodal, amd", .factor = "supernodal", .ordering = "amd"},
+    {.name = "cholmod supernodal, metis", .factor = "supernodal", .ordering = "metis"},
+    {.name = NULL},
+};
+
 const linsol_ops corot_linsol_cholmod = {
-    "cholmod", COROT_LOWER, cholesky_create, cholesky_factor, cholesky_solve, cholesky_destroy,
-    NULL,      NULL};
+    .name = "cholmod",
+    .variants = variants,
+    .knows_definiteness = true,
+    .triangle = COROT_LOWER,
+    .create = cholesky_create,
+    .factor = cholesky_factor,
+    .solve = cholesky_solve,
+    .destroy = cholesky_destroy,
+};

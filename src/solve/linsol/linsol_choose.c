@@ -12,7 +12,7 @@
 enum { HAVE_CHOLMOD = 1 };
 #else
 enum { HAVE_CHOLMOD = 0 };
-static const linsol_ops corot_linsol_cholmod; /* not in this build */
+static const linsol_ops corot_linsol_cholmod = {.name = "cholmod"}; /* not in this build */
 #endif
 #ifdef COROT_HAVE_METIS
 enum { NORDERING = 2 }; /* of the names below */
@@ -20,16 +20,22 @@ enum { NORDERING = 2 }; /* of the names below */
 enum { NORDERING = 1 };
 #endif
 
-/* The names that a choice has beside auto, and how it is called. */
+/* The solvers, each with its row in a file of its own. */
+static const linsol_ops *const solvers[] = {&corot_linsol_klu, &corot_linsol_cholmod,
+                                            &corot_linsol_pcg};
+enum { NSOLVER = sizeof solvers / sizeof *solvers, MOST_NAMES = 4 };
+_Static_assert((int)NSOLVER <= MOST_NAMES, "a choice has no room for the names of all solvers");
+
+/* What else there is to choose: how it is called, and the names that it has beside auto. */
 typedef struct choice {
-  const char *what, *name[5]; /* up to a NULL */
+  const char *what, *name[MOST_NAMES + 1]; /* up to a NULL */
 } choice;
 
-static const choice solvers = {"linear solver", {"klu", "cholmod", "pcg"}};
-static const choice orderings = {"ordering", {"amd", "metis"}};
-static const choice factors = {"factor", {"simplicial", "supernodal"}};
+static const choice orderings = {.what = "ordering", .name = {"amd", "metis"}};
+static const choice factors = {.what = "factor", .name = {"simplicial", "supernodal"}};
 static const choice preconditioners = {
-    "preconditioner", {"block-jacobi", "incomplete-cholesky", "hierarchical", "multigrid"}};
+    .what = "preconditioner",
+    .name = {"block-jacobi", "incomplete-cholesky", "hierarchical", "multigrid"}};
 
 const char *const corot_linsol_direct = HAVE_CHOLMOD ? "cholmod" : "klu";
 
@@ -51,7 +57,9 @@ static corot_status look_up(const choice *c, const char **name) {
 }
 
 static corot_status look_up_all(corot_linear_def *d) {
-  COROT_TRY(look_up(&solvers, &d->solver));
+  choice names = {.what = "linear solver"};
+  for (int k = 0; k < NSOLVER; k++) names.name[k] = solvers[k]->name;
+  COROT_TRY(look_up(&names, &d->solver));
   COROT_TRY(look_up(&orderings, &d->ordering));
   COROT_TRY(look_up(&factors, &d->factor));
   COROT_TRY(look_up(&preconditioners, &d->preconditioner));
@@ -60,47 +68,37 @@ static corot_status look_up_all(corot_linear_def *d) {
   return COROT_OK;
 }
 
-/* Names in full, and what each stands for; NULL: of no importance. */
-static const struct full_name {
-  const char *name, *solver, *factor, *preconditioner, *ordering;
-} full_names[] = {
-    {"klu, amd", "klu", NULL, NULL, "amd"},
-    {"klu, metis", "klu", NULL, NULL, "metis"},
-    {"cholmod simplicial, amd", "cholmod", "simplicial", NULL, "amd"},
-    {"cholmod simplicial, metis", "cholmod", "simplicial", NULL, "metis"},
-    {"cholmod supernodal, amd", "cholmod", "supernodal", NULL, "amd"},
-    {"cholmod supernodal, metis", "cholmod", "supernodal", NULL, "metis"},
-    {"pcg, block-jacobi", "pcg", NULL, "block-jacobi", NULL},
-    {"pcg, incomplete-cholesky", "pcg", NULL, "incomplete-cholesky", NULL},
-    {"pcg, hierarchical", "pcg", NULL, "hierarchical", NULL},
-    {"pcg, multigrid", "pcg", NULL, "multigrid", NULL},
-};
+/* The row of a name that has been looked up; NULL: of none, "auto". */
+static const linsol_ops *row_of(const char *name) {
+  for (int k = 0; name && k < NSOLVER; k++)
+    if (strcmp(name, solvers[k]->name) == 0) return solvers[k];
+  return NULL;
+}
 
 static bool fits(const char *wanted, const char *chosen) {
   return !wanted || (chosen && strcmp(wanted, chosen) == 0);
 }
 
-static const char *full_name(const corot_linear_def *d) {
-  const struct full_name *f = full_names;
-  while (!(fits(f->solver, d->solver) && fits(f->factor, d->factor) &&
-           fits(f->preconditioner, d->preconditioner) && fits(f->ordering, d->ordering)))
-    f++;
-  return f->name;
+static const char *full_name(const linsol_ops *ops, const corot_linear_def *d) {
+  const linsol_variant *v = ops->variants;
+  while (!(fits(v->factor, d->factor) && fits(v->preconditioner, d->preconditioner) &&
+           fits(v->ordering, d->ordering)))
+    v++;
+  return v->name;
 }
 
 static corot_status find(linsol_plan *plan) {
-  plan->name = full_name(&plan->def);
-  const linsol_ops *const ops[] = {&corot_linsol_klu, &corot_linsol_cholmod, &corot_linsol_pcg};
-  for (int k = 0; solvers.name[k]; k++)
-    if (strcmp(plan->def.solver, solvers.name[k]) == 0) plan->ops = ops[k];
-  if (plan->ops->create) return COROT_OK;
-  return corot_fail(COROT_EINVAL,
-                    "linear solver %s is not in this build (configure with COROT_CHOLMOD=ON)",
-                    plan->def.solver);
+  plan->ops = row_of(plan->def.solver);
+  if (!plan->ops->create)
+    return corot_fail(COROT_EINVAL,
+                      "linear solver %s is not in this build (configure with COROT_CHOLMOD=ON)",
+                      plan->def.solver);
+  plan->name = full_name(plan->ops, &plan->def);
+  return COROT_OK;
 }
 
 static corot_status check_refinement(const corot_linear_def *d) {
-  bool needed = strcmp(d->solver, "pcg") == 0 && corot_multilevel_find(d->preconditioner);
+  bool needed = row_of(d->solver)->iterative && corot_multilevel_find(d->preconditioner);
   if (!needed || d->refinement) return COROT_OK;
   return corot_fail(COROT_EINVAL, "preconditioner %s: the mesh has no refinement",
                     d->preconditioner);
@@ -189,7 +187,7 @@ static corot_status analyze(const corot_csc *csc, node_graph *g, linsol_plan *pl
   free(nodes);
   if (status) return status;
   if (!d->solver && iteration_pays(csc, g, &fill, d->role)) {
-    d->solver = "pcg";
+    d->solver = corot_linsol_pcg.name;
     limit_iterations(csc, &fill, plan);
   }
   if (!d->solver) d->solver = corot_linsol_direct;
@@ -203,7 +201,9 @@ corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *l
   node_graph g = {0};
   COROT_TRY(look_up_all(&p.def));
   corot_status status = COROT_OK;
-  if (!p.def.solver || strcmp(p.def.solver, "pcg") != 0) {
+  const linsol_ops *asked = row_of(p.def.solver);
+  p.by_cost = !asked;
+  if (!asked || !asked->iterative) {
     status = corot_graph_create(lower, &g);
     if (!status) status = analyze(lower, &g, &p);
   }

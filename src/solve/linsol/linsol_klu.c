@@ -107,6 +107,20 @@ static corot_status klu_solver_solve(void *solver, double *x) {
   return failure(k, "solve");
 }
 
+static const linsol_variant variants[] = {
+    {.name = "klu, amd", .ordering = "amd"},
+    {.name = "klu, metis", .ordering = "metis"},
+    {.name = NULL},
+};
+
 const linsol_ops corot_linsol_klu = {
-    "klu", COROT_FULL,   klu_solver_create, klu_solver_factor, klu_solver_solve, klu_solver_destroy,
-    NULL,  corot_inertia};
+    .name = "klu",
+    .variants = variants,
+    .knows_definiteness = true,
+    .triangle = COROT_FULL,
+    .create = klu_solver_create,
+    .factor = klu_solver_factor,
+    .solve = klu_solver_solve,
+    .destroy = klu_solver_destroy,
+    .count_negative = corot_inertia,
+};

@@ -16,7 +16,7 @@ static void adopt(corot_pencil *p) {
 static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
   COROT_TRY(corot_linsol_create(p->model, linear, &p->chosen));
   adopt(p);
-  p->tentative = p->tentative && p->chosen.ops->iterations;
+  p->tentative = p->chosen.by_cost && p->chosen.ops->iterative;
   size_t nblock = corot_model_nblock(p->model);
   p->K = malloc(nblock * sizeof *p->K);
   p->D = malloc(nblock * sizeof *p->D);
@@ -36,7 +36,6 @@ corot_status corot_pencil_create(const corot_model *model, corot_state *state,
   p->state = state;
   p->n = corot_model_ndof(model);
   p->role = def.role;
-  p->tentative = !def.solver || strcmp(def.solver, "auto") == 0;
   p->dirty = true;
   corot_status status = allocate(&def, p);
   if (status) {
@@ -66,7 +65,7 @@ corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
   corot_pencil_counts counts = p->counts;
   const linsol *s = &p->chosen;
   counts.niteration = p->niteration;
-  if (s->ops->iterations) counts.niteration += s->ops->iterations(s->solver);
+  if (s->ops->iterative) counts.niteration += s->ops->iterations(s->solver);
   return counts;
 }
 

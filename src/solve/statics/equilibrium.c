@@ -222,6 +222,7 @@ corot_status corot_equilibrium_open(equilibrium *e, const corot_statics_def *def
   e->model = model, e->def = def, e->t = t;
   e->n = corot_model_ndof(model);
   e->capacity = 2 * def->max_iterations + 4;
+  /* room */
   e->zero = calloc(e->n, sizeof *e->zero);
   e->r = malloc(e->n * sizeof *e->r);
   e->f = malloc(nnode * sizeof *e->f);
@@ -231,6 +232,7 @@ corot_status corot_equilibrium_open(equilibrium *e, const corot_statics_def *def
   if (sun_context_create(&e->ctx) || !(e->u = N_VNew_Serial(e->n, e->ctx)))
     return corot_fail(COROT_ENOMEM, "no memory for SUNDIALS on %d unknowns", e->n);
   N_VConst(0, e->u);
+  /* the parts: evaluation, matrix, and Newton's iteration */
   COROT_TRY(corot_state_create(model, &e->state));
   COROT_TRY(corot_pencil_create(model, e->state, &linear, &e->pencil));
   corot_state_use(e->state, def->frames);
@@ -366,7 +368,7 @@ corot_status corot_equilibrium_judge(equilibrium *e, corot_stability *stability)
   corot_status status = factor(e, COROT_TANGENT_EXACT);
   corot_state_use(e->state, e->def->frames);
   if (status < 0 && status != COROT_ESINGULAR) return status;
-  bool blind = e->pencil->chosen.ops->iterations != NULL;
-  *stability = status ? COROT_UNSTABLE : blind ? COROT_STABILITY_UNKNOWN : COROT_STABLE;
+  bool known = e->pencil->chosen.ops->knows_definiteness;
+  *stability = status ? COROT_UNSTABLE : known ? COROT_STABLE : COROT_STABILITY_UNKNOWN;
   return COROT_OK;
 }

@@ -52,6 +52,7 @@ static corot_status partition_create(const corot_mesh *mesh, partition *out) {
     free(place);
     return corot_fail(COROT_ENOMEM, "no memory for %zu nodes", nnode);
   }
+  /* so many nodes has each root, and begins where the one before ends */
   find_roots(mesh, p.root);
   for (int n = 0; n < mesh->nnode; n++) place[p.root[n]]++;
   for (int n = 0, next = 0; n < mesh->nnode; n++) {
@@ -60,6 +61,7 @@ static corot_status partition_create(const corot_mesh *mesh, partition *out) {
     p.begin[p.npart++] = place[n] = next;
     p.begin[p.npart] = next += count;
   }
+  /* every node goes to the next free place of its root */
   for (int n = 0; n < mesh->nnode; n++) p.node[place[p.root[n]]++] = n;
   free(place);
   *out = p;

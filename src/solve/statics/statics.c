@@ -162,11 +162,13 @@ static corot_status look(corot_statics *s, double target) {
 static corot_status step_on(corot_statics *s, corot_load_step *step) {
   long nindefinite = s->e.counts.nindefinite;
   for (int rejected = 0;; rejected++) {
+    /* an equilibrium there, and whether it is stable */
     double target = next_target(s), length = target - s->factor;
     corot_stability stability = COROT_STABLE;
     corot_status status = look(s, target);
     if (status < 0) return status;
     if (status == COROT_OK) COROT_TRY(corot_equilibrium_judge(&s->e, &stability));
+    /* if so, go on from it */
     if (status == COROT_OK && stability != COROT_UNSTABLE) {
       report(s, target, rejected, stability, step);
       memcpy(s->u, N_VGetArrayPointer(s->e.u), s->e.n * sizeof *s->u);
@@ -176,6 +178,7 @@ static corot_status step_on(corot_statics *s, corot_load_step *step) {
       s->length = fmin(s->e.iterations <= EASY ? 2 * length : length, s->def.max_step);
       return COROT_OK;
     }
+    /* if not, go half as far */
     s->e.counts.nrejected++;
     s->length = 0.5 * length;
     if (status == COROT_OK) s->ceiling = target;

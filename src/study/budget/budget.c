@@ -133,6 +133,7 @@ static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, co
              difference = displacement_of(bare);
   char verdict[512];
   claim_verdict(c, b->left_out, sizeof verdict, verdict);
+  /* what it is and how large */
   json_t *json = json_pack(
       "{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s}", "part", budget_names[part->kind], "pair",
       settings_text(part), "error", json_text_real(error.max), "end", json_text_real(error.end),
@@ -140,6 +141,7 @@ static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, co
       probes_json(b, c, bare, after), "cost", json_text_real(b->run[run].cpu / b->run[0].cpu),
       "advice", budget_remedy(part->kind, b->options->still));
   if (!json) return NULL;
+  /* how sure that is, and what stands behind it */
   set_bound(json, "", claim_bounds(c, ERROR_DISPLACEMENT, false));
   set_bound(json, "end_", claim_bounds(c, ERROR_DISPLACEMENT, true));
   set_real(json, "", "difference", difference.max);
@@ -268,6 +270,7 @@ static corot_status totals(const budgeting *b, const budget_claims *all, json_t 
       json_text_real(displacement_of(&all->check).max), "check_rtol", json_text_real(check_rtol(b)),
       "complete", json_array_size(missing) == 0, "missing", missing, "first", verdict, "verdict",
       verdict, "runs", runs_json(b));
+  /* which builds made the runs, and whose budget this is */
   if (!json) return no_memory();
   json = json_text_with(json, "builds", json_incref(b->builds.list));
   json = json_text_with(json, "mixed", builds_sentence(b->builds.list));
@@ -276,6 +279,7 @@ static corot_status totals(const budgeting *b, const budget_claims *all, json_t 
     json_decref(json);
     return COROT_ENOMEM;
   }
+  /* how sure the totals are */
   set_bound(json, "total_", total_bound(b, all));
   set_bound(json, "total_end_", claim_bounds(&all->total, ERROR_DISPLACEMENT, true));
   *out = json;

@@ -115,6 +115,7 @@ static corot_status claim_total(const budgeting *b, budget_claims *all) {
   bool whole = true;
   *c = (claim){.before = budget_states(b, 0), .after = budget_states(b, budget_chain_run(b, last))};
   COROT_TRY(known_of_part(b, last, &c->known));
+  /* the sum: the first run, and the change that each part makes */
   term[0] = c->before;
   factor[0] = 1;
   for (int i = 0; i <= last; i++) {
@@ -126,6 +127,7 @@ static corot_status claim_total(const budgeting *b, budget_claims *all) {
     term[n] = part->before;
     factor[n++] = -1;
   }
+  /* against the first run */
   c->is_open |= !whole;
   if (whole) {
     COROT_TRY(states_sum(c->before, n, factor, term, &c->made));

@@ -35,8 +35,6 @@ static void __attribute__((format(printf, 2, 3))) add(budget_part *part, const c
   va_end(values);
 }
 
-static bool is(const char *a, const char *b) { return strcmp(a, b) == 0; }
-
 /* A constant step has no tolerance: what it resolves is far from 1e-6. */
 double budget_tight_rtol(const scenario *s) {
   double rtol = s->integrator.step > 0 ? 1e-3 : s->integrator.rtol;
@@ -62,12 +60,18 @@ static void tighten_equilibrium(const scenario *s, double loose, budget_part *pa
   add(part, "linear_solver.tolerance=%.3g", fmin(loose * 1e-13, s->statics.linear.tolerance));
 }
 
+static bool is_explicit(const char *method) { return corot_method_traits(method)->explicit_steps; }
+
+static bool is_implicit_runge_kutta(const char *method) {
+  return corot_method_traits(method)->stages && !is_explicit(method);
+}
+
 static void tighten_time(const scenario *s, const char *method, double rtol, budget_part *part) {
-  bool same = s->integrator.step == 0 && is(s->integrator.method, method);
+  bool same = s->integrator.step == 0 && strcmp(s->integrator.method, method) == 0;
   if (same)
     add(part, "integrator.rtol=%.3g", rtol);
-  else if (is(method, "erk"))
-    add(part, "integrator={method: erk, rtol: %.3g}", rtol);
+  else if (is_explicit(method))
+    add(part, "integrator={method: %s, rtol: %.3g}", method, rtol);
   else
     add(part, "integrator={method: %s, rtol: %.3g, jacobian: {convergence: 1e-3}}", method, rtol);
   if (same && s->integrator.atol_displacement > 0) add(part, "integrator.atol.displacement=auto");
@@ -81,7 +85,7 @@ static void judge_time(const scenario *s, double rtol, budget_part *reference, b
   bool controlled = corot_integrator_controls_error(method);
   tighten_time(s, controlled ? method : "cvode", rtol, reference);
   check->kind = BUDGET_TIME;
-  tighten_time(s, is(method, "arkode") ? "cvode" : "arkode", rtol, check);
+  tighten_time(s, is_implicit_runge_kutta(method) ? "cvode" : "arkode", rtol, check);
 }
 
 static bool has_frames(const char *strain) { return corot_strain_find(strain)->frames; }
@@ -118,10 +122,11 @@ static void add_with_its_damping(budget_part *part, const char *set) {
 /* What the model itself leaves out, in the order of budget_kind. */
 static void plan_model(const scenario *s, budget_plan *plan) {
   bool hierarchy = has_hierarchy(s);
-  if (is(s->model.strain, "warp"))
+  const corot_strain_kind *strain = corot_strain_find(s->model.strain);
+  if (strain->frames && !strain->polar)
     add_with_its_damping(begin(plan, BUDGET_FRAME_RULE), "strain=polar");
   if (hierarchy) add_with_its_damping(begin(plan, BUDGET_HIERARCHY), "hierarchy=null");
-  if (!is(s->model.strain, "green")) {
+  if (!strain->exact) {
     budget_part *part = begin(plan, BUDGET_STRAIN);
     add(part, "strain=green");
     if (s->model.viscosity == COROT_OBJECTIVE) add(part, "viscosity=corotated");
@@ -132,7 +137,7 @@ static void plan_model(const scenario *s, budget_plan *plan) {
 
 void budget_plan_make(const scenario *s, budget_plan *plan) {
   *plan = (budget_plan){0};
-  if (!is(s->integrator.method, "erk")) {
+  if (!is_explicit(s->integrator.method)) {
     tighten_algebra(s, 1, begin(plan, BUDGET_ALGEBRA));
     tighten_algebra(s, 10, &plan->algebra_check);
   }

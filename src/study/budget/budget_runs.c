@@ -215,6 +215,7 @@ static void weigh_third(budgeting *b, int space, bool loose) {
 
 static corot_status refine_again(budgeting *b, int nset, const char *const *set,
                                  const execute_options *options, int *signal_number) {
+  /* whether a third level is wanted, and can be paid for */
   int space = b->place[BUDGET_SPACE];
   if (space < 0 || !budget_states(b, budget_chain_run(b, space)) ||
       !budget_states(b, budget_before_run(b, space)))
@@ -227,6 +228,7 @@ static corot_status refine_again(budgeting *b, int nset, const char *const *set,
     weigh_third(b, space, loose);
   if (*b->left_out) return COROT_OK;
 
+  /* its run: without all that the second level is without */
   budget_plan_refine(b->scenario, 2, &b->third);
   b->third_is_loose = loose;
   b->third_run = add_run(b, "space, third level", "");

@@ -66,10 +66,12 @@ json_t *budget_verdict(const json_t *parts, double total) {
   char missing[256], unchecked[256], rivals[512], cancel[128] = "", doubt[320] = "";
   const json_t *largest = find_largest(parts);
   size_t nmissing = name_parts(parts, CLAIM_MISSING, sizeof missing, missing);
+  /* nothing is large enough to be told */
   if (!largest && nmissing == 0) return verdict_below_floors(parts);
   if (!largest)
     return json_sprintf(
         "Parts are missing, as runs failed: %s. None of the others is above its floor.", missing);
+  /* how far the largest is to be trusted */
   if (name_parts(parts, CLAIM_UNCHECKED, sizeof unchecked, unchecked) > 0)
     snprintf(doubt, sizeof doubt, " No run has checked the references of: %s.", unchecked);
   double error = lookup_number(largest, "error");
@@ -80,6 +82,7 @@ json_t *budget_verdict(const json_t *parts, double total) {
         "Parts are missing, as runs failed: %s. So it is not known which part is the largest; of "
         "those that are known it is %s, %s%.1e of the displacement.%s",
         missing, part, least, error, doubt);
+  /* what else there is to know before anything is changed */
   if (total < 0.7 * error)
     snprintf(cancel, sizeof cancel,
              " Parts cancel one another: together they are %.1e; look at each alone.", total);
@@ -180,6 +183,7 @@ void budget_print(const json_t *budget, FILE *out) {
   fprintf(out, "%-18s  %10s  %10s  %10s  %5s  %s\n", "part", "largest", "at end", "alone", "cost",
           "taken away by");
   for (size_t i = 0; i < json_array_size(parts); i++) print_part(json_array_get(parts, i), out);
+  /* the whole */
   fprintf(out, "%-18s", "total");
   print_error(budget, "total", "total_", out);
   print_error(budget, "total_end", "total_end_", out);
@@ -188,6 +192,7 @@ void budget_print(const json_t *budget, FILE *out) {
   print_line(budget, "interaction", "interaction", "interaction_", out);
   if (!json_is_true(json_object_get(budget, "static")))
     print_line(budget, "check of time", "check", "check_", out);
+  /* what is known of each part */
   fputs("\nshare of the total at the end, and what is known of each part\n", out);
   for (size_t i = 0; i < json_array_size(parts); i++) {
     const json_t *part = json_array_get(parts, i);

@@ -100,6 +100,7 @@ int command_study_export(int argc, char **argv) {
     else
       code = option_error("corot study export", answer, argv, options);
   }
+  /* the study and the format */
   if (code >= 0) return code;
   if (argc - optind != 1)
     return usage_error("corot study export", "expected one study, found %d", argc - optind);

@@ -172,11 +172,13 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
   const char *set[LIMIT_SCAN_MOST];
   variant v[LIMIT_SCAN_MOST];
   int run[LIMIT_SCAN_MOST];
+  /* one variant for each value */
   for (int i = 0; i < n; i++) {
     snprintf(text[i], SETTING_SIZE, "%s=%.9g", s->key, trial[i].value);
     set[i] = text[i];
     v[i] = (variant){.label = strchr(text[i], '=') + 1, .nset = 1, .set = &set[i]};
   }
+  /* all of them are one small study; runs that fail are what is looked for */
   char what[SETTING_SIZE];
   snprintf(what, sizeof what, "Limit of %s", s->key);
   variants all = {.what = what,
@@ -191,6 +193,7 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
   options.tells_builds = !s->looked;
   s->looked = true;
   COROT_TRY(variants_execute(&all, &options, &m, run, &s->signal_number));
+  /* which of them were stable */
   corot_status status = COROT_OK;
   if (s->signal_number) status = corot_fail(COROT_EINTEGRATE, "interrupted");
   for (int i = 0; i < n && status == COROT_OK; i++) status = judge(s, &m->run[run[i]], &trial[i]);

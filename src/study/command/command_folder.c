@@ -37,6 +37,7 @@ int command_study_status(int argc, char **argv) {
   char title[200];
   manifest *m = NULL;
   corot_status status = manifest_read(dir, &m);
+  /* each run that is not done, with its reason */
   for (int i = 0; status == COROT_OK && i < m->nrun; i++) {
     run_record record;
     status = store_look(dir, &m->run[i], &record);
@@ -47,6 +48,7 @@ int command_study_status(int argc, char **argv) {
       show("%s to be tried again: %s\n", m->run[i].id, record.reason);
     run_record_free(&record);
   }
+  /* all together */
   if (status == COROT_OK)
     show("%s: %d cells, %d runs: %d done, %d failed, %d missing\n",
          escape_line_cut(m->title, sizeof title, title), m->ncell, m->nrun, count[RUN_DONE],

@@ -111,12 +111,14 @@ static void explain(int ended, double timeout, size_t size, char *reason) {
 /* Books a run that has ended, by what its folder says. */
 static corot_status conclude(execution *e, int i, int ended) {
   task *t = &e->task[i];
+  /* what it said */
   char *messages = store_path(e->o->dir, t->run, "messages.txt");
   if (!messages) return no_memory();
   char reason[1200];
   read_messages(messages, sizeof reason, reason);
   free(messages);
 
+  /* what its folder says; a run without a result failed, or was lost */
   run_record record;
   COROT_TRY(store_look(e->o->dir, t->run, &record));
   corot_status status = COROT_OK;
@@ -126,6 +128,7 @@ static corot_status conclude(execution *e, int i, int ended) {
     status = store_fail(e->o->dir, t->run, ended, reason);
     if (!store_failure(ended).retry) record.state = RUN_FAILED;
   }
+  /* what that means for the task and the totals */
   t->state = record.state;
   t->lost = record.state == RUN_MISSING;
   t->again = t->lost && ended != 0 && e->nretry < MOST_RETRIES && !pool_signal();

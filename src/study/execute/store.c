@@ -14,6 +14,7 @@
 #include "app/run/stop.h"
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
+#include "report/read/lookup.h"
 #include "study/plan/json_file.h"
 
 char *store_path(const char *dir, const study_run *run, const char *name) {
@@ -38,9 +39,7 @@ static corot_status read_own(const char *dir, const study_run *run, const char *
   if (status == COROT_OK && there) status = json_file_read(path, &json);
   free(path);
   if (status == COROT_ENOMEM || status == COROT_EIO) return status;
-  const json_t *hash = json_object_get(json, "hash");
-  if (strcmp(hash_path, "hashes.run") == 0)
-    hash = json_object_get(json_object_get(json, "hashes"), "run");
+  const json_t *hash = lookup(json, hash_path);
   if (!json_is_string(hash) || strcmp(json_string_value(hash), run->hash) != 0) {
     json_decref(json);
     json = NULL;

@@ -127,6 +127,7 @@ corot_status variants_execute(const variants *v, const execute_options *options,
                               int *run, int *signal_number) {
   manifest *m = NULL;
   COROT_TRY(plan(v, &m));
+  /* carry out what is missing */
   store_lock lock;
   execute_totals totals;
   corot_status status =
@@ -136,6 +137,7 @@ corot_status variants_execute(const variants *v, const execute_options *options,
     if (status == COROT_OK) status = store_check(options->dir, lock);
     store_leave(lock);
   }
+  /* runs that were lost would be missing below */
   if (status == COROT_OK && totals.nlost > 0 && !*signal_number)
     status = corot_fail(COROT_EIO,
                         "%d runs stopped for reasons from outside; the same command "

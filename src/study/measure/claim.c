@@ -48,6 +48,7 @@ static double cosine_of(const double product[3]) {
 static level_pair compare_levels(yardstick *y, const trajectory *first, const trajectory *second,
                                  const trajectory *finest) {
   double product[3] = {0, 0, 0}, size = 0, widest = 0;
+  /* the differences of the whole body */
   for (int k = 0; k < first->count; k++) {
     const double *x = states_u(first, k), *z = states_u(second, k), *u = states_u(finest, k);
     product[0] += yardstick_product(y, x, x);
@@ -59,6 +60,7 @@ static level_pair compare_levels(yardstick *y, const trajectory *first, const tr
                   .d2 = sqrt(product[1] / first->count),
                   .cosine = cosine_of(product),
                   .scale = sqrt(size)};
+  /* and at the probes that move by a tenth of the one that moves most */
   for (int i = 0; i < y->nprobe; i++) {
     probe_products(y, first, second, i, product);
     widest = fmax(widest, product[1]);

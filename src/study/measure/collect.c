@@ -36,11 +36,13 @@ static corot_status look_reference(measuring *g, int index, table_reference *t) 
   if (status == COROT_OK) status = measure_look(g, &g->m->run[r->run[1]], &record[1]);
   t->reference = r;
   t->state = RUN_DONE;
+  /* the first that is not done says what the pair is */
   for (int i = 1; i >= 0 && status == COROT_OK; i--) {
     if (record[i].state == RUN_DONE) continue;
     t->state = record[i].state;
     if (record[i].reason && !t->reason) status = copy_text(record[i].reason, &t->reason);
   }
+  /* the floor: the second run against the first */
   if (status == COROT_OK && t->state == RUN_DONE) {
     t->approximations = approximations_of(record[0].result);
     drift ignored;
@@ -50,6 +52,7 @@ static corot_status look_reference(measuring *g, int index, table_reference *t) 
     status = note(measured, &t->note);
     if (t->known && !(t->floor_json = errors_json(g->yardstick, &t->floor))) status = no_memory();
   }
+  /* which builds made them */
   for (int i = 0; i < 2; i++) {
     if (record[i].state == RUN_DONE)
       builds_add(&g->builds, &g->m->run[r->run[i]], record[i].result, true);

@@ -116,6 +116,7 @@ json_t *table_shared(const table_rows *t) {
   bool measured = false;
   for (int i = 0; i < t->n; i++) measured |= t->row[i].measured;
   if (!measured) return json_null();
+  /* each kind of approximation: in the errors, shared by all, or shared by pairs */
   for (int k = 0; k < NKIND; k++) {
     kind_summary s = summarize(t, k);
     if (s.differs)
@@ -125,6 +126,7 @@ json_t *table_shared(const table_rows *t) {
     else if (s.any)
       append(same, sizeof same, s.word);
   }
+  /* the sentence */
   char text[4 * NKIND * TEXT];
   int n = snprintf(text, sizeof text,
                    *of ? "Errors are those of time, %s" : "Errors are those of time alone%s", of);

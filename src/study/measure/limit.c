@@ -33,6 +33,7 @@ static int by_value(const void *a, const void *b) {
 corot_status limit_find(const limit_def *def, limit_try *try, void *context, limit_result *out) {
   COROT_TRY(check(def));
   limit_result r = {.ntrial = def->nscan};
+  /* scan from end to end, in equal ratios */
   for (int i = 0; i < def->nscan; i++) {
     double part = (double)i / (def->nscan - 1);
     r.trial[i].value = i == 0               ? def->from
@@ -41,6 +42,7 @@ corot_status limit_find(const limit_def *def, limit_try *try, void *context, lim
   }
   COROT_TRY(try(context, def->nscan, r.trial));
   bracket(&r);
+  /* bisect between the last stable and the first unstable value */
   while (r.stable > 0 && isfinite(r.unstable) && r.unstable / r.stable - 1 > def->precision &&
          r.ntrial < LIMIT_TRIAL_MOST) {
     limit_trial *trial = &r.trial[r.ntrial++];
@@ -48,6 +50,7 @@ corot_status limit_find(const limit_def *def, limit_try *try, void *context, lim
     COROT_TRY(try(context, 1, trial));
     bracket(&r);
   }
+  /* stable values beyond an unstable one are counted: there the limit is not the only one */
   qsort(r.trial, (size_t)r.ntrial, sizeof *r.trial, by_value);
   for (int i = 0; i < r.ntrial; i++)
     r.nreturn += r.trial[i].stable && r.trial[i].value > r.unstable;

@@ -200,12 +200,14 @@ static corot_status find_reference(planner *p, const cell *c, json_int_t *index)
   setting *set;
   int nset;
   COROT_TRY(refer(p, c, p->study->reference_method[0], &nset, &set));
+  /* its settings as text are what it is found by */
   json_t *list = assignments(p->study->tree, nset, set);
   char *text = json_text_dump_plain(list, JSON_COMPACT);
   json_decref(list);
   if (!text) return no_memory();
   const json_t *known = json_object_get(p->reference_at, text);
   *index = known ? json_integer_value(known) : (json_int_t)json_array_size(p->references);
+  /* a new one: two runs, by independent methods */
   corot_status status = COROT_OK;
   if (!known) {
     json_t *runs = json_array();
@@ -231,12 +233,14 @@ static json_t *cell_settings(const cell *c) {
 }
 
 static corot_status add_cell(planner *p, const cell *c) {
+  /* its settings: no fields, what the cell sets, states in binary */
   setting *set = config_alloc(p->study->tree, (size_t)c->nset + 2, sizeof *set);
   if (!set) return no_memory();
   set[0] = p->quiet;
   memcpy(set + 1, c->set, (size_t)c->nset * sizeof *set);
   set[c->nset + 1] = p->binary;
 
+  /* the run of the scenario that they make, which other cells may have, too */
   scenario *s = NULL;
   json_int_t run = 0;
   COROT_TRY(read_scenario(p, c, c->nset + 2, set, &s));
@@ -245,6 +249,7 @@ static corot_status add_cell(planner *p, const cell *c) {
   scenario_destroy(s);
   COROT_TRY(status);
 
+  /* its entry */
   double tolerance = NAN;
   if (c->tolerance) config_parse_number(c->tolerance->value, &tolerance);
   json_t *entry =

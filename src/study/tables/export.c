@@ -96,6 +96,7 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
   if (strpbrk(t->dir, "{}\n\r"))
     return refuse(t->dir,
                   "Snakemake cannot write to a folder with a brace or a line break in its name");
+  /* what the rules refer to */
   write_title(m, out);
   fprintf(out, ": %d runs. snakemake --snakefile THIS --cores all\n", m->nrun);
   fputs("PROGRAM = ", out);
@@ -106,6 +107,7 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
   escape_python(t->dir, out);
   fputc('\n', out);
   COROT_TRY(write_dictionary(m, out));
+  /* one rule for each run, one that collects them */
   fputs(
       "\nrule all:\n"
       "    input: DIR + \"/table.json\"\n"

@@ -79,6 +79,7 @@ static void lay_out(const json_t *table, layout *l) {
   static const char *const errors[] = {"displacement", "velocity", "energy"};
   const json_t *columns = json_object_get(table, "columns");
   const json_t *cells = json_object_get(table, "cells");
+  /* the columns */
   for (size_t i = 0; i < json_array_size(columns); i++) {
     const char *key = json_string_value(json_array_get(columns, i));
     add(l, key, "settings", key, false);
@@ -93,6 +94,7 @@ static void lay_out(const json_t *table, layout *l) {
     add(l, errors[i], "error", errors[i], true);
   add(l, "digits", NULL, "digits", true);
 
+  /* each as wide as its widest cell */
   char text[CELL];
   for (int k = 0; k < l->n; k++)
     for (size_t i = 0; i < json_array_size(cells); i++) {

@@ -31,6 +31,8 @@ typedef struct scheme {
   void (*prepare)(fixed *f, stage *g);
   /* The new u, v in u[0], v[0] from w, the old ones having moved to u[1], v[1]. */
   void (*finish)(fixed *f);
+  /* Sets am and af from the spectral radius rho; NULL: they are zero. */
+  void (*means)(fixed *f, double rho);
 } scheme;
 
 enum { NHISTORY = 4, NVECTOR = 2 * NHISTORY + 10 };

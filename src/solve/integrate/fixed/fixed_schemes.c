@@ -66,14 +66,31 @@ static void newmark_finish(fixed *f) {
   }
 }
 
+/* What the Newmark family's mean of accelerations and of forces is (am, af) to have the spectral
+   radius rho at infinite frequency. */
+static void hht_means(fixed *f, double rho) { f->af = (1 - rho) / (1 + rho); }
+
+static void generalized_alpha_means(fixed *f, double rho) {
+  f->am = (2 * rho - 1) / (rho + 1);
+  f->af = rho / (rho + 1);
+}
+
+#define BDF(word, its_order) \
+  { .name = word, .order = its_order, .prepare = bdf_prepare, .finish = bdf_finish }
+#define NEWMARK(word, its_means)                                          \
+  {                                                                       \
+    .name = word, .needs_acceleration = true, .prepare = newmark_prepare, \
+    .finish = newmark_finish, .means = its_means                          \
+  }
+
 static const scheme schemes[] = {
-    {"backward-euler", 1, false, bdf_prepare, bdf_finish},
-    {"bdf2", 2, false, bdf_prepare, bdf_finish},
-    {"bdf3", 3, false, bdf_prepare, bdf_finish},
-    {"midpoint", 0, false, midpoint_prepare, midpoint_finish},
-    {"newmark", 0, true, newmark_prepare, newmark_finish},
-    {"hht", 0, true, newmark_prepare, newmark_finish},
-    {"generalized-alpha", 0, true, newmark_prepare, newmark_finish},
+    BDF("backward-euler", 1),
+    BDF("bdf2", 2),
+    BDF("bdf3", 3),
+    {.name = "midpoint", .prepare = midpoint_prepare, .finish = midpoint_finish},
+    NEWMARK("newmark", NULL),
+    NEWMARK("hht", hht_means),
+    NEWMARK("generalized-alpha", generalized_alpha_means),
 };
 
 const scheme *corot_scheme_find(const char *name) {
@@ -83,12 +100,7 @@ const scheme *corot_scheme_find(const char *name) {
 }
 
 void corot_scheme_set_family(fixed *f, double rho) {
-  const char *name = f->scheme->name;
-  if (strcmp(name, "hht") == 0) f->af = (1 - rho) / (1 + rho);
-  if (strcmp(name, "generalized-alpha") == 0) {
-    f->am = (2 * rho - 1) / (rho + 1);
-    f->af = rho / (rho + 1);
-  }
+  if (f->scheme->means) f->scheme->means(f, rho);
   double less = f->am - f->af;
   f->gamma = 0.5 - less;
   f->beta = 0.25 * (1 - less) * (1 - less);

@@ -115,6 +115,7 @@ static corot_status solve_newton(corot_integrator *self, const stage *g, int *it
   bool fresh = false, always = false, fell = true;
   COROT_TRY(predict(self, g, &norm));
   for (*iterations = 1; *iterations <= self->def.newton_iterations; ++*iterations) {
+    /* the correction */
     COROT_TRY(ensure_factor(self, g, fresh));
     COROT_TRY(corot_pencil_solve(self->pencil, f->G, f->d));
     size = correction(self, g);
@@ -123,12 +124,14 @@ static corot_status solve_newton(corot_integrator *self, const stage *g, int *it
       for (int i = 0; i < f->n; i++) f->w[i] -= f->d[i];
       return COROT_OK;
     }
+    /* as much of it as reduces the residual */
     COROT_TRY(backtrack(self, g, &norm, &fell));
     if (!fell && fresh)
       return corot_fail(COROT_EINTEGRATE,
                         "%s: in the step from t = %.9g: Newton's correction of %.2g lengths does "
                         "not reduce the residual",
                         f->scheme->name, self->t, size);
+    /* whether the next one needs a matrix of its own */
     always = always || !fell;
     fresh = always || size > 0.3 * last;
     last = size;

@@ -218,12 +218,14 @@ corot_status corot_multistep_measure_work(multistep *m, int order) {
   multistep_ledger *l = &m->ledger;
   corot_integrator *self = m->driver.self;
   double started = clock_wall(), work[NWORK] = {l->work_end[0], l->work_end[1]}, loads;
+  /* the step before is over; after a break its powers tell nothing */
   turn_page(m);
   if (l->broken) {
     l->npower = 0;
     corot_force_of_loads(self->model, self->state, l->t_start, N_VGetArrayPointer(l->start),
                          l->load_start);
   }
+  /* powers: those at the ends of the last steps, or where they do not tell, along the path */
   add_end(m);
   if (order == 1 || l->broken || !is_resolved(m, m->t_last - l->t_start)) {
     l->npower = 1;
@@ -232,6 +234,7 @@ corot_status corot_multistep_measure_work(multistep *m, int order) {
     l->ninside = order < l->npower ? order : l->npower;
     memcpy(l->inside, l->power, l->ninside * sizeof *l->inside);
   }
+  /* work: of the loads along the path, of the rest by its powers */
   COROT_TRY(work_of_loads(m, m->t_last, order, l->load_end, &loads));
   add_powers(m, m->t_last, work);
   work[EXTERNAL] += loads + carried_on(m, m->t_last, l->end);

@@ -117,12 +117,14 @@ static corot_status make_pattern(const galerkin *g, const galerkin_level *fine,
   int n = coarse->n, *work = calloc(3 * (size_t)n + 1, sizeof *work), *column = NULL;
   if (!work) return corot_fail(COROT_ENOMEM, "no memory for a pattern of %d nodes", n);
   int *first = work, *mark = first + n + 1, *count = mark + n, npair = 0;
+  /* how many pairs each coarse node is in, and where they begin */
   collect_pairs(g, fine, n, first, NULL);
   for (int i = 0; i < n; i++) {
     int length = first[i];
     first[i] = npair;
     npair += length;
   }
+  /* the pairs, each once, and as columns with ascending rows */
   coarse->colptr = malloc((n + 1) * sizeof *coarse->colptr);
   column = malloc((npair + 1) * sizeof *column);
   if (coarse->colptr && column) {
@@ -239,6 +241,7 @@ static COROT_CLONES void restrict_to(const galerkin *g, const galerkin_level *fi
                                      galerkin_level *coarse) {
   int ncoarse = coarse->n;
   memset(coarse->value, 0, 9 * block_count(coarse) * sizeof *coarse->value);
+  /* P' H P */
   for (int j = 0; j < fine->n; j++) {
     double weight = j < ncoarse ? 1 : 0.5, D[9];
     memcpy(D, fine->value + 9 * (size_t)j, sizeof D);
@@ -250,6 +253,7 @@ static COROT_CLONES void restrict_to(const galerkin *g, const galerkin_level *fi
                 fine->to[block], coarse->value);
     }
   }
+  /* its transpose; rows and columns of what is held stay empty */
   for (int j = 0; j < ncoarse; j++) {
     double *D = coarse->value + 9 * (size_t)j, H[9];
     memcpy(H, D, sizeof H);

@@ -102,5 +102,10 @@ static corot_status basis_apply(void *self, const double *r, double *z) {
   return COROT_OK;
 }
 
-const multilevel_ops corot_hierarchical_basis = {"hierarchical", basis_create, basis_factor,
-                                                 basis_apply, basis_destroy};
+const multilevel_ops corot_hierarchical_basis = {
+    .name = "hierarchical",
+    .create = basis_create,
+    .factor = basis_factor,
+    .apply = basis_apply,
+    .destroy = basis_destroy,
+};

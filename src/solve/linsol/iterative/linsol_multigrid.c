@@ -186,5 +186,10 @@ static corot_status multigrid_apply(void *self, const double *r, double *z) {
   return COROT_OK;
 }
 
-const multilevel_ops corot_multigrid = {"multigrid", multigrid_create, multigrid_factor,
-                                        multigrid_apply, multigrid_destroy};
+const multilevel_ops corot_multigrid = {
+    .name = "multigrid",
+    .create = multigrid_create,
+    .factor = multigrid_factor,
+    .apply = multigrid_apply,
+    .destroy = multigrid_destroy,
+};

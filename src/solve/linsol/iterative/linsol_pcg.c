@@ -148,6 +148,7 @@ static corot_status improve(pcg *p, double norm, double whole) {
   double square = 0, target = 0.5 * p->tolerance * whole;
   if (p->cholesky) corot_nodes_forward(&p->A, p->r);
   for (int i = 0; i < n; i++) square += p->r[i] * p->r[i];
+  /* iterate on the residual, from zero */
   memset(p->z, 0, n * sizeof *p->z);
   N_VSetArrayPointer(p->z, p->to);
   N_VSetArrayPointer(p->r, p->from);
@@ -156,6 +157,7 @@ static corot_status improve(pcg *p, double norm, double whole) {
   if (!status) status = SUNLinSolSolve(p->cg, NULL, p->to, p->from, target / norm * sqrt(square));
   int iterations = SUNLinSolNumIters(p->cg);
   p->iterations += iterations;
+  /* why it ended */
   if (p->status) return p->status;
   if (status && !(p->curvature > 0))
     return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (p'Sp = %.3g)%s",
@@ -168,6 +170,7 @@ static corot_status improve(pcg *p, double norm, double whole) {
                       "side, tolerance %.1e" WHAT_SOLVES,
                       iterations, SUNLinSolResNorm(p->cg) / sqrt(square) * norm / whole,
                       p->tolerance);
+  /* back to the unknowns of the matrix */
   if (p->cholesky) corot_nodes_backward(&p->A, p->z);
   for (int i = 0; i < n; i++) p->x[i] += p->z[i];
   return COROT_OK;
@@ -232,5 +235,22 @@ static corot_status pcg_solve(void *solver, double *x) {
 
 static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
 
-const linsol_ops corot_linsol_pcg = {"pcg",     COROT_LOWER, pcg_create,     pcg_factor,
-                                     pcg_solve, pcg_destroy, pcg_iterations, NULL};
+static const linsol_variant variants[] = {
+    {.name = "pcg, block-jacobi", .preconditioner = "block-jacobi"},
+    {.name = "pcg, incomplete-cholesky", .preconditioner = "incomplete-cholesky"},
+    {.name = "pcg, hierarchical", .preconditioner = "hierarchical"},
+    {.name = "pcg, multigrid", .preconditioner = "multigrid"},
+    {.name = NULL},
+};
+
+const linsol_ops corot_linsol_pcg = {
+    .name = "pcg",
+    .variants = variants,
+    .iterative = true,
+    .triangle = COROT_LOWER,
+    .create = pcg_create,
+    .factor = pcg_factor,
+    .solve = pcg_solve,
+    .destroy = pcg_destroy,
+    .iterations = pcg_iterations,
+};
