@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/scenario/box_split.h"
 #include "app/scenario/facts.h"
 #include "app/scenario/warnings.h"
+#include "app/scenario/words.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
 #include "cli.h"
@@ -68,6 +68,7 @@ typedef struct box_arguments {
 static int box_option(box_arguments *a, int answer, char **argv) {
   static const char program[] = "corot mesh box";
   double cells[3];
+  int word;
   switch (answer) {
     case 's':
       a->size = parse_three(optarg, a->box.size);
@@ -84,7 +85,9 @@ static int box_option(box_arguments *a, int answer, char **argv) {
       if (parse_three(optarg, a->box.origin)) return EXIT_OK;
       return usage_error(program, "--origin %s: expected X,Y,Z", optarg);
     case 'p':
-      if (box_split_find(optarg, &a->box.split)) return EXIT_OK;
+      word = words_find(words_box_split, optarg);
+      if (word >= 0) a->box.split = (corot_box_split)word;
+      if (word >= 0) return EXIT_OK;
       return usage_error(program, "--split %s: expected symmetric, alternating or kuhn", optarg);
     case 'o':
       a->file = optarg;

@@ -73,37 +73,11 @@ static bool among(const char *word, const char *words) {
   return false;
 }
 
-/* What people call keys of a scenario that have another name here. */
-static const struct {
-  const char *path, *key, *name;
-} synonyms[] = {
-    {"", "initial", "start"},
-    {"", "initial_conditions", "start"},
-    {"", "initial_velocity", "start.velocity"},
-    {"", "velocity", "start.velocity"},
-    {"", "spin", "start.spin"},
-    {"start", "angular_velocity", "spin"},
-    {"start", "omega", "spin"},
-    {"boundary[]", "displacement", "move"},
-    {"boundary[]", "displace", "move"},
-    {"boundary[]", "amplitude", "move.amplitude"},
-    {"boundary[].translate", "displacement", "boundary[].move.direction"},
-    {"boundary[].translate", "amplitude", "boundary[].move.amplitude"},
-    {"boundary[].rotate", "angle", "boundary[].move.rotate.angle"},
-    {"boundary[].rotate", "amplitude", "boundary[].move.amplitude"},
-    {"boundary[].move", "displacement", "direction"},
-    {"boundary[].move", "translate", "direction"},
-    {"boundary[].move.amplitude", "spline", "smooth"},
-    {"boundary[].move.amplitude", "table", "file"},
-    {"loads[].amplitude", "spline", "smooth"},
-    {"loads[].amplitude", "table", "file"},
-};
-
 static const char *synonym(const schema *table, const char *path, const char *key) {
-  if (table != &scenario_schema) return NULL;
-  for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
-    if (strcmp(synonyms[i].path, path) == 0 && strcmp(synonyms[i].key, key) == 0)
-      return synonyms[i].name;
+  for (int i = 0; i < table->nsynonym; i++) {
+    const schema_synonym *s = &table->synonym[i];
+    if (strcmp(s->path, path) == 0 && strcmp(s->key, key) == 0) return s->name;
+  }
   return NULL;
 }
 

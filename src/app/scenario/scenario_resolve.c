@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "schema.h"
+#include "scenario_keys.h"
 
 static json_t *resolve_map(const config_node *map, const char *path);
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "app/text/json_text.h"
-#include "schema.h"
+#include "scenario_keys.h"
 
 static json_t *map_schema(const char *path);
 
