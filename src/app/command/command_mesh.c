@@ -65,6 +65,7 @@ typedef struct box_arguments {
   bool size, cells; /* given */
 } box_arguments;
 
+/* Takes one option of the line; EXIT_OK: go on. */
 static int box_option(box_arguments *a, int answer, char **argv) {
   static const char program[] = "corot mesh box";
   double cells[3];
@@ -225,12 +226,14 @@ int command_mesh_info(int argc, char **argv) {
     if (answer != 'j') return option_error("corot mesh info", answer, argv, info_options);
     json = true;
   }
+  /* one file */
   if (argc - optind != 1)
     return usage_error("corot mesh info", "expected one mesh file, found %d", argc - optind);
   const char *path = argv[optind];
   corot_mesh *mesh = NULL;
   corot_status status = corot_mesh_read(path, &mesh);
   if (status != COROT_OK) return failure(read_failure(status, path));
+  /* what is known of it */
   mesh_facts f = {0};
   int code = EXIT_OK;
   if ((status = find_mesh_facts(mesh, &f)) != COROT_OK)

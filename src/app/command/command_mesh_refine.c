@@ -41,6 +41,7 @@ typedef struct arguments {
   corot_diagonal diagonal;
 } arguments;
 
+/* Takes one option of the line; EXIT_OK: go on. */
 static int take_option(arguments *a, int answer, char **argv) {
   char *end;
   long n;

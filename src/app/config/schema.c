@@ -1,6 +1,7 @@
 /* Finding a key in a table, and what its columns say in words. */
 #include "schema.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,23 +31,19 @@ void schema_inside(const schema_key *key, size_t size, char *path) {
   snprintf(path, size, "%s%s", elsewhere ? key->words : key->path, elsewhere ? "" : suffix);
 }
 
-const char *schema_range_words(schema_range range) {
-  switch (range) {
-    case SCHEMA_POSITIVE:
-      return "> 0";
-    case SCHEMA_NOT_NEGATIVE:
-      return ">= 0";
-    case SCHEMA_FRACTION:
-      return "> 0, < 1";
-    case SCHEMA_ORDER:
-      return "1 to 5";
-    case SCHEMA_STAGE_ORDER:
-      return "2 to 8";
-    case SCHEMA_UNIT:
-      return "0 to 1";
-    case SCHEMA_POISSON:
-      return "> -1, < 0.5";
-    default:
-      return "";
-  }
+const schema_bounds schema_ranges[] = {
+    [SCHEMA_ANY] = {.words = "", .least = -INFINITY, .most = INFINITY},
+    [SCHEMA_POSITIVE] = {.words = "> 0", .least = 0, .above = true, .most = INFINITY},
+    [SCHEMA_NOT_NEGATIVE] = {.words = ">= 0", .least = 0, .most = INFINITY},
+    [SCHEMA_FRACTION] = {.words = "> 0, < 1", .least = 0, .above = true, .most = 1, .below = true},
+    [SCHEMA_UNIT] = {.words = "0 to 1", .least = 0, .most = 1},
+    [SCHEMA_ORDER] = {.words = "1 to 5", .least = 1, .most = 5},
+    [SCHEMA_STAGE_ORDER] = {.words = "2 to 8", .least = 2, .most = 8},
+    [SCHEMA_POISSON] =
+        {.words = "> -1, < 0.5", .least = -1, .above = true, .most = 0.5, .below = true},
+};
+
+bool schema_in_range(double x, schema_range range) {
+  const schema_bounds *b = &schema_ranges[range];
+  return (b->above ? x > b->least : x >= b->least) && (b->below ? x < b->most : x <= b->most);
 }

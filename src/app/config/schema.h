@@ -91,7 +91,16 @@ corot_status schema_expand(const schema *table, config *tree);
    printed. */
 int schema_print(const schema *table, const char *prefix, FILE *out);
 
-/* A range in words, "> 0"; "" for SCHEMA_ANY. */
-const char *schema_range_words(schema_range range);
+/* What a range is: from `least` to `most`, which is in it unless it must be above or below. */
+typedef struct schema_bounds {
+  const char *words; /* "> 0"; "" for SCHEMA_ANY */
+  double least, most;
+  bool above, below;
+} schema_bounds;
+
+/* By schema_range. */
+extern const schema_bounds schema_ranges[];
+
+bool schema_in_range(double x, schema_range range);
 
 #endif

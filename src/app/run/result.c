@@ -151,6 +151,7 @@ json_t *result_versions(void) {
                    corot_sundials_version(), "compiler", provenance_compiler);
 }
 
+/* In the order of the file. */
 corot_status result_make(const scenario *s, const outputs *o, const run_summary *run,
                          json_t **out) {
   const hashes *h = &run->hashes;
