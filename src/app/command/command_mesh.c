@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/scenario/box_split.h"
 #include "app/scenario/facts.h"
 #include "app/scenario/warnings.h"
+#include "app/scenario/words.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
 #include "cli.h"
@@ -65,9 +65,11 @@ typedef struct box_arguments {
   bool size, cells; /* given */
 } box_arguments;
 
+/* Takes one option of the line; EXIT_OK: go on. */
 static int box_option(box_arguments *a, int answer, char **argv) {
   static const char program[] = "corot mesh box";
   double cells[3];
+  int word;
   switch (answer) {
     case 's':
       a->size = parse_three(optarg, a->box.size);
@@ -84,7 +86,9 @@ static int box_option(box_arguments *a, int answer, char **argv) {
       if (parse_three(optarg, a->box.origin)) return EXIT_OK;
       return usage_error(program, "--origin %s: expected X,Y,Z", optarg);
     case 'p':
-      if (box_split_find(optarg, &a->box.split)) return EXIT_OK;
+      word = words_find(words_box_split, optarg);
+      if (word >= 0) a->box.split = (corot_box_split)word;
+      if (word >= 0) return EXIT_OK;
       return usage_error(program, "--split %s: expected symmetric, alternating or kuhn", optarg);
     case 'o':
       a->file = optarg;
@@ -222,12 +226,14 @@ int command_mesh_info(int argc, char **argv) {
     if (answer != 'j') return option_error("corot mesh info", answer, argv, info_options);
     json = true;
   }
+  /* one file */
   if (argc - optind != 1)
     return usage_error("corot mesh info", "expected one mesh file, found %d", argc - optind);
   const char *path = argv[optind];
   corot_mesh *mesh = NULL;
   corot_status status = corot_mesh_read(path, &mesh);
   if (status != COROT_OK) return failure(read_failure(status, path));
+  /* what is known of it */
   mesh_facts f = {0};
   int code = EXIT_OK;
   if ((status = find_mesh_facts(mesh, &f)) != COROT_OK)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/scenario/refine.h"
+#include "app/scenario/words.h"
 #include "app/text/say.h"
 #include "cli.h"
 
@@ -40,9 +41,11 @@ typedef struct arguments {
   corot_diagonal diagonal;
 } arguments;
 
+/* Takes one option of the line; EXIT_OK: go on. */
 static int take_option(arguments *a, int answer, char **argv) {
   char *end;
   long n;
+  int word;
   switch (answer) {
     case 'l':
       n = strtol(optarg, &end, 10);
@@ -51,9 +54,10 @@ static int take_option(arguments *a, int answer, char **argv) {
       a->nlevel = (int)n;
       return EXIT_OK;
     case 'd':
-      if (strcmp(optarg, "consistent") != 0 && strcmp(optarg, "shortest") != 0)
+      word = words_find(words_diagonal, optarg);
+      if (word < 0)
         return usage_error(program, "--diagonal %s: expected consistent or shortest", optarg);
-      a->diagonal = *optarg == 's' ? COROT_DIAGONAL_SHORTEST : COROT_DIAGONAL_CONSISTENT;
+      a->diagonal = (corot_diagonal)word;
       return EXIT_OK;
     case 'o':
       a->to = optarg;

@@ -1,7 +1,7 @@
 /* `corot schema`: the table of keys as text, JSON Schema or an example. */
 #include <stdio.h>
 
-#include "app/config/schema.h"
+#include "app/scenario/scenario_keys.h"
 #include "app/text/json_text.h"
 #include "app/text/suggest.h"
 #include "cli.h"

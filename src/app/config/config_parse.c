@@ -221,6 +221,7 @@ static corot_status read_value(reader *r, const event *first, int depth, config_
   if (depth > CONFIG_MOST_LEVELS)
     return config_fail_at(r->source, first->at, "nested deeper than %d levels, the limit of a file",
                           CONFIG_MOST_LEVELS);
+  /* the node by its kind, and what is in it */
   switch (first->type) {
     case FYET_ALIAS:
       return read_alias(r, first, out);
@@ -243,6 +244,7 @@ static corot_status read_value(reader *r, const event *first, int depth, config_
     default:
       return config_fail_at(r->source, first->at, "a value is missing");
   }
+  /* it may be repeated by its name from here on */
   if (first->anchor) COROT_TRY(add_anchor(r, first->anchor, node));
   *out = node;
   return COROT_OK;

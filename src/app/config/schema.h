@@ -2,7 +2,6 @@
 #ifndef COROT_APP_CONFIG_SCHEMA_H
 #define COROT_APP_CONFIG_SCHEMA_H
 
-#include <jansson.h>
 #include <stdio.h>
 
 #include "config.h"
@@ -57,13 +56,18 @@ typedef struct schema_key {
   const char *doc;
 } schema_key;
 
+/* What people call a key, in maps of `path`, that has another name here. */
+typedef struct schema_synonym {
+  const char *path, *key, *name;
+} schema_synonym;
+
 /* In the order of a well-kept file, every parent before its children. */
 typedef struct schema {
   const schema_key *key; /* [nkey] */
   int nkey;
+  const schema_synonym *synonym; /* [nsynonym] */
+  int nsynonym;
 } schema;
-
-extern const schema scenario_schema;
 
 /* The next key after `previous` (NULL: the first) in maps of this path ("" the root); NULL: no
    more. */
@@ -83,17 +87,20 @@ corot_status schema_apply(const schema *table, config *tree);
    keys can be set. */
 corot_status schema_expand(const schema *table, config *tree);
 
-/* A checked scenario as JSON, its keys in the order of the table. NULL: no memory. */
-json_t *schema_resolve(const config *tree);
-
 /* The table for people, narrowed to the keys that begin with `prefix`; returns the number of keys
    printed. */
 int schema_print(const schema *table, const char *prefix, FILE *out);
 
-/* That of scenarios as a JSON Schema, for programs. */
-json_t *schema_json(void);
+/* What a range is: from `least` to `most`, which is in it unless it must be above or below. */
+typedef struct schema_bounds {
+  const char *words; /* "> 0"; "" for SCHEMA_ANY */
+  double least, most;
+  bool above, below;
+} schema_bounds;
 
-/* A range in words, "> 0"; "" for SCHEMA_ANY. */
-const char *schema_range_words(schema_range range);
+/* By schema_range. */
+extern const schema_bounds schema_ranges[];
+
+bool schema_in_range(double x, schema_range range);
 
 #endif

@@ -73,37 +73,11 @@ static bool among(const char *word, const char *words) {
   return false;
 }
 
-/* What people call keys of a scenario that have another name here. */
-static const struct {
-  const char *path, *key, *name;
-} synonyms[] = {
-    {"", "initial", "start"},
-    {"", "initial_conditions", "start"},
-    {"", "initial_velocity", "start.velocity"},
-    {"", "velocity", "start.velocity"},
-    {"", "spin", "start.spin"},
-    {"start", "angular_velocity", "spin"},
-    {"start", "omega", "spin"},
-    {"boundary[]", "displacement", "move"},
-    {"boundary[]", "displace", "move"},
-    {"boundary[]", "amplitude", "move.amplitude"},
-    {"boundary[].translate", "displacement", "boundary[].move.direction"},
-    {"boundary[].translate", "amplitude", "boundary[].move.amplitude"},
-    {"boundary[].rotate", "angle", "boundary[].move.rotate.angle"},
-    {"boundary[].rotate", "amplitude", "boundary[].move.amplitude"},
-    {"boundary[].move", "displacement", "direction"},
-    {"boundary[].move", "translate", "direction"},
-    {"boundary[].move.amplitude", "spline", "smooth"},
-    {"boundary[].move.amplitude", "table", "file"},
-    {"loads[].amplitude", "spline", "smooth"},
-    {"loads[].amplitude", "table", "file"},
-};
-
 static const char *synonym(const schema *table, const char *path, const char *key) {
-  if (table != &scenario_schema) return NULL;
-  for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
-    if (strcmp(synonyms[i].path, path) == 0 && strcmp(synonyms[i].key, key) == 0)
-      return synonyms[i].name;
+  for (int i = 0; i < table->nsynonym; i++) {
+    const schema_synonym *s = &table->synonym[i];
+    if (strcmp(s->path, path) == 0 && strcmp(s->key, key) == 0) return s->name;
+  }
   return NULL;
 }
 
@@ -123,27 +97,6 @@ static corot_status unknown_key(const schema *table, const config_node *node, co
 
 /* --- Numbers --- */
 
-static bool in_range(double x, schema_range range) {
-  switch (range) {
-    case SCHEMA_POSITIVE:
-      return x > 0;
-    case SCHEMA_NOT_NEGATIVE:
-      return x >= 0;
-    case SCHEMA_FRACTION:
-      return x > 0 && x < 1;
-    case SCHEMA_UNIT:
-      return x >= 0 && x <= 1;
-    case SCHEMA_ORDER:
-      return x >= 1 && x <= 5;
-    case SCHEMA_STAGE_ORDER:
-      return x >= 2 && x <= 8;
-    case SCHEMA_POISSON:
-      return x > -1 && x < 0.5;
-    default:
-      return true;
-  }
-}
-
 static corot_status check_number(config_node *node, schema_range range) {
   if (!config_parse_number(node, &node->number)) {
     if (node->quoted) return expected(node, "a number (without quotes)");
@@ -151,8 +104,8 @@ static corot_status check_number(config_node *node, schema_range range) {
     return expected(node,
                     digits ? "a finite number in decimal, such as 1.5 or 1.0e-3" : "a number");
   }
-  if (!in_range(node->number, range))
-    return config_fail(node, "must be %s, found %s", schema_range_words(range), node->text);
+  if (!schema_in_range(node->number, range))
+    return config_fail(node, "must be %s, found %s", schema_ranges[range].words, node->text);
   return COROT_OK;
 }
 
@@ -333,6 +286,7 @@ corot_status schema_expand(const schema *table, config *tree) {
   return COROT_OK;
 }
 
+/* By the type of its key. */
 static corot_status apply_value(const application *a, config_node *node, const schema_key *key) {
   char inside[PATH];
   schema_inside(key, sizeof inside, inside);

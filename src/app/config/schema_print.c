@@ -4,49 +4,27 @@
 
 #include "schema.h"
 
-static const char *type_words(schema_type type) {
-  switch (type) {
-    case SCHEMA_MAP:
-      return "map";
-    case SCHEMA_NAMED:
-      return "map of names";
-    case SCHEMA_LIST:
-      return "list of maps";
-    case SCHEMA_MAPS:
-      return "map or list";
-    case SCHEMA_SHORT:
-      return "map or value";
-    case SCHEMA_TEXT:
-      return "text";
-    case SCHEMA_CHOICE:
-      return "choice";
-    case SCHEMA_NUMBER:
-      return "number";
-    case SCHEMA_INTEGER:
-      return "integer";
-    case SCHEMA_VECTOR:
-      return "3 numbers";
-    case SCHEMA_COUNTS:
-      return "3 integers";
-    case SCHEMA_INTEGERS:
-      return "integers";
-    case SCHEMA_WORDS:
-      return "list of words";
-    case SCHEMA_CURVE:
-      return "pairs or map";
-    case SCHEMA_STATES:
-      return "word, map or list";
-    case SCHEMA_TEXTS:
-      return "text or list";
-    case SCHEMA_VALUES:
-      return "list of values";
-    case SCHEMA_OPEN:
-      return "map of keys";
-    case SCHEMA_OPENS:
-      return "list of maps";
-  }
-  return "";
-}
+static const char *const type_words[] = {
+    [SCHEMA_MAP] = "map",
+    [SCHEMA_NAMED] = "map of names",
+    [SCHEMA_LIST] = "list of maps",
+    [SCHEMA_MAPS] = "map or list",
+    [SCHEMA_SHORT] = "map or value",
+    [SCHEMA_TEXT] = "text",
+    [SCHEMA_CHOICE] = "choice",
+    [SCHEMA_NUMBER] = "number",
+    [SCHEMA_INTEGER] = "integer",
+    [SCHEMA_VECTOR] = "3 numbers",
+    [SCHEMA_COUNTS] = "3 integers",
+    [SCHEMA_INTEGERS] = "integers",
+    [SCHEMA_WORDS] = "list of words",
+    [SCHEMA_CURVE] = "pairs or map",
+    [SCHEMA_STATES] = "word, map or list",
+    [SCHEMA_TEXTS] = "text or list",
+    [SCHEMA_VALUES] = "list of values",
+    [SCHEMA_OPEN] = "map of keys",
+    [SCHEMA_OPENS] = "list of maps",
+};
 
 static const char *default_words(const schema_key *key) {
   switch (key->status) {
@@ -60,8 +38,8 @@ static const char *default_words(const schema_key *key) {
 }
 
 static void type_and_range(const schema_key *key, size_t size, char *text) {
-  const char *range = schema_range_words(key->range);
-  snprintf(text, size, "%s%s%s", type_words(key->type), *range ? " " : "", range);
+  const char *range = schema_ranges[key->range].words;
+  snprintf(text, size, "%s%s%s", type_words[key->type], *range ? " " : "", range);
 }
 
 /* "a, b, c" */

@@ -151,6 +151,7 @@ static void make_header(const corot_mesh *mesh, char text[HEADER]) {
 /* Lays out the image: everything that stays the same from frame to frame is put in place. */
 static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *material) {
   char header[HEADER];
+  /* header, a size and the data of each array, tail */
   make_header(mesh, header);
   size_t at = strlen(header);
   w->size = at + sizeof file_tail - 1;
@@ -159,6 +160,7 @@ static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *materi
   if (!w->image)
     return corot_fail(COROT_ENOMEM, "%zu bytes for the fields: out of memory", w->size);
 
+  /* what frames the arrays, and where they are */
   memcpy(w->image, header, at);
   for (int i = 0; i < NARRAY; i++) {
     uint64_t bytes = array_bytes(i, mesh);
@@ -168,6 +170,7 @@ static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *materi
   }
   memcpy(w->image + at, file_tail, sizeof file_tail - 1);
 
+  /* the mesh and its materials */
   int32_t *nodes = (void *)w->array[NODES], *offsets = (void *)w->array[OFFSETS];
   int32_t *number = (void *)w->array[MATERIAL];
   memcpy(w->array[REST], mesh->x, array_bytes(REST, mesh));

@@ -8,6 +8,7 @@
 
 #include "app/folder/folder.h"
 #include "app/folder/provenance.h"
+#include "app/scenario/words.h"
 #include "app/text/json_text.h"
 
 /* Zero stands for what was not asked for. */
@@ -29,11 +30,6 @@ static json_t *mesh_part(const scenario *s, const corot_model *model) {
 }
 
 static json_t *frames_part(const scenario *s, const run_summary *run) {
-  static const char *const history_words[] = {
-      [COROT_HISTORY_AUTO] = "auto",
-      [COROT_HISTORY_KEEP] = "keep",
-      [COROT_HISTORY_RESTART] = "restart",
-  };
   const corot_frame_policy *p = &s->frames;
   bool exact = p->frames == COROT_FRAMES_EXACT;
   json_t *by = json_object();
@@ -42,15 +38,14 @@ static json_t *frames_part(const scenario *s, const run_summary *run) {
   return json_pack(
       "{s:s, s:o, s:o, s:s?, s:o, s:o, s:o, s:o, s:o}", "policy", s->frame_policy, "interval",
       positive(p->interval), "max_angle", positive(p->max_angle), "history",
-      exact ? NULL : history_words[p->history], "updates", integer(run->frames.count), "updates_by",
-      by, "angle_max", json_text_real(run->frames.angle_max), "angle_mean",
+      exact ? NULL : words_frame_history[p->history], "updates", integer(run->frames.count),
+      "updates_by", by, "angle_max", json_text_real(run->frames.angle_max), "angle_mean",
       json_text_real(run->frames.angle_mean), "energy", json_text_real(run->frames.energy));
 }
 
 static json_t *jacobian_part(const corot_integrator_choice *c) {
-  if (strcmp(c->linear_solver, "none") == 0) return json_null();
-  static const char *const tangents[] = {"held", "exact", "clamped"};
-  return json_pack("{s:s, s:o, s:o, s:o, s:o}", "tangent", tangents[c->tangent], "reassembly",
+  if (corot_method_traits(c->method)->explicit_steps) return json_null();
+  return json_pack("{s:s, s:o, s:o, s:o, s:o}", "tangent", words_tangent[c->tangent], "reassembly",
                    positive(c->reassembly), "refactorisation", positive(c->refactorisation),
                    "gamma_change", positive(c->gamma_change), "convergence",
                    positive(c->convergence));
@@ -58,13 +53,12 @@ static json_t *jacobian_part(const corot_integrator_choice *c) {
 
 static json_t *integrator_part(const scenario *s, const corot_integrator_choice *c) {
   const corot_integrator_def *d = &s->integrator;
-  const char *solution = d->solution == COROT_SOLUTION_LINEAR ? "linear" : "newton";
   return json_pack("{s:s?, s:s?, s:o, s:o, s:o, s:i, s:s?, s:o, s:s?, s:o}", "method", c->method,
                    "linear_solver", c->linear_solver, "rtol", json_text_real(d->rtol),
                    "atol_displacement", json_text_real(c->atol_displacement), "atol_velocity",
                    json_text_real(c->atol_velocity), "max_order", c->max_order, "table",
                    c->table && *c->table ? c->table : NULL, "step", positive(d->step), "solution",
-                   d->step > 0 ? solution : NULL, "jacobian", jacobian_part(c));
+                   d->step > 0 ? words_solution[d->solution] : NULL, "jacobian", jacobian_part(c));
 }
 
 static json_t *statistics_part(const run_summary *run) {
@@ -157,6 +151,7 @@ json_t *result_versions(void) {
                    corot_sundials_version(), "compiler", provenance_compiler);
 }
 
+/* In the order of the file. */
 corot_status result_make(const scenario *s, const outputs *o, const run_summary *run,
                          json_t **out) {
   const hashes *h = &run->hashes;

@@ -3,17 +3,18 @@
 
 #include <math.h>
 
+#include "app/scenario/words.h"
+
 json_t *result_statics(const scenario *s, const statics_summary *statics) {
   const corot_statics_def *d = &s->statics;
   json_t *critical = isnan(statics->unstable)
                          ? json_null()
                          : json_pack("[f, f]", statics->stable, statics->unstable);
   return json_pack("{s:s, s:s, s:f, s:i, s:f, s:f, s:f, s:f, s:o, s:O, s:O}", "linear_solver",
-                   statics->linear_solver, "frames",
-                   d->frames == COROT_FRAMES_HELD ? "held" : "exact", "tolerance", d->tolerance,
-                   "max_iterations", d->max_iterations, "first_step", d->first_step, "min_step",
-                   d->min_step, "max_step", d->max_step, "factor", statics->factor, "critical",
-                   critical, "steps", statics->steps, "reactions", statics->reactions);
+                   statics->linear_solver, "frames", words_statics_frames[d->frames], "tolerance",
+                   d->tolerance, "max_iterations", d->max_iterations, "first_step", d->first_step,
+                   "min_step", d->min_step, "max_step", d->max_step, "factor", statics->factor,
+                   "critical", critical, "steps", statics->steps, "reactions", statics->reactions);
 }
 
 json_t *result_statics_counts(const corot_statics_counts *n) {

@@ -242,6 +242,7 @@ static corot_status integrate(run *r) {
 /* How far the answer goes. */
 static double reached(const run *r) { return fmin(r->t, r->scenario->t_end); }
 
+/* All that result.json says of the run itself. */
 static corot_status summarize(const run *r, const char *reason, int code, run_summary *summary) {
   bool interrupted = code > EXIT_SIGNAL;
   *summary = (run_summary){
@@ -302,6 +303,7 @@ static int conclude(run *r, corot_status status) {
     run_add_reason(sizeof reason, reason);
   }
 
+  /* warnings and result.json */
   run_summary summary;
   r->failure = run_failure_of(status, code);
   late = run_warn_after(r->scenario, r->model, r->state, r->outputs, false, r->options,

@@ -177,9 +177,11 @@ static corot_status find_equilibrium(equilibrium_run *r) {
 
 /* --- After the last --- */
 
+/* All that result.json says of the search itself; `summary` refers to `statics`. */
 static corot_status summarize(const equilibrium_run *r, const char *reason, int code,
                               statics_summary *statics, run_summary *summary) {
   corot_statics_counts n = corot_statics_statistics(r->statics);
+  /* what a run does not have */
   *statics = (statics_summary){
       .counts = n,
       .linear_solver = corot_statics_solver(r->statics),
@@ -188,6 +190,8 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .reactions = r->reactions_at_end,
   };
   corot_statics_critical(r->statics, &statics->stable, &statics->unstable);
+
+  /* and what it has */
   *summary = (run_summary){
       .status = code == 0            ? "ok"
                 : code > EXIT_SIGNAL ? "interrupted"
@@ -232,12 +236,14 @@ static void tell(const equilibrium_run *r, const char *reason, const run_summary
 static int conclude(equilibrium_run *r, corot_status status) {
   char reason[1024] = "";
   int code = run_exit_code(status);
+  /* why it ended */
   if (stop_signal() && r->factor < 1)
     code = run_interrupted(sizeof reason, reason);
   else if (code != 0)
     snprintf(reason, sizeof reason, "%s", corot_error());
   if (code > EXIT_SIGNAL) stop_heeded();
 
+  /* the files; if nothing else went wrong, what goes wrong here is the reason */
   r->reactions_at_end = outputs_reactions(r->outputs);
   corot_status late = outputs_close(r->outputs);
   if (run_late_code(code, late) != code) {
@@ -245,6 +251,8 @@ static int conclude(equilibrium_run *r, corot_status status) {
     status = late;
     run_add_reason(sizeof reason, reason);
   }
+
+  /* warnings and result.json */
   run_summary summary;
   statics_summary statics;
   r->failure = run_failure_of(status, code);

@@ -7,6 +7,7 @@
 
 #include "app/config/config.h"
 #include "app/text/json_text.h"
+#include "words.h"
 
 /* --- Finding --- */
 
@@ -116,7 +117,7 @@ static void print_uses(const scenario *s, const char *group, FILE *out) {
       fprintf(out, "; %s", motion_words[s->model.motion[i].kind]);
   for (int i = 0; i < s->model.nload; i++)
     if (is_named(s->model.load[i].group, group))
-      fprintf(out, "; %s", scenario_load_words[s->model.load[i].kind]);
+      fprintf(out, "; %s", words_load[s->model.load[i].kind]);
   for (int i = 0; i < s->model.nmaterial; i++)
     if (is_named(s->model.material[i].group, group)) fputs("; material", out);
 }
@@ -160,7 +161,7 @@ static void print_frames(const scenario *s, FILE *out) {
 }
 
 static const char *viscosity_name(const facts *f) {
-  return corot_model_viscosity(f->model) == COROT_OBJECTIVE ? "objective" : "corotated";
+  return words_viscosity[corot_model_viscosity(f->model)];
 }
 
 static void print_viscosity(const scenario *s, const facts *f, FILE *out) {
@@ -193,7 +194,7 @@ static void print_load(const corot_load *l, FILE *out) {
       [COROT_FORCE] = "N",
       [COROT_PRESSURE] = "Pa",
   };
-  fprintf(out, "load           %s%s%s: ", scenario_load_words[l->kind], l->group ? " on " : "",
+  fprintf(out, "load           %s%s%s: ", words_load[l->kind], l->group ? " on " : "",
           l->group ? l->group : "");
   if (l->kind == COROT_PRESSURE)
     fprintf(out, "%g Pa", l->value[0]);
@@ -273,7 +274,8 @@ static void print_integrator(const scenario *s, const corot_integrator_choice *c
     fprintf(out, "order %d, %s", c->max_order, c->table);
   else
     fprintf(out, "order up to %d", c->max_order);
-  if (strcmp(c->linear_solver, "none") != 0) fprintf(out, ", linear solver %s", c->linear_solver);
+  if (!corot_method_traits(d->method)->explicit_steps)
+    fprintf(out, ", linear solver %s", c->linear_solver);
   fputc('\n', out);
   if (d->step > 0)
     fprintf(out, "tolerances     Newton %g\n", d->newton_tolerance);
@@ -383,9 +385,7 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "loads", json_integer(s->model.nload));
   j = json_text_with(j, "amplitudes", amplitudes_json(s));
   j = json_text_with(j, "strain", json_string(s->model.strain));
-  j = json_text_with(
-      j, "dilatation",
-      json_string(s->model.dilatation == COROT_DILATATION_NODAL ? "nodal" : "local"));
+  j = json_text_with(j, "dilatation", json_string(words_dilatation[s->model.dilatation]));
   j = json_text_with(j, "viscosity", json_string(viscosity_name(f)));
   j = json_text_with(j, "frames", json_string(s->frame_policy));
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));

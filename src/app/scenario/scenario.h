@@ -8,6 +8,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "scenario_keys.h"
+
 typedef enum group_kind { GROUP_PLANE, GROUP_BOX, GROUP_NODES } group_kind;
 
 typedef struct group_def {
@@ -95,9 +97,6 @@ typedef struct setting {
 /* The same as scenario_read with overrides that have been read from a file themselves: messages
    name their places there. Their tree must outlive the scenario. */
 corot_status scenario_read_with(const char *path, int nset, const setting *set, scenario **out);
-
-/* The key of each kind of load. */
-extern const char *const scenario_load_words[];
 
 /* v [n] = the velocity that a run starts with from the displacement u [n]. */
 void scenario_start(const scenario *s, const corot_model *model, const double *u, double *v);

@@ -75,18 +75,11 @@ static corot_status read_boundary(scenario *s) {
 
 /* --- Loads --- */
 
-const char *const scenario_load_words[] = {
-    [COROT_TRACTION] = "traction",
-    [COROT_GRAVITY] = "gravity",
-    [COROT_FORCE] = "force",
-    [COROT_PRESSURE] = "pressure",
-};
-
 static corot_status read_load(scenario *s, config_node *node, corot_load *load) {
   config_node *group = config_find(node, "group"), *amplitude = config_find(node, "amplitude");
   config_node *value = NULL;
   for (int kind = COROT_TRACTION; !value; kind++) {
-    value = config_find(node, scenario_load_words[kind]);
+    value = config_find(node, words_load[kind]);
     load->kind = (corot_load_kind)kind;
   }
   if (load->kind == COROT_GRAVITY && group)

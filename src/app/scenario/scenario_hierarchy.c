@@ -1,11 +1,6 @@
 /* A strain measure of its own for the unrefined mesh. */
 #include "scenario_parts.h"
 
-static corot_coupling coupling_at(config_node *node) {
-  if (text_is(node, "coupling", "nodes")) return COROT_COUPLING_NODES;
-  return text_is(node, "coupling", "one-way") ? COROT_COUPLING_ONE_WAY : COROT_COUPLING_MEAN;
-}
-
 void scenario_read_hierarchy(scenario *s) {
   config_node *node = config_find(s->source->root, "hierarchy");
   if (!node) return;
@@ -14,5 +9,5 @@ void scenario_read_hierarchy(scenario *s) {
   def->coarse_strain = text_at(node, "coarse_strain");
   def->frame_level = (int)number_at(node, "frame_level");
   def->conservative = text_is(node, "force", "conservative");
-  def->coupling = coupling_at(node);
+  def->coupling = (corot_coupling)choice_at(node, "coupling", words_coupling);
 }

@@ -7,10 +7,10 @@ static const struct {
   bool every_step;
   bool conditions; /* updates at an interval or an angle */
 } policies[] = {
-    {"exact", COROT_FRAMES_EXACT, false, false},
-    {"step", COROT_FRAMES_HELD, true, false},
-    {"hold", COROT_FRAMES_HELD, false, true},
-    {"extrapolate", COROT_FRAMES_EXTRAPOLATED, false, true},
+    {.name = "exact", .frames = COROT_FRAMES_EXACT},
+    {.name = "step", .frames = COROT_FRAMES_HELD, .every_step = true},
+    {.name = "hold", .frames = COROT_FRAMES_HELD, .conditions = true},
+    {.name = "extrapolate", .frames = COROT_FRAMES_EXTRAPOLATED, .conditions = true},
 };
 
 static corot_status read_frames(scenario *s) {
@@ -30,21 +30,14 @@ static corot_status read_frames(scenario *s) {
                            "has an effect with policy: hold or extrapolate only, and none "
                            "is given");
 
-  static const char *const history[] = {"auto", "keep", "restart"};
   s->frame_policy = policies[p].name;
   s->frames = corot_frame_policy_defaults();
   s->frames.frames = policies[p].frames;
   s->frames.every_step = policies[p].every_step;
   if (policies[p].conditions && interval) s->frames.interval = interval->number;
   if (policies[p].conditions && angle) s->frames.max_angle = angle->number;
-  for (int i = 0; i < 3; i++)
-    if (text_is(frames, "history", history[i])) s->frames.history = (corot_history)i;
+  s->frames.history = (corot_history)choice_at(frames, "history", words_frame_history);
   return COROT_OK;
-}
-
-static corot_viscosity viscosity_at(config_node *root) {
-  if (text_is(root, "viscosity", "auto")) return COROT_VISCOSITY_AUTO;
-  return text_is(root, "viscosity", "objective") ? COROT_OBJECTIVE : COROT_COROTATED;
 }
 
 static corot_status read_constant_step(config_node *node, corot_integrator_def *def) {
@@ -59,8 +52,7 @@ static corot_status read_constant_step(config_node *node, corot_integrator_def *
     return config_fail(radius, "must be %g to 1 for %s, found %s", least, def->method,
                        radius->text);
   if (step) def->step = step->number;
-  bool linear = text_is(node, "solution", "linear");
-  def->solution = linear ? COROT_SOLUTION_LINEAR : COROT_SOLUTION_NEWTON;
+  def->solution = (corot_solution)choice_at(node, "solution", words_solution);
   def->newton_tolerance = number_at(node, "newton.tolerance");
   def->newton_iterations = (int)number_at(node, "newton.iterations");
   def->spectral_radius = radius->number;
@@ -110,18 +102,6 @@ static void read_linear_solver(config_node *node, corot_linear_def *def) {
   def->tolerance = number_at(node, "tolerance");
 }
 
-static corot_tangent tangent_at(config_node *node) {
-  static const struct {
-    const char *name;
-    corot_tangent tangent;
-  } known[] = {{"held", COROT_TANGENT_HELD},
-               {"exact", COROT_TANGENT_EXACT},
-               {"clamped", COROT_TANGENT_CLAMPED}};
-  for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-    if (text_is(node, "jacobian.tangent", known[k].name)) return known[k].tangent;
-  return COROT_TANGENT_AUTO;
-}
-
 static corot_status read_controlled_step(config_node *node, corot_integrator_def *def) {
   def->rtol = number_at(node, "rtol");
   def->atol_displacement = number_at(node, "atol.displacement");
@@ -142,7 +122,7 @@ static corot_status read_integrator(scenario *s) {
   corot_integrator_def def = corot_integrator_defaults();
   def.method = text_at(node, "method");
   def.max_steps = (long)number_at(node, "max_steps");
-  def.tangent = tangent_at(node);
+  def.tangent = (corot_tangent)choice_at(node, "jacobian.tangent", words_tangent);
   def.reassembly = (int)number_at(node, "jacobian.reassembly");
   def.refactorisation = (int)number_at(node, "jacobian.refactorisation");
   def.gamma_change = number_at(node, "jacobian.gamma_change");
@@ -160,16 +140,14 @@ static corot_status read_integrator(scenario *s) {
 
 static void read_dilatation(scenario *s) {
   config_node *node = config_find(s->source->root, "dilatation");
-  s->model.dilatation =
-      text_is(node, "name", "nodal") ? COROT_DILATATION_NODAL : COROT_DILATATION_LOCAL;
+  s->model.dilatation = (corot_dilatation)choice_at(node, "name", words_dilatation);
   s->model.dilatation_local = number_at(node, "local");
 }
 
 corot_status scenario_read_method(scenario *s) {
-  s->model.mass =
-      text_is(s->source->root, "mass", "consistent") ? COROT_MASS_CONSISTENT : COROT_MASS_LUMPED;
+  s->model.mass = (corot_mass)choice_at(s->source->root, "mass", words_mass);
   read_dilatation(s);
-  s->model.viscosity = viscosity_at(s->source->root);
+  s->model.viscosity = (corot_viscosity)choice_at(s->source->root, "viscosity", words_viscosity);
   COROT_TRY(read_frames(s));
   return read_integrator(s);
 }

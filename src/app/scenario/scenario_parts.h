@@ -10,6 +10,7 @@
 #include "app/config/config.h"
 #include "app/text/no_memory.h"
 #include "scenario.h"
+#include "words.h"
 
 /* boundary and loads */
 corot_status scenario_read_conditions(scenario *s);
@@ -46,6 +47,12 @@ static inline const char *text_at(config_node *node, const char *path) {
 
 static inline bool text_is(config_node *node, const char *path, const char *text) {
   return strcmp(text_at(node, path), text) == 0;
+}
+
+/* The number of the word there, one of those in the list as the schema has seen to; -1: it is a
+   word of the scenario alone, as auto. */
+static inline int choice_at(config_node *node, const char *path, const char *const *words) {
+  return words_find(words, text_at(node, path));
 }
 
 static inline void vector_at(config_node *node, const char *path, double vector[3]) {

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/config/schema.h"
-#include "box_split.h"
 #include "core/model/definition.h"
 #include "scenario_fault.h"
 #include "scenario_parts.h"
@@ -16,8 +14,7 @@ static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root;
   config_node *box = config_find(root, "mesh.box");
   s->refine = (int)number_at(root, "mesh.refine");
-  s->diagonal = text_is(root, "mesh.diagonal", "consistent") ? COROT_DIAGONAL_CONSISTENT
-                                                             : COROT_DIAGONAL_SHORTEST;
+  s->diagonal = (corot_diagonal)choice_at(root, "mesh.diagonal", words_diagonal);
   if (!box) {
     config_node *file = config_find(root, "mesh.file");
     if (!*file->text) return config_fail(file, "the name is empty");
@@ -29,7 +26,7 @@ static corot_status read_mesh(scenario *s) {
   vector_at(box, "cells", cells);
   vector_at(box, "origin", s->box.origin);
   for (int i = 0; i < 3; i++) s->box.cells[i] = (int)cells[i];
-  box_split_find(text_at(box, "split"), &s->box.split);
+  s->box.split = (corot_box_split)choice_at(box, "split", words_box_split);
   return COROT_OK;
 }
 
@@ -163,7 +160,7 @@ static corot_status read_compare(scenario *s) {
   const char **measure = config_alloc(s->source, (size_t)list->nchild + 1, sizeof *measure);
   if (!measure) return no_memory();
   s->compare = measure;
-  bool listed = strcmp(s->model.strain, "green") == 0;
+  bool listed = corot_strain_find(s->model.strain)->exact;
   for (const config_node *c = list->child; c; c = c->next) {
     measure[s->ncompare++] = c->text;
     listed |= strcmp(c->text, s->model.strain) == 0;

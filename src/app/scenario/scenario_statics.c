@@ -13,7 +13,7 @@ corot_status scenario_read_statics(scenario *s) {
   config_node *root = s->source->root, *node = config_find(root, "statics");
   corot_statics_def def = corot_statics_defaults();
   def.linear = s->integrator.linear;
-  def.frames = text_is(node, "frames", "held") ? COROT_FRAMES_HELD : COROT_FRAMES_EXACT;
+  def.frames = (corot_frames)choice_at(node, "frames", words_statics_frames);
   def.tolerance = number_at(node, "tolerance");
   def.max_iterations = (int)number_at(node, "max_iterations");
   COROT_TRY(read_fraction(node, "first_step", &def.first_step));

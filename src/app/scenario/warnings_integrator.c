@@ -69,6 +69,7 @@ static bool will_move(const scenario *s, bool is_free) {
 
 corot_status warnings_find_integrator(const scenario *s, const corot_model *model, warnings *w) {
   const corot_integrator_def *d = &s->integrator;
+  /* BDF at tolerances at which its error shows, of a body whose energy nothing else changes */
   if (!corot_method_traits(d->method)->multistep || !(d->rtol > SMALL_TOLERANCE) ||
       s->frames.frames != COROT_FRAMES_EXACT)
     return COROT_OK;
@@ -76,6 +77,8 @@ corot_status warnings_find_integrator(const scenario *s, const corot_model *mode
   bool is_free, undamped = is_undamped(s);
   COROT_TRY(all_parts_free(model, &is_free));
   if (!(is_free || undamped) || !will_move(s, is_free)) return COROT_OK;
+
+  /* which of the two it is */
   if (!undamped)
     return warnings_add(w, WARNING_INTEGRATOR,
                         "nothing holds the body, and what %s makes of its angular momentum adds up "

@@ -6,6 +6,15 @@
 
 #include <corot/model.h>
 
+/* What the coefficients of a material must be, OF(FIELD, RANGE) each: for the core, which refuses
+   others, and for whoever documents the files that they come from. */
+#define COROT_MATERIAL_RANGES(OF)  \
+  OF(mu, POSITIVE)                 \
+  OF(density, POSITIVE)            \
+  OF(damping_lambda, NOT_NEGATIVE) \
+  OF(damping_mu, NOT_NEGATIVE)     \
+  OF(damping_mass, NOT_NEGATIVE)
+
 /* All of the definition but its mesh and the refinement of its hierarchy, in whose place stands
    `nlevel`, the levels under the finest one. COROT_EINVAL. */
 corot_status corot_definition_check(const corot_model_def *def, int nlevel);

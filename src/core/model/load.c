@@ -11,13 +11,6 @@ static void add_force(const corot_model *m, double *force, int node, const doubl
     if (m->dof[node][c] >= 0) force[m->dof[node][c]] += factor * value[c];
 }
 
-static const char *const kind_words[] = {
-    [COROT_TRACTION] = "traction",
-    [COROT_GRAVITY] = "gravity",
-    [COROT_FORCE] = "force",
-    [COROT_PRESSURE] = "pressure",
-};
-
 /* The faces that load k acts on. */
 static corot_status find_faces(const corot_model *m, const corot_load *from, int k,
                                const corot_group **group) {
@@ -25,7 +18,8 @@ static corot_status find_faces(const corot_model *m, const corot_load *from, int
   if ((*group)->ntri) return COROT_OK;
   return corot_fail_at("load", k, "group",
                        "group '%s' has no faces for a %s to act on (%d nodes, %d tets)",
-                       from->group, kind_words[from->kind], (*group)->nnode, (*group)->ntet);
+                       from->group, from->kind == COROT_PRESSURE ? "pressure" : "traction",
+                       (*group)->nnode, (*group)->ntet);
 }
 
 /* Half the cross product of two edges: the area, along the normal of the winding. */

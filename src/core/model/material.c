@@ -1,5 +1,6 @@
 /* Materials: each checked, and which tets are made of which. */
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,12 +8,28 @@
 #include "definition.h"
 #include "model.h"
 
-/* A coefficient that must be > 0 or, if it may be, 0. */
-static corot_status check_sign(int k, const char *name, double value, bool zero) {
-  if (isfinite(value) && (value > 0 || (zero && value == 0))) return COROT_OK;
-  return corot_fail_at(
-      "material", k, name, "%s = %g %s", name, value,
-      isfinite(value) ? (zero ? "is negative" : "is not positive") : "is not finite");
+enum { ZERO_IS_POSITIVE = false, ZERO_IS_NOT_NEGATIVE = true };
+
+#define COEFFICIENT(field, range) \
+  {.name = #field, .at = offsetof(corot_material, field), .zero = ZERO_IS_##range},
+static const struct {
+  const char *name;
+  size_t at; /* in a corot_material */
+  bool zero; /* may be */
+} coefficients[] = {COROT_MATERIAL_RANGES(COEFFICIENT)};
+
+static corot_status check_ranges(const corot_material *m, int k) {
+  for (size_t i = 0; i < sizeof coefficients / sizeof *coefficients; i++) {
+    const char *name = coefficients[i].name;
+    bool zero = coefficients[i].zero;
+    double value = *(const double *)((const char *)m + coefficients[i].at);
+    if (!isfinite(value))
+      return corot_fail_at("material", k, name, "%s = %g is not finite", name, value);
+    if (!(value > 0 || (zero && value == 0)))
+      return corot_fail_at("material", k, name, "%s = %g is %s", name, value,
+                           zero ? "negative" : "not positive");
+  }
+  return COROT_OK;
 }
 
 /* One entry may go without a group, and each group has one. */
@@ -32,16 +49,12 @@ static corot_status check_group(const corot_model_def *def, int k) {
 
 corot_status corot_material_check(const corot_model_def *def, int k) {
   const corot_material *m = &def->material[k];
-  COROT_TRY(check_sign(k, "mu", m->mu, false));
+  COROT_TRY(check_ranges(m, k));
   if (!(3 * m->lambda + 2 * m->mu > 0) || !isfinite(m->lambda))
     return corot_fail_at("material", k, "lambda",
                          "3 lambda + 2 mu must be > 0, otherwise the solid has no resistance to a "
                          "change of volume; lambda = %g, mu = %g",
                          m->lambda, m->mu);
-  COROT_TRY(check_sign(k, "density", m->density, false));
-  COROT_TRY(check_sign(k, "damping_lambda", m->damping_lambda, true));
-  COROT_TRY(check_sign(k, "damping_mu", m->damping_mu, true));
-  COROT_TRY(check_sign(k, "damping_mass", m->damping_mass, true));
   return check_group(def, k);
 }
 

@@ -52,4 +52,4 @@ static const schema_key keys[] = {
 };
 /* clang-format on */
 
-const schema study_schema = {keys, sizeof keys / sizeof *keys};
+const schema study_schema = {.key = keys, .nkey = sizeof keys / sizeof *keys};

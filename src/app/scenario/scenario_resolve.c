@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "schema.h"
+#include "scenario_keys.h"
 
 static json_t *resolve_map(const config_node *map, const char *path);
 
@@ -64,6 +64,7 @@ static json_t *states(const config_node *node, const char *path) {
   return node->kind == CONFIG_SCALAR ? json_string(node->text) : resolve_map(node, path);
 }
 
+/* By the type of its key. */
 static json_t *resolve_value(const config_node *node, const schema_key *key) {
   char inside[128];
   schema_inside(key, sizeof inside, inside);

@@ -1,38 +1,25 @@
 /* The table as a JSON Schema (draft 2020-12), for editors and other programs. */
+#include <math.h>
 #include <string.h>
 
 #include "app/text/json_text.h"
-#include "schema.h"
+#include "scenario_keys.h"
 
 static json_t *map_schema(const char *path);
 
 static json_t *of_type(const char *type) { return json_pack("{s:s}", "type", type); }
 
+/* A bound, as a whole number where it is one. */
+static json_t *bound(double x) { return x == (int)x ? json_integer((int)x) : json_real(x); }
+
 static json_t *ranged(const char *type, schema_range range) {
+  const schema_bounds *b = &schema_ranges[range];
   json_t *s = of_type(type);
-  switch (range) {
-    case SCHEMA_POSITIVE:
-      return json_text_with(s, "exclusiveMinimum", json_integer(0));
-    case SCHEMA_NOT_NEGATIVE:
-      return json_text_with(s, "minimum", json_integer(0));
-    case SCHEMA_FRACTION:
-      return json_text_with(json_text_with(s, "exclusiveMinimum", json_integer(0)),
-                            "exclusiveMaximum", json_integer(1));
-    case SCHEMA_UNIT:
-      return json_text_with(json_text_with(s, "minimum", json_integer(0)), "maximum",
-                            json_integer(1));
-    case SCHEMA_ORDER:
-      return json_text_with(json_text_with(s, "minimum", json_integer(1)), "maximum",
-                            json_integer(5));
-    case SCHEMA_STAGE_ORDER:
-      return json_text_with(json_text_with(s, "minimum", json_integer(2)), "maximum",
-                            json_integer(8));
-    case SCHEMA_POISSON:
-      return json_text_with(json_text_with(s, "exclusiveMinimum", json_integer(-1)),
-                            "exclusiveMaximum", json_real(0.5));
-    default:
-      return s;
-  }
+  if (isfinite(b->least))
+    s = json_text_with(s, b->above ? "exclusiveMinimum" : "minimum", bound(b->least));
+  if (isfinite(b->most))
+    s = json_text_with(s, b->below ? "exclusiveMaximum" : "maximum", bound(b->most));
+  return s;
 }
 
 static json_t *words_list(const char *words) {

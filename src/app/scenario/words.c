@@ -1,0 +1,84 @@
+/* A table a choice: reading and telling both look here. */
+#include "words.h"
+
+#include <corot/integrate.h>
+#include <string.h>
+
+const char *const words_box_split[] = {
+    [COROT_BOX_KUHN] = "kuhn",
+    [COROT_BOX_ALTERNATING] = "alternating",
+    [COROT_BOX_SYMMETRIC] = "symmetric",
+    NULL,
+};
+
+const char *const words_diagonal[] = {
+    [COROT_DIAGONAL_CONSISTENT] = "consistent",
+    [COROT_DIAGONAL_SHORTEST] = "shortest",
+    NULL,
+};
+
+const char *const words_viscosity[] = {
+    [COROT_COROTATED] = "corotated",
+    [COROT_OBJECTIVE] = "objective",
+    [COROT_VISCOSITY_AUTO] = "auto",
+    NULL,
+};
+
+const char *const words_mass[] = {
+    [COROT_MASS_LUMPED] = "lumped",
+    [COROT_MASS_CONSISTENT] = "consistent",
+    NULL,
+};
+
+const char *const words_dilatation[] = {
+    [COROT_DILATATION_LOCAL] = "local",
+    [COROT_DILATATION_NODAL] = "nodal",
+    NULL,
+};
+
+const char *const words_coupling[] = {
+    [COROT_COUPLING_MEAN] = "mean",
+    [COROT_COUPLING_NODES] = "nodes",
+    [COROT_COUPLING_ONE_WAY] = "one-way",
+    NULL,
+};
+
+const char *const words_load[] = {
+    [COROT_TRACTION] = "traction",
+    [COROT_GRAVITY] = "gravity",
+    [COROT_FORCE] = "force",
+    [COROT_PRESSURE] = "pressure",
+    NULL,
+};
+
+const char *const words_solution[] = {
+    [COROT_SOLUTION_NEWTON] = "newton",
+    [COROT_SOLUTION_LINEAR] = "linear",
+    NULL,
+};
+
+const char *const words_tangent[] = {
+    [COROT_TANGENT_HELD] = "held",
+    [COROT_TANGENT_EXACT] = "exact",
+    [COROT_TANGENT_CLAMPED] = "clamped",
+    NULL,
+};
+
+const char *const words_frame_history[] = {
+    [COROT_HISTORY_AUTO] = "auto",
+    [COROT_HISTORY_KEEP] = "keep",
+    [COROT_HISTORY_RESTART] = "restart",
+    NULL,
+};
+
+const char *const words_statics_frames[] = {
+    [COROT_FRAMES_EXACT] = "exact",
+    [COROT_FRAMES_HELD] = "held",
+    NULL,
+};
+
+int words_find(const char *const *words, const char *word) {
+  for (int i = 0; words[i]; i++)
+    if (strcmp(words[i], word) == 0) return i;
+  return -1;
+}
