@@ -251,8 +251,10 @@ const corot_strain_kind *corot_strain_find(const char *name);
 
 typedef struct corot_model corot_model;
 
-/* COROT_EINVAL names what does not fit: an unknown group or strain, a coefficient out of range,
-   a tet without material, a traction on a group without triangles. COROT_ENOMEM. */
+/* COROT_EINVAL names what does not fit, an entry of a list by its index ("material 1: mu = 0 is not
+   positive"): an unknown group or strain, a coefficient out of range, a tet without material, a
+   traction on a group without triangles, a support on a group without nodes.
+   COROT_ENOMEM. */
 corot_status corot_model_create(const corot_model_def *def, corot_model **model);
 
 /* Takes NULL. */

@@ -17,6 +17,11 @@ static const struct {
     {escape_shell, "a'b\n$(c)\xff", "'a'\\''b\n$(c)\xff'"},
     {escape_line, "a\r\nb\tc", "a  b c"},
     {escape_line,
+     "a\xe2\x80\xae"
+     "b\xe2\x81\xa6"
+     "c\xe2\x80\x8f",
+     "a???b???c\xe2\x80\x8f"},
+    {escape_line,
      "a\xe2\x80\xa8"
      "b\xe2\x80\xa9\x1b[0m\xc2\x85\xff\xc3\xa9",
      "a b ?[0m???\xc3\xa9"},
@@ -41,6 +46,10 @@ static const struct {
     {escape_csv, "1-1", "1-1"},
     {escape_markup, "<a href=\"'&\">\x01\xff]]>", "&lt;a href=&quot;&#39;&amp;&quot;&gt;??]]&gt;"},
     {escape_sql_name, "a\"b", "\"a\"\"b\""},
+    {escape_terminal,
+     "a\xe2\x80\xae"
+     "b",
+     "a???b"},
     {escape_terminal, "a\n\tb\x1b[31m\xc2\x9b\r\xc3\xa9", "a\n\tb?[31m???\xc3\xa9"},
 };
 

@@ -24,6 +24,15 @@ int escape_character(const char *text) {
   return length;
 }
 
+/* The same for lines that people read: what turns the order of the text around it (U+202A to
+   U+202E, U+2066 to U+2069), so that a comment reads as a command, cannot be shown either. */
+static int shown_character(const char *s) {
+  const unsigned char *u = (const unsigned char *)s;
+  bool turns = u[0] == 0xe2 && ((u[1] == 0x80 && u[2] >= 0xaa && u[2] <= 0xae) ||
+                                (u[1] == 0x81 && u[2] >= 0xa6 && u[2] <= 0xa9));
+  return turns ? 0 : escape_character(s);
+}
+
 /* Writes one character, or '?' for a byte that is none; returns what is behind it. */
 static const char *put(const char *s, FILE *out) {
   int length = escape_character(s);
@@ -40,9 +49,16 @@ static bool is_break(const char *s) {
          strncmp(s, "\xe2\x80\xa9", 3) == 0;
 }
 
+/* The same of what is shown. */
+static const char *put_shown(const char *s, FILE *out) {
+  if (shown_character(s)) return put(s, out);
+  fputc('?', out);
+  return s + 1;
+}
+
 /* The same, with a space for what would end the line. */
 static const char *put_in_line(const char *s, FILE *out) {
-  if (!is_break(s)) return put(s, out);
+  if (!is_break(s)) return put_shown(s, out);
   fputc(' ', out);
   return s + (*s & 0x80 ? 3 : 1);
 }
@@ -67,7 +83,7 @@ const char *escape_line_cut(const char *text, size_t size, char *line) {
   size_t n = 0, fits = 0; /* `fits`: with the dots behind it */
   const char *s = text ? text : "";
   for (; *s;) {
-    int length = escape_character(s), skip = length ? length : 1;
+    int length = shown_character(s), skip = length ? length : 1;
     bool breaks = is_break(s);
     size_t bytes = breaks || !length ? 1 : (size_t)length;
     if (n + bytes >= size) break;
@@ -181,5 +197,5 @@ void escape_sql_name(const char *text, FILE *out) {
 }
 
 void escape_terminal(const char *text, FILE *out) {
-  for (const char *s = text ? text : ""; *s;) s = put(s, out);
+  for (const char *s = text ? text : ""; *s;) s = put_shown(s, out);
 }

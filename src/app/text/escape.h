@@ -19,7 +19,7 @@ int escape_character(const char *text);
 void escape_shell(const char *text, FILE *out);
 
 /* The rest of a line, as a comment of a shell, of Python or of gnuplot: line breaks and tabs become
-   spaces, what cannot be shown '?'. */
+   spaces, what cannot be shown, or turns the order of the text, '?'. */
 void escape_line(const char *text, FILE *out);
 
 /* The same into `line`, cut to at most size - 1 bytes, of which the last are then "...". Returns
@@ -49,7 +49,9 @@ void escape_markup(const char *text, FILE *out);
 /* A name of a table or column in SQL, in double quotes. Values are bound instead. */
 void escape_sql_name(const char *text, FILE *out);
 
-/* For a terminal: as it is but for what cannot be shown, which becomes '?'. */
+/* For a terminal: as it is but for what cannot be shown, or turns the order of the text, which
+   becomes
+   '?'. */
 void escape_terminal(const char *text, FILE *out);
 
 #endif
