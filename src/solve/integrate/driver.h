@@ -77,11 +77,11 @@ corot_status corot_driver_refuse(const driver *d, const char *what);
    status of a callback that no shorter step helps. */
 corot_status corot_driver_give_up(const driver *d, const char *why);
 
-/* To be called after each step of length h: where the model cannot be evaluated beyond some time
+/* Call this after each step of length h: where the model cannot be evaluated beyond some time
    (an element inverts), SUNDIALS takes ever shorter steps towards it without end; this marks it. */
 void corot_driver_watch(driver *d, double h, bool stopped);
 
-/* COROT_EINTEGRATE if it was marked. To be called before each step. */
+/* Call this before each step. COROT_EINTEGRATE: the step was marked so. */
 corot_status corot_driver_check(driver *d);
 
 #endif

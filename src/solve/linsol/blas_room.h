@@ -4,9 +4,9 @@
 
 #include <corot/base.h>
 
-/* To be called before the first product of dense blocks. OpenBLAS takes a buffer at its first, and
-   asks for it for ever if there is no room: here it is looked whether there is, and the buffer
-   taken. COROT_ENOMEM: there is none. Without a limit it does nothing. */
+/* Call this before the first product of dense blocks. OpenBLAS takes a buffer at its first product,
+   and asks for it for ever if there is no room: this looks whether there is, and takes the buffer.
+   COROT_ENOMEM: there is no room. Without a limit of the address space it does nothing. */
 corot_status corot_blas_room(void);
 
 #endif

@@ -17,7 +17,7 @@ corot_status corot_explicit_limit_create(const corot_model *model, corot_state *
 /* Takes NULL. */
 void corot_explicit_limit_destroy(explicit_limit *limit);
 
-/* To be called before each step: follows the fastest vibration by an iteration now and then. Where
+/* Call this before each step: it follows the fastest vibration by an iteration now and then. Where
    that fails, the limit is the old one. */
 corot_status corot_explicit_limit_follow(explicit_limit *limit, double t, const double *u);
 
