@@ -50,7 +50,7 @@ static COROT_CLONES void deformation_loop(const corot_model *m, const corot_stat
   double least = strain_limit - 0.5 * strain_limit * strain_limit;
   for (int b = 0; b < m->tets.nblock; b++) {
     const tet_block *block = &m->tets.block[b];
-    mat3 F = deformation(block, (const double(*)[4])s->u), C = mat3_gram(F);
+    mat3 F = deformation(tets_at(&m->tets, b), (const double(*)[4])s->u), C = mat3_gram(F);
     vd det = mat3_det(F, mat3_cofactor(F));
     mat3 twice_e = mat3_add_identity(C, vd_all(-1)), H = mat3_add_identity(F, vd_all(-1));
     vi upright = det > vd_all(0);

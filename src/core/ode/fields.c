@@ -40,7 +40,7 @@ static COROT_CLONES int elements_loop(const corot_model *m, const corot_state *s
     const tet_block *block = &m->tets.block[b];
     const material *mat = &m->material[block->material];
     vi inverted = {0};
-    mat3 F = deformation(block, (const double(*)[4])s->u);
+    mat3 F = deformation(tets_at(&m->tets, b), (const double(*)[4])s->u);
     mat3 R = frame_in_use(measure, m, s, b, F, &inverted);
     vd lambda = vd_all(mat->lambda), mu = vd_all(mat->mu);
     mat3 P = m->dilatation.npool ? stress_at_pressure(measure, lambda * s->dilatation[b], mu, F, R)

@@ -18,29 +18,29 @@ struct corot_state {
   double load_factor; /* times this */
   double t_update;    /* when the held frames were found */
   double elapsed;     /* since then, in the present evaluation */
-  mat3 *R;            /* [nblock] the held frames */
-  vec3 *spin;         /* [nblock] their angular velocity, for extrapolation [rad/s] */
-  mat3 *now_R;        /* [nblock] extrapolated frames, to compare with */
-  mat3 *new_R;        /* [nblock] those of an update, until it is known to succeed */
+  block_mat3 *R;      /* [nblock] the held frames */
+  block_vec3 *spin;   /* [nblock] their angular velocity, for extrapolation [rad/s] */
+  block_mat3 *now_R;  /* [nblock] extrapolated frames, to compare with */
+  block_mat3 *new_R;  /* [nblock] those of an update, until it is known to succeed */
   double (*u)[4];     /* [nnode] displacement of all nodes, padded for the gather */
   double (*v)[4];     /* [nnode] velocity */
   double (*du)[4];    /* [nnode] directions of a derivative */
   double (*dv)[4];
-  vd *dilatation;        /* [nblock] means in place of tr(e_p); NULL, as the next, where there are
-                            none: see dilatation.h */
-  vd *dilatation_change; /* [nblock] the same of a derivative */
-  double *pool;          /* [npool] */
-  vd (*slope)[4][3];     /* [nblock][local node] V times d tr(e_p) / du */
-  double (*gathered)[3]; /* [nnode] zero between uses */
+  block_vd *dilatation; /* [nblock] means in place of tr(e_p); NULL, as the next, where there are
+                     none: see dilatation.h */
+  block_vd *dilatation_change; /* [nblock] the same of a derivative */
+  double *pool;                /* [npool] */
+  block_vd (*slope)[4][3];     /* [nblock][local node] V times d tr(e_p) / du */
+  double (*gathered)[3];       /* [nnode] zero between uses */
   int npool;
-  vd (*force)[4][3]; /* [window][local node][component] element forces, see pattern.h */
-  double *r;         /* [ndof] */
+  block_vd (*force)[4][3]; /* [window][local node][component] element forces, see pattern.h */
+  double *r;               /* [ndof] */
 
   struct levels_state *levels; /* of a hierarchical model, whose R are the frames handed down; else
                                   NULL; see levels.h */
-  mat3 *dR;                    /* [nblock] of a part that hands down its frames, their change; */
-  vec3 *moment;                /* [nblock] what turns them, from all descendants [J]; */
-  vec3 *dmoment;               /* [nblock] its change; else NULL */
+  block_mat3 *dR;              /* [nblock] of a part that hands down its frames, their change; */
+  block_vec3 *moment;          /* [nblock] what turns them, from all descendants [J]; */
+  block_vec3 *dmoment;         /* [nblock] its change; else NULL */
 };
 
 /* Room for dR, moment and dmoment. */

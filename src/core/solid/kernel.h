@@ -5,6 +5,7 @@
 #define COROT_CORE_SOLID_KERNEL_H
 
 #include "core/ode/state.h"
+#include "kernel_names.h"
 
 /* A kernel of element forces. */
 typedef int force_kernel(const corot_model *m, corot_state *state, bool option, int chunk);
@@ -36,11 +37,11 @@ int corot_kernel_energy(const corot_model *m, corot_state *state, bool damped, d
                         double *power);
 
 /* R [tets.nblock] = the measure's own frames. */
-int corot_kernel_frames(const corot_model *m, corot_state *state, mat3 *R);
+int corot_kernel_frames(const corot_model *m, corot_state *state, block_mat3 *R);
 
 /* spin [tets.nblock] = the angular velocity of the measure's own frames for the velocity
    state->v: dR/dt = [spin]x R. */
-int corot_kernel_spin(const corot_model *m, corot_state *state, vec3 *spin);
+int corot_kernel_spin(const corot_model *m, corot_state *state, block_vec3 *spin);
 
 /* state->force = -(the internal force of a measure, index `strain`, with its own frames and with
    the material's coefficients times the factors given). */
@@ -79,20 +80,22 @@ void corot_kernel_frames_change(const corot_model *m, corot_state *state);
 
 /* --- shared by the loops --------------------------------------------------------------------- */
 
-/* The blocks of a chunk end before this one. */
+/* The parts of blocks that a chunk starts with, and ends before. */
+COROT_INLINE int chunk_start(int chunk) { return chunk * CHUNK * PARTS; }
+
 COROT_INLINE int chunk_end(const corot_model *m, int chunk) {
-  return chunk < m->tets.nblock / CHUNK ? (chunk + 1) * CHUNK : m->tets.nblock;
+  return chunk < m->tets.nblock / CHUNK ? chunk_start(chunk + 1) : m->tets.nblock * PARTS;
 }
 
 /* Gradient of a nodal field. */
-COROT_INLINE mat3 gradient(const tet_block *block, const double (*x)[4]) {
+COROT_INLINE mat3 gradient(tet_lanes block, const double (*x)[4]) {
   mat3 G;
   vd x0[3], xa[3];
-  vd_gather3(x, block->node[0], x0);
+  gather_node(block, 0, x, x0);
   for (int a = 0; a < 3; a++) {
-    vd_gather3(x, block->node[a + 1], xa);
+    gather_node(block, a + 1, x, xa);
     EACH_IJ {
-      vd term = (xa[i] - x0[i]) * block->g.m[a][j];
+      vd term = (xa[i] - x0[i]) * gradient_of(block, a + 1, j);
       G.m[i][j] = a == 0 ? term : G.m[i][j] + term;
     }
   }
@@ -100,8 +103,13 @@ COROT_INLINE mat3 gradient(const tet_block *block, const double (*x)[4]) {
 }
 
 /* F = I + grad u. */
-COROT_INLINE mat3 deformation(const tet_block *block, const double (*u)[4]) {
+COROT_INLINE mat3 deformation(tet_lanes block, const double (*u)[4]) {
   return mat3_add_identity(gradient(block, u), vd_all(1));
+}
+
+/* What the warping frame of part b starts from, in `room` if need be; NULL for other rules. */
+COROT_INLINE const mat3 *rest_basis_of(frame_rule rule, const corot_model *m, int b, mat3 *room) {
+  return rule == FRAME_WARP ? mat3_in(m->tets.rest_basis, b, room) : NULL;
 }
 
 /* The frame in use, and the lanes whose F is not that of a deformation. Cauchy
@@ -109,24 +117,23 @@ COROT_INLINE mat3 deformation(const tet_block *block, const double (*u)[4]) {
 COROT_INLINE mat3 frame_in_use(const strain_measure *s, const corot_model *m,
                                const corot_state *state, int b, mat3 F, vi *inverted) {
   if (strain_is_linear(s)) return mat3_identity();
-  const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
   vi bad;
-  mat3 R;
+  mat3 R, room;
   if (state->frames == COROT_FRAMES_EXACT || s->frame == FRAME_IDENTITY) {
-    R = frame_of(s->frame, F, Q0, &bad);
+    R = frame_of(s->frame, F, rest_basis_of(s->frame, m, b, &room), &bad);
   } else {
     bad = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
-    R = state->R[b];
+    R = mat3_at(state->R, b);
     if (state->frames == COROT_FRAMES_EXTRAPOLATED)
-      R = rotate_by(state->spin[b], state->elapsed, R);
+      R = rotate_by(vec3_at(state->spin, b), state->elapsed, R);
   }
   *inverted |= bad;
   return R;
 }
 
-/* What every loop starts from: the tets of block b in the state's displacement. */
+/* What every loop starts from: the tets of part b in the state's displacement. */
 typedef struct element {
-  const tet_block *block;
+  tet_lanes block;
   const material *mat;
   mat3 F, R;
   vi inverted;
@@ -134,32 +141,33 @@ typedef struct element {
 
 COROT_INLINE element element_at(const strain_measure *s, const corot_model *m,
                                 const corot_state *state, int b) {
-  element e = {.block = &m->tets.block[b]};
-  e.mat = &m->material[e.block->material];
+  element e = {.block = tets_at(&m->tets, b)};
+  e.mat = &m->material[e.block.in->material];
   e.F = deformation(e.block, (const double(*)[4])state->u);
   e.R = frame_in_use(s, m, state, b, e.F, &e.inverted);
   return e;
 }
 
-/* Nodal forces A g_a of block b into the buffer; A is -V P. */
+/* Nodal forces A g_a of part b into the buffer; A is -V P. */
 COROT_INLINE void store_forces(const corot_model *m, corot_state *state, int b, mat3 A) {
-  const mat3 *g = &m->tets.block[b].g;
-  vd(*force)[3] = state->force[b % m->pattern.window];
+  tet_lanes block = tets_at(&m->tets, b);
+  block_vd(*force)[3] = state->force[b / PARTS % m->pattern.window];
   for (int i = 0; i < 3; i++) {
     vd rest = vd_all(0);
     for (int a = 1; a < 4; a++) {
-      vd f = A.m[i][0] * g->m[a - 1][0] + A.m[i][1] * g->m[a - 1][1] + A.m[i][2] * g->m[a - 1][2];
-      force[a][i] = f;
+      vd f = A.m[i][0] * gradient_of(block, a, 0) + A.m[i][1] * gradient_of(block, a, 1) +
+             A.m[i][2] * gradient_of(block, a, 2);
+      vd_put(&force[a][i], b % PARTS, f);
       rest -= f;
     }
-    force[0][i] = rest;
+    vd_put(&force[0][i], b % PARTS, rest);
   }
 }
 
-/* The mesh's number of the first inverted tet of block b; -1 if there is none. */
+/* The mesh's number of the first inverted tet of part b; -1 if there is none. */
 COROT_INLINE int first_inverted(const corot_model *m, int b, vi inverted) {
-  for (int l = 0; l < W; l++)
-    if (inverted[l]) return m->tets.number[b * W + l];
+  for (int l = 0; l < LANES; l++)
+    if (inverted[l]) return m->tets.number[b * LANES + l];
   return -1;
 }
 

@@ -24,7 +24,7 @@ static void average(const corot_model *m, double *pool, vd *theta) {
 COROT_CLONES static void own_dilatation(const corot_model *m, const corot_state *state, vd *theta) {
   const strain_measure *s = &strain_measures[m->strain];
   for (int b = 0; b < m->tets.nblock; b++) {
-    mat3 F = deformation(&m->tets.block[b], (const double(*)[4])state->u), R = F;
+    mat3 F = deformation(tets_at(&m->tets, b), (const double(*)[4])state->u), R = F;
     vi inverted = {0};
     if (s->pressure == BY_FRAME) R = frame_in_use(s, m, state, b, F, &inverted);
     theta[b] = dilatation_of(s->pressure, F, R);
@@ -40,7 +40,7 @@ void corot_kernel_dilatation(const corot_model *m, corot_state *state) {
 COROT_CLONES static void internal_dilatation(const corot_model *m, const corot_state *state,
                                              const strain_measure *s, vd *theta) {
   for (int b = 0; b < m->tets.nblock; b++) {
-    mat3 F = deformation(&m->tets.block[b], (const double(*)[4])state->u), R = F;
+    mat3 F = deformation(tets_at(&m->tets, b), (const double(*)[4])state->u), R = F;
     mat3 Q0 = mat3_identity();
     vi inverted = {0};
     if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(m->mesh, m->tets.number + b * W);
@@ -63,7 +63,8 @@ COROT_CLONES static void change_of_dilatation(const corot_model *m, const corot_
     mat3 dF = gradient(e.block, (const double(*)[4])state->du);
     mat3 dR = mat3_scale(vd_all(0), e.R);
     if (exact && s->frame != FRAME_IDENTITY) {
-      const mat3 *Q0 = s->frame == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+      mat3 room;
+      const mat3 *Q0 = rest_basis_of(s->frame, m, b, &room);
       dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
     }
     change[b] = dilatation_derivative(s->pressure, e.F, e.R, dF, dR);

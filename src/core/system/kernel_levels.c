@@ -3,25 +3,25 @@
 #include "core/solid/kernel.h"
 #include "levels.h"
 
-/* Of matrices of the framer's tets, that over block b. */
-COROT_INLINE mat3 above_block(const levels *l, const mat3 *of_framer, int b) {
-  if (!l->above) return of_framer[b];
-  const mat3 *A = &of_framer[l->above[b] / W];
-  int lane = l->above[b] % W;
+/* Of matrices of the framer's tets, that over part b. */
+COROT_INLINE mat3 above_block(const levels *l, const block_mat3 *of_framer, int b) {
+  if (!l->above) return mat3_at(of_framer, b);
+  int above = l->above[b / PARTS];
+  const block_mat3 *A = &of_framer[above / W];
   mat3 B;
-  EACH_IJ B.m[i][j] = vd_all(A->m[i][j][lane]);
+  EACH_IJ B.m[i][j] = vd_all(A->m[i][j][above % W]);
   return B;
 }
 
-/* Adds a vector of each tet of block b to that of the framer's tet over it. */
-COROT_INLINE void add_up(const levels *l, vec3 a, int b, vec3 *of_framer) {
+/* Adds a vector of each tet of part b to that of the framer's tet over it. */
+COROT_INLINE void add_up(const levels *l, vec3 a, int b, block_vec3 *of_framer) {
   if (!l->above) {
-    of_framer[b] = a;
+    vec3_put(of_framer, b, a);
     return;
   }
-  double(*sum)[W] = (double(*)[W])of_framer[l->above[b] / W].v;
+  double(*sum)[W] = (double(*)[W])of_framer[l->above[b / PARTS] / W].v;
   for (int c = 0; c < 3; c++)
-    for (int k = 0; k < W; k++) sum[c][l->above[b] % W] += a.v[c][k];
+    for (int k = 0; k < LANES; k++) sum[c][l->above[b / PARTS] % W] += a.v[c][k];
 }
 
 /* lambda tr(e) I + 2 mu e */
@@ -34,9 +34,9 @@ typedef struct coefficients {
   vd lambda, mu, damping_lambda, damping_mu;
 } coefficients;
 
-COROT_INLINE coefficients coefficients_of(const corot_model *m, const tet_block *block) {
-  const material *mat = &m->material[block->material];
-  vd V = block->volume;
+COROT_INLINE coefficients coefficients_of(const corot_model *m, tet_lanes block) {
+  const material *mat = &m->material[block.in->material];
+  vd V = volume_of(block);
   return (coefficients){V * mat->lambda, V * mat->mu, V * mat->damping_lambda, V * mat->damping_mu};
 }
 
@@ -50,8 +50,8 @@ COROT_INLINE int handed_force_loop(const corot_model *m, corot_state *state, boo
                                    int chunk) {
   const levels *l = m->levels;
   corot_state *framer = state->levels->framer;
-  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    const tet_block *block = &m->tets.block[b];
+  for (int b = chunk_start(chunk); b < chunk_end(m, chunk); b++) {
+    tet_lanes block = tets_at(&m->tets, b);
     coefficients k = coefficients_of(m, block);
     mat3 F = deformation(block, (const double(*)[4])state->u);
     mat3 R = above_block(l, framer->now_R, b);
@@ -71,14 +71,13 @@ COROT_INLINE int handed_force_loop(const corot_model *m, corot_state *state, boo
   return -1;
 }
 
-COROT_CLONES int corot_kernel_handed_force(const corot_model *m, corot_state *state, bool damped,
-                                           int chunk) {
+int corot_kernel_handed_force(const corot_model *m, corot_state *state, bool damped, int chunk) {
   return handed_force_loop(m, state, damped, chunk);
 }
 
 void corot_kernel_hand_down(const corot_model *m, corot_state *state) {
-  for (int b = 0; b < m->tets.nblock; b++)
-    state->R[b] = above_block(m->levels, state->levels->framer->now_R, b);
+  for (int b = 0; b < m->tets.nblock * PARTS; b++)
+    mat3_put(state->R, b, above_block(m->levels, state->levels->framer->now_R, b));
 }
 
 /* dR is zero where the frames do not follow. */
@@ -86,8 +85,8 @@ COROT_INLINE int handed_derivative_loop(const corot_model *m, corot_state *state
                                         int chunk) {
   const levels *l = m->levels;
   corot_state *framer = state->levels->framer;
-  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    const tet_block *block = &m->tets.block[b];
+  for (int b = chunk_start(chunk); b < chunk_end(m, chunk); b++) {
+    tet_lanes block = tets_at(&m->tets, b);
     coefficients k = coefficients_of(m, block);
     mat3 F = deformation(block, (const double(*)[4])state->u);
     mat3 R = above_block(l, framer->now_R, b), dR = above_block(l, framer->dR, b);
@@ -116,59 +115,60 @@ COROT_INLINE int handed_derivative_loop(const corot_model *m, corot_state *state
   return -1;
 }
 
-COROT_CLONES int corot_kernel_handed_derivative(const corot_model *m, corot_state *state,
-                                                bool damped, int chunk) {
+int corot_kernel_handed_derivative(const corot_model *m, corot_state *state, bool damped,
+                                   int chunk) {
   return handed_derivative_loop(m, state, damped, chunk);
 }
 
 /* The frame's rotation for a unit of moment: z = G^-1 moment, the stress -V P = -R [z]x. */
 COROT_INLINE int turning_force_loop(const corot_model *m, corot_state *state, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    mat3 F = deformation(&m->tets.block[b], (const double(*)[4])state->u), R = state->now_R[b];
-    vec3 z = mat3_apply(polar_inverse_g(mat3_sym_tmul(R, F)), state->moment[b]);
+  for (int b = chunk_start(chunk); b < chunk_end(m, chunk); b++) {
+    mat3 F = deformation(tets_at(&m->tets, b), (const double(*)[4])state->u),
+         R = mat3_at(state->now_R, b);
+    vec3 z = mat3_apply(polar_inverse_g(mat3_sym_tmul(R, F)), vec3_at(state->moment, b));
     store_forces(m, state, b, mat3_scale(vd_all(-1), mat3_mul(R, mat3_skew(z))));
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_turning_force(const corot_model *m, corot_state *state, bool unused,
-                                            int chunk) {
+int corot_kernel_turning_force(const corot_model *m, corot_state *state, bool unused, int chunk) {
   (void)unused;
   return turning_force_loop(m, state, chunk);
 }
 
 /* G dz = dmoment - dG z */
 COROT_INLINE int turning_derivative_loop(const corot_model *m, corot_state *state, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(m, chunk); b++) {
-    const tet_block *block = &m->tets.block[b];
-    mat3 F = deformation(block, (const double(*)[4])state->u), R = state->now_R[b];
-    mat3 dF = gradient(block, (const double(*)[4])state->du), dR = state->dR[b];
+  for (int b = chunk_start(chunk); b < chunk_end(m, chunk); b++) {
+    tet_lanes block = tets_at(&m->tets, b);
+    mat3 F = deformation(block, (const double(*)[4])state->u), R = mat3_at(state->now_R, b);
+    mat3 dF = gradient(block, (const double(*)[4])state->du), dR = mat3_at(state->dR, b);
     mat3 dS = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
     mat3 Ginv = polar_inverse_g(mat3_sym_tmul(R, F));
-    vec3 z = mat3_apply(Ginv, state->moment[b]);
-    vec3 dz = mat3_apply(Ginv, vec3_less(state->dmoment[b], apply_g_change(dS, z)));
+    vec3 z = mat3_apply(Ginv, vec3_at(state->moment, b));
+    vec3 dz = mat3_apply(Ginv, vec3_less(vec3_at(state->dmoment, b), apply_g_change(dS, z)));
     mat3 dP = mat3_add(mat3_mul(dR, mat3_skew(z)), mat3_mul(R, mat3_skew(dz)));
     store_forces(m, state, b, mat3_scale(vd_all(-1), dP));
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_turning_derivative(const corot_model *m, corot_state *state,
-                                                 bool unused, int chunk) {
+int corot_kernel_turning_derivative(const corot_model *m, corot_state *state, bool unused,
+                                    int chunk) {
   (void)unused;
   return turning_derivative_loop(m, state, chunk);
 }
 
 COROT_INLINE void frames_change_loop(frame_rule rule, const corot_model *m, corot_state *state) {
-  for (int b = 0; b < m->tets.nblock; b++) {
-    const tet_block *block = &m->tets.block[b];
-    const mat3 *Q0 = rule == FRAME_WARP ? &m->tets.rest_basis[b] : NULL;
+  for (int b = 0; b < m->tets.nblock * PARTS; b++) {
+    tet_lanes block = tets_at(&m->tets, b);
+    mat3 room;
+    const mat3 *Q0 = rest_basis_of(rule, m, b, &room);
     mat3 F = deformation(block, (const double(*)[4])state->u);
     mat3 dF = gradient(block, (const double(*)[4])state->du);
-    state->dR[b] = frame_derivative(rule, F, Q0, state->now_R[b], dF);
+    mat3_put(state->dR, b, frame_derivative(rule, F, Q0, mat3_at(state->now_R, b), dF));
   }
 }
 
-COROT_CLONES void corot_kernel_frames_change(const corot_model *m, corot_state *state) {
+void corot_kernel_frames_change(const corot_model *m, corot_state *state) {
   frames_change_loop(strain_measures[m->strain].frame, m, state);
 }
