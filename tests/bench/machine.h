@@ -13,7 +13,7 @@ const char *machine_cpu(void);
 double machine_bandwidth(size_t bytes);
 
 /* Floating-point operations a second of independent fused multiply-adds (two operations each), the
-   best of several loops on vectors of several widths. Without such an instruction it is that of
+   best of several loops as wide as the kernels. Without such an instruction it is that of
    multiplications and additions. Measured once. */
 double machine_peak(void);
 
