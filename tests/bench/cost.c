@@ -157,7 +157,7 @@ double cost_polar_steps(const specimen *s) {
   if (corot_elements(s->model, s->state, 0, s->u, &none) != COROT_OK) return 0; /* sets state->u */
   double sum = 0;
   for (int b = 0; b < t->nblock; b++) {
-    mat3 X = deformation(&t->block[b], (nodal_field)s->state->u);
+    mat3 X = deformation(tets_at(t, b), (nodal_field)s->state->u);
     for (int k = 0;; k++) { /* as in core/lanes/polar.h, strains this small being left unscaled */
       mat3 C = mat3_cofactor(X);
       vi rough = ~(mat3_dot(X, X) - 3 < 1e-8);

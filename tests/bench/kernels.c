@@ -3,19 +3,24 @@
 
 #include "bench.h"
 #include "core/element/strain.h"
+#include "core/lanes/widths.h"
+#include "machine.h"
 #include "report.h"
 #include "solvers.h"
 
 static const char help[] =
-    "usage: corot-bench kernels [--json] [--tets N]... [--large]\n"
+    "usage: corot-bench kernels [--json] [--tets N]... [--large] [--peak N] [--lanes N]\n"
     "\n"
     "Time of each evaluation and of the linear solvers per tet, and the floor that memory and\n"
-    "arithmetic of this machine put under it, measured at the same time.\n"
+    "arithmetic of this machine put under it, measured at the same time. Exit code 5 if a\n"
+    "time lies below its floor: then the floor is wrong.\n"
     "\n"
     "      --json     one JSON object a line\n"
     "      --tets N   size of the box, rounded to whole cells; may be given again for more sizes\n"
     "                 (default: 18432, which the caches of most machines hold)\n"
     "      --large    147456 tets as well, which they do not\n"
+    "      --peak N   Gflop/s of this machine in place of those measured\n"
+    "      --lanes N  no vectors of more than N doubles: 8 (AVX-512), 4 (AVX2), 2\n"
     "\n"
     "force           internal forces, frames exact, no damping\n"
     "force-held      the same with held frames\n"
@@ -148,15 +153,27 @@ static corot_status of_size(bool json, int ntet) {
   return status;
 }
 
+static int of_sizes(bool json, int nsize, const int *ntet) {
+  report_machine(json);
+  for (int k = 0; k < nsize; k++) {
+    corot_status status = of_size(json, ntet[k]);
+    if (status) return failure(status);
+  }
+  corot_status status = report_check();
+  return status ? failure(status) : EXIT_OK;
+}
+
 int command_kernels(int argc, char **argv) {
   static const char program[] = "corot-bench kernels";
   static const struct option known[] = {{"json", no_argument, NULL, 'j'},
                                         {"tets", required_argument, NULL, 't'},
                                         {"large", no_argument, NULL, 'l'},
+                                        {"peak", required_argument, NULL, 'p'},
+                                        {"lanes", required_argument, NULL, 'w'},
                                         {"help", no_argument, NULL, 'h'},
                                         {0}};
   enum { MOST = 16 };
-  int ntet[MOST], nsize = 0;
+  int ntet[MOST], nsize = 0, peak, lanes;
   bool json = false, large = false;
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":h", known, NULL)) != -1;) switch (answer) {
@@ -171,6 +188,15 @@ int command_kernels(int argc, char **argv) {
         if (!parse_count(optarg, 100 * 1000 * 1000, &ntet[nsize++]))
           return usage_error(program, "--tets %s: expected a whole number > 0", optarg);
         break;
+      case 'p':
+        if (!parse_count(optarg, 1000 * 1000, &peak))
+          return usage_error(program, "--peak %s: not > 0", optarg);
+        machine_set_peak(1e9 * peak);
+        break;
+      case 'w':
+        if (!parse_count(optarg, W, &lanes)) return usage_error(program, "--lanes: 8, 4 or 2");
+        lanes_limit(lanes);
+        break;
       case 'h':
         fputs(help, stdout);
         return EXIT_OK;
@@ -180,10 +206,5 @@ int command_kernels(int argc, char **argv) {
   if (optind < argc) return usage_error(program, "unexpected: %s", argv[optind]);
   if (nsize == 0) ntet[nsize++] = 18432;
   if (large) ntet[nsize++] = 147456;
-  report_machine(json);
-  for (int k = 0; k < nsize; k++) {
-    corot_status status = of_size(json, ntet[k]);
-    if (status) return failure(status);
-  }
-  return EXIT_OK;
+  return of_sizes(json, nsize, ntet);
 }

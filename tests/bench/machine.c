@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "app/run/run_clock.h"
-#include "core/lanes/simd.h"
+#include "core/lanes/widths.h"
+#include "machine_loops.h"
 
 const char *machine_cpu(void) {
   static char name[128] = "unknown";
@@ -22,20 +23,50 @@ const char *machine_cpu(void) {
   return name;
 }
 
-static COROT_CLONES void triad(size_t n, vd *a, const vd *b, const vd *c, double s) {
-  for (size_t i = 0; i < n; i++) a[i] = b[i] + s * c[i];
+static volatile double sink; /* so that no loop is dropped */
+
+typedef struct loops {
+  __typeof__(machine_triad) *triad;
+  __typeof__(machine_total) *total;
+  __typeof__(machine_chains) *chains;
+} loops;
+
+#ifdef COROT_MANY_KERNELS
+#define BUILD(suffix)                                                               \
+  extern __typeof__(machine_triad) machine_triad##suffix;                           \
+  extern __typeof__(machine_total) machine_total##suffix;                           \
+  extern __typeof__(machine_chains) machine_chains##suffix;                         \
+  static const loops loops##suffix = {machine_triad##suffix, machine_total##suffix, \
+                                      machine_chains##suffix};
+BUILD(_v1)
+BUILD(_v3)
+BUILD(_v4)
+
+/* Of the build of the kernels that is in use. */
+static loops loops_in_use(void) {
+  int lanes = lanes_in_use();
+  if (lanes == 8) return loops_v4;
+  return lanes == 4 ? loops_v3 : loops_v1;
 }
+#else
+static loops loops_in_use(void) { return (loops){machine_triad, machine_total, machine_chains}; }
+#endif
 
 double machine_bandwidth(size_t bytes) {
-  size_t n = bytes / (3 * sizeof(vd)) + 1, size = n * sizeof(vd);
-  vd *a = aligned_alloc(sizeof(vd), 3 * size), *b = a + n, *c = b + n;
+  size_t n = (bytes / (3 * 8) / 64 + 1) * 64, size = n * sizeof(double);
+  double *a = aligned_alloc(64, 3 * size), *b = a + n, *c = b + n;
   if (!a) return 0;
   memset(a, 0, 3 * size);
+  loops use = loops_in_use();
   int nsweep = (int)(2e6 / size) + 1; /* at least some 0.1 ms */
   double best = 0;
-  for (int k = 0; k < 12; k++) {
+  for (int k = 0; k < 24; k++) {
     double start = cpu_clock();
-    for (int i = 0; i < nsweep; i++) triad(n, a, b, c, 1e-3 * i);
+    for (int i = 0; i < nsweep; i++)
+      if (k % 2)
+        sink = use.total(3 * n, a);
+      else
+        use.triad(n, a, b, c, 1e-3 * i);
     double rate = (double)nsweep * 3 * size / (cpu_clock() - start);
     if (rate > best) best = rate;
   }
@@ -43,38 +74,20 @@ double machine_bandwidth(size_t bytes) {
   return best;
 }
 
-/* Fused multiply-adds in n independent chains: few enough to stay in registers, many enough to keep
-   every unit busy. How many that is depends on the instruction set. */
-enum { MOST_CHAINS = 12, ROUNDS = 10000 };
+static double peak = 0; /* until it is measured */
 
-COROT_INLINE double chains(int n, double factor) {
-  vd x[MOST_CHAINS], sum = vd_all(0);
-  for (int k = 0; k < n; k++) x[k] = vd_all(k);
-  for (int i = 0; i < ROUNDS; i++)
-    for (int k = 0; k < n; k++) x[k] = x[k] * factor + factor;
-  for (int k = 0; k < n; k++) sum += x[k];
-  return vd_sum(sum);
-}
-
-static COROT_CLONES double three_chains(double factor) { return chains(3, factor); }
-static COROT_CLONES double six_chains(double factor) { return chains(6, factor); }
-static COROT_CLONES double twelve_chains(double factor) { return chains(MOST_CHAINS, factor); }
-
-static volatile double sink; /* so that the loops are not dropped */
+void machine_set_peak(double flops) { peak = flops; }
 
 double machine_peak(void) {
-  static const struct {
-    int n;
-    double (*run)(double factor);
-  } loop[] = {{3, three_chains}, {6, six_chains}, {MOST_CHAINS, twelve_chains}};
-  static double best = 0;
-  if (best > 0) return best;
-  for (int repeat = 0; repeat < 20; repeat++)
-    for (int k = 0; k < 3; k++) {
+  if (peak > 0) return peak;
+  loops use = loops_in_use();
+  double best = 0, result;
+  for (int repeat = 0; repeat < 40; repeat++)
+    for (int k = 0; k < MACHINE_CHAINS; k++) {
       double start = cpu_clock();
-      sink = loop[k].run(0.5);
-      double rate = 2.0 * W * loop[k].n * ROUNDS / (cpu_clock() - start);
+      double rate = use.chains(k, 0.5, &result) / (cpu_clock() - start);
+      sink = result;
       if (rate > best) best = rate;
     }
-  return best;
+  return peak = best;
 }

@@ -27,6 +27,9 @@ void report_heading(bool json, int ntet, int n);
 /* One row, with the floor measured now at the size of its own data. */
 void report_row(bool json, const row *r);
 
+/* After the rows: fails if the time of one lay below its floor. */
+corot_status report_check(void);
+
 /* One object on one line, which is given up; NULL stands for lack of memory. */
 void report_object(json_t *object);
 

@@ -9,7 +9,7 @@
 
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
-#include "core/lanes/simd.h"
+#include "core/lanes/widths.h"
 #include "solve/linsol/libraries.h"
 
 #if defined(__clang__)
@@ -82,7 +82,7 @@ corot_status provenance_make(json_t **out) {
                    "sundials", corot_sundials_version(), "suitesparse", "version",
                    known(l.suitesparse), "klu", known(l.klu), "cholmod", known(l.cholmod), "blas",
                    blas_json(&l), "compiler", provenance_compiler, "processor",
-                   simd_instruction_set());
+                   lanes_instruction_set());
   return *out ? COROT_OK : no_memory();
 }
 

@@ -7,7 +7,7 @@
      P = lambda tr(e_p) B_p + 2 mu B_s e_s,     energy = lambda/2 tr(e_p)^2 + mu e_s:e_s
 
    For B = R this is the paper's (4.12) read as e = e^C(R' phi); its (5.6), with u in place of phi,
-   is not invariant. All functions work on eight tets at a time. */
+   is not invariant. All functions work on a tet a lane. */
 #ifndef COROT_CORE_ELEMENT_STRAIN_H
 #define COROT_CORE_ELEMENT_STRAIN_H
 

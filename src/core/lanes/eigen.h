@@ -1,4 +1,4 @@
-/* Eigenvalues and eigenvectors of symmetric 3x3 matrices, eight at a time, by Jacobi's rotations.
+/* Eigenvalues and eigenvectors of symmetric 3x3 matrices, one a lane, by Jacobi's rotations.
 
    Every lane goes through the same number of sweeps. The last ones at least square what is left off
    the diagonal: of a million random matrices some have 1e-5 of it after three, none more than

@@ -1,4 +1,4 @@
-/* 3x3 algebra by value, eight matrices at a time (one a lane); m[i][j] is row i, column j. */
+/* 3x3 algebra by value, a matrix a lane; m[i][j] is row i, column j. */
 #ifndef COROT_CORE_LANES_MAT3_H
 #define COROT_CORE_LANES_MAT3_H
 
@@ -12,9 +12,55 @@ typedef struct mat3 {
   vd m[3][3];
 } mat3;
 
+/* As they stand in memory: of a block of tets. */
+#if COROT_LANES == 8
+typedef vec3 block_vec3;
+typedef mat3 block_mat3;
+#else
+typedef struct block_vec3 {
+  block_vd v[3];
+} block_vec3;
+
+typedef struct block_mat3 {
+  block_vd m[3][3];
+} block_mat3;
+#endif
+
 #define EACH_IJ               \
   for (int i = 0; i < 3; i++) \
     for (int j = 0; j < 3; j++)
+
+/* Of an array of blocks, part `at` % PARTS of block `at` / PARTS. */
+COROT_INLINE mat3 mat3_at(const block_mat3 *A, int at) {
+  mat3 part;
+  EACH_IJ part.m[i][j] = vd_at(&A[at / PARTS].m[i][j], at % PARTS);
+  return part;
+}
+
+COROT_INLINE void mat3_put(block_mat3 *A, int at, mat3 part) {
+  EACH_IJ vd_put(&A[at / PARTS].m[i][j], at % PARTS, part.m[i][j]);
+}
+
+/* The same where it stands, if it stands alone; else in `room`. */
+COROT_INLINE const mat3 *mat3_in(const block_mat3 *A, int at, mat3 *room) {
+#if COROT_LANES == 8
+  (void)room;
+  return &A[at];
+#else
+  *room = mat3_at(A, at);
+  return room;
+#endif
+}
+
+COROT_INLINE vec3 vec3_at(const block_vec3 *a, int at) {
+  vec3 part;
+  for (int i = 0; i < 3; i++) part.v[i] = vd_at(&a[at / PARTS].v[i], at % PARTS);
+  return part;
+}
+
+COROT_INLINE void vec3_put(block_vec3 *a, int at, vec3 part) {
+  for (int i = 0; i < 3; i++) vd_put(&a[at / PARTS].v[i], at % PARTS, part.v[i]);
+}
 
 COROT_INLINE mat3 mat3_identity(void) {
   mat3 A;

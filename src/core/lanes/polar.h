@@ -22,7 +22,7 @@ enum { POLAR_MAX_ITERATIONS = 40 };
 /* (a / b)^(1/4) within 7 % for positive normal numbers: a quarter of the difference of the
    logarithms, read off the bits. */
 COROT_INLINE vd fourth_root_of_ratio(vd a, vd b) {
-  typedef unsigned long long vu __attribute__((vector_size(64)));
+  typedef unsigned long long vu __attribute__((vector_size(sizeof(vd))));
   vu bits = ((vu)a >> 2) - ((vu)b >> 2) + (1023ull << 52);
   return (vd)bits;
 }
@@ -45,7 +45,7 @@ COROT_INLINE mat3 polar(mat3 F, vi *inverted) {
       half_g = vd_select(far, 0.5 * g, half_g);
     }
     mat3 Y = mat3_sum(half_g, X, 0.25 / (half_g * det), C);
-    X = mat3_select(done, X, Y);
+    X = vi_any(done) ? mat3_select(done, X, Y) : Y; /* mostly the latter, which saves a third */
     if (k > 0) {
       done |= norm - 3 < 1e-8;
       if (!vi_any(~done)) break;

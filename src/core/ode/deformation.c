@@ -49,7 +49,7 @@ static COROT_CLONES void deformation_loop(const solid *body, nodal_field u, doub
   double least = strain_limit - 0.5 * strain_limit * strain_limit;
   for (int b = 0; b < body->tets.nblock; b++) {
     const tet_block *block = &body->tets.block[b];
-    mat3 F = deformation(block, u), C = mat3_gram(F);
+    mat3 F = deformation(tets_at(&body->tets, b), u), C = mat3_gram(F);
     vd det = mat3_det(F, mat3_cofactor(F));
     mat3 twice_e = mat3_add_identity(C, vd_all(-1)), H = mat3_add_identity(F, vd_all(-1));
     vi upright = det > vd_all(0);

@@ -41,7 +41,7 @@ static COROT_CLONES int elements_loop(const solid *body, const solid_state *s, n
     const tet_block *block = &body->tets.block[b];
     const material *mat = &body->material[block->material];
     vi inverted = {0};
-    mat3 F = deformation(block, u);
+    mat3 F = deformation(tets_at(&body->tets, b), u);
     mat3 R = frame_in_use(measure, body, &s->frames, b, F, &inverted);
     vd lambda = vd_all(mat->lambda), mu = vd_all(mat->mu);
     mat3 P = body->dilatation.npool

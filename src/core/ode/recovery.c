@@ -73,7 +73,7 @@ static void gather(const recovery *r, int which) {
   for (int b = 0; b < t->nblock; b++) {
     const tet_block *block = &t->block[b];
     if (block->material != which) continue;
-    mat3 F = deformation(block, r->u);
+    mat3 F = deformation(tets_at(t, b), r->u);
     for (int l = 0; l < block->ntet; l++) {
       stress6 s = stress_of(r, b, l, F);
       for (int a = 0; a < 4; a++) {
@@ -100,7 +100,7 @@ static void compare(const recovery *r, int which, norms *sum) {
   for (int b = 0; b < t->nblock; b++) {
     const tet_block *block = &t->block[b];
     if (block->material != which) continue;
-    mat3 F = deformation(block, r->u);
+    mat3 F = deformation(tets_at(t, b), r->u);
     for (int l = 0; l < block->ntet; l++) {
       stress6 s = stress_of(r, b, l, F), all = {{0}};
       double each = 0;

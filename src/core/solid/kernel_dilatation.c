@@ -25,7 +25,7 @@ COROT_CLONES static void own_dilatation(const solid *body, const solid_state *st
                                         vd *theta) {
   const strain_measure *s = &strain_measures[body->strain];
   for (int b = 0; b < body->tets.nblock; b++) {
-    mat3 F = deformation(&body->tets.block[b], u), R = F;
+    mat3 F = deformation(tets_at(&body->tets, b), u), R = F;
     vi inverted = {0};
     if (s->pressure == BY_FRAME) R = frame_in_use(s, body, &state->frames, b, F, &inverted);
     theta[b] = dilatation_of(s->pressure, F, R);
@@ -41,7 +41,7 @@ void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field 
 COROT_CLONES static void internal_dilatation(const solid *body, nodal_field u,
                                              const strain_measure *s, vd *theta) {
   for (int b = 0; b < body->tets.nblock; b++) {
-    mat3 F = deformation(&body->tets.block[b], u), R = F;
+    mat3 F = deformation(tets_at(&body->tets, b), u), R = F;
     mat3 Q0 = mat3_identity();
     vi inverted = {0};
     if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(body->mesh, body->tets.number + b * W);
@@ -66,7 +66,8 @@ COROT_CLONES static void change_of_dilatation(const solid *body, const solid_sta
     mat3 dF = gradient(e.block, du);
     mat3 dR = mat3_scale(vd_all(0), e.R);
     if (exact && s->frame != FRAME_IDENTITY) {
-      const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
+      mat3 room;
+      const mat3 *Q0 = rest_basis_of(s->frame, body, b, &room);
       dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
     }
     change[b] = dilatation_derivative(s->pressure, e.F, e.R, dF, dR);

@@ -1,4 +1,4 @@
-/* Stress, energy and frames of the tets, eight at a time. */
+/* Stress, energy and frames of the tets, LANES at a time. */
 #include <stdlib.h>
 
 #include "kernel.h"
@@ -13,11 +13,11 @@ COROT_INLINE mat3 viscous_stress(const strain_measure *s, bool objective, const 
 
 COROT_INLINE int force_loop(const strain_measure *s, const solid *body, solid_state *state,
                             nodal_field u, nodal_field v, bool averaged, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     element e = element_at(s, body, &state->frames, u, b);
-    vd minus = -e.block->volume;
+    vd minus = -volume_of(e.block);
     vd lambda = minus * e.mat->lambda, mu = minus * e.mat->mu;
-    mat3 A = averaged ? stress_at_pressure(s, lambda * state->dilatation[b], mu, e.F, e.R)
+    mat3 A = averaged ? stress_at_pressure(s, lambda * vd_at(state->dilatation, b), mu, e.F, e.R)
                       : stress(s, lambda, mu, e.F, e.R);
     if (v) {
       mat3 V = gradient(e.block, v);
@@ -31,8 +31,8 @@ COROT_INLINE int force_loop(const strain_measure *s, const solid *body, solid_st
 
 /* The hot loop is compiled for each measure, so that its branches on the measure fall away; with
    averages, which take their own time, once for all. */
-COROT_CLONES int corot_kernel_force(const solid *body, solid_state *state, nodal_field u,
-                                    nodal_field v, int chunk) {
+int corot_kernel_force(const solid *body, solid_state *state, nodal_field u, nodal_field v,
+                       int chunk) {
   if (body->dilatation.npool)
     return force_loop(&strain_measures[body->strain], body, state, u, v, true, chunk);
 #define FORCE_OF(index, ...) \
@@ -46,83 +46,93 @@ COROT_CLONES int corot_kernel_force(const solid *body, solid_state *state, nodal
 COROT_INLINE int energy_loop(const strain_measure *s, const solid *body, const solid_state *state,
                              nodal_field u, nodal_field v, double *elastic, double *power) {
   double sum_elastic = 0, sum_power = 0;
-  for (int b = 0; b < body->tets.nblock; b++) {
+  for (int b = 0; b < body->tets.nblock * PARTS; b++) {
     element e = element_at(s, body, &state->frames, u, b);
     if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
     vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
-    const vd *average = body->dilatation.npool ? &state->dilatation[b] : NULL;
-    sum_elastic += vd_sum(e.block->volume * strain_energy(s, lambda, mu, e.F, e.R, average));
+    const vd *average = body->dilatation.npool ? (const vd *)state->dilatation + b : NULL;
+    sum_elastic += vd_sum(volume_of(e.block) * strain_energy(s, lambda, mu, e.F, e.R, average));
     if (!v) continue;
     mat3 V = gradient(e.block, v);
     mat3 P = viscous_stress(s, body->objective, e.mat, vd_all(1), e.F, e.R, V);
-    sum_power += vd_sum(e.block->volume * mat3_dot(P, V));
+    sum_power += vd_sum(volume_of(e.block) * mat3_dot(P, V));
   }
   *elastic = sum_elastic;
   *power = sum_power;
   return -1;
 }
 
-COROT_CLONES int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field u,
-                                     nodal_field v, double *elastic, double *power) {
+int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field u, nodal_field v,
+                        double *elastic, double *power) {
   return energy_loop(&strain_measures[body->strain], body, state, u, v, elastic, power);
 }
 
-COROT_INLINE int frames_loop(const strain_measure *s, const solid *body, nodal_field u, mat3 *R) {
-  for (int b = 0; b < body->tets.nblock; b++) {
+COROT_INLINE int frames_loop(const strain_measure *s, const solid *body, nodal_field u,
+                             block_mat3 *R) {
+  for (int b = 0; b < body->tets.nblock * PARTS; b++) {
     vi inverted = {0};
-    mat3 F = deformation(&body->tets.block[b], u);
-    const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
-    R[b] = frame_of(s->frame, F, Q0, &inverted);
+    mat3 F = deformation(tets_at(&body->tets, b), u);
+    mat3 room;
+    const mat3 *Q0 = rest_basis_of(s->frame, body, b, &room);
+    mat3_put(R, b, frame_of(s->frame, F, Q0, &inverted));
     if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_frames(const solid *body, nodal_field u, mat3 *R) {
+int corot_kernel_frames(const solid *body, nodal_field u, block_mat3 *R) {
   return frames_loop(&strain_measures[body->strain], body, u, R);
 }
 
 COROT_INLINE int spin_loop(const strain_measure *s, const solid *body, nodal_field u, nodal_field v,
-                           vec3 *spin) {
-  for (int b = 0; b < body->tets.nblock; b++) {
-    const tet_block *block = &body->tets.block[b];
-    const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
+                           block_vec3 *spin) {
+  for (int b = 0; b < body->tets.nblock * PARTS; b++) {
+    tet_lanes block = tets_at(&body->tets, b);
+    mat3 room;
+    const mat3 *Q0 = rest_basis_of(s->frame, body, b, &room);
     vi inverted = {0};
     mat3 F = deformation(block, u);
     mat3 V = gradient(block, v);
     mat3 R = frame_of(s->frame, F, Q0, &inverted);
     if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
     mat3 dR = frame_derivative(s->frame, F, Q0, R, V);
-    spin[b] = mat3_vee(mat3_scale(vd_all(0.5), mat3_mul(dR, mat3_transpose(R))));
+    vec3_put(spin, b, mat3_vee(mat3_scale(vd_all(0.5), mat3_mul(dR, mat3_transpose(R)))));
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, vec3 *spin) {
+int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, block_vec3 *spin) {
   return spin_loop(&strain_measures[body->strain], body, u, v, spin);
+}
+
+/* The rest basis of part b, where the model keeps none. */
+COROT_INLINE mat3 rest_basis_anew(const solid *body, int b) {
+  block_mat3 whole = corot_tets_rest_basis(body->mesh, body->tets.number + b / PARTS * W);
+  return mat3_at(&whole, b % PARTS);
 }
 
 COROT_INLINE int internal_loop(const strain_measure *s, const solid *body, solid_state *state,
                                nodal_field u, double lambda_part, double mu_part, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
-    const tet_block *block = &body->tets.block[b];
-    const material *mat = &body->material[block->material];
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    tet_lanes block = tets_at(&body->tets, b);
+    const material *mat = &body->material[block.in->material];
     mat3 Q0 = mat3_identity();
-    if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(body->mesh, body->tets.number + b * W);
+    if (s->frame == FRAME_WARP) Q0 = rest_basis_anew(body, b);
     vi inverted = {0};
     mat3 F = deformation(block, u);
     mat3 R = frame_of(s->frame, F, &Q0, &inverted);
     if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(body, b, inverted);
-    vd lambda = -block->volume * (lambda_part * mat->lambda),
-       mu = -block->volume * (mu_part * mat->mu);
-    mat3 A = body->dilatation.npool ? stress_at_pressure(s, lambda * state->dilatation[b], mu, F, R)
-                                    : stress(s, lambda, mu, F, R);
+    vd lambda = -volume_of(block) * (lambda_part * mat->lambda),
+       mu = -volume_of(block) * (mu_part * mat->mu);
+    mat3 A = body->dilatation.npool
+                 ? stress_at_pressure(s, lambda * vd_at(state->dilatation, b), mu, F, R)
+                 : stress(s, lambda, mu, F, R);
     store_forces(body, state, b, A);
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_internal(const solid *body, solid_state *state, nodal_field u,
-                                       int strain, double lambda_part, double mu_part, int chunk) {
+int corot_kernel_internal(const solid *body, solid_state *state, nodal_field u, int strain,
+                          double lambda_part, double mu_part, int chunk) {
   return internal_loop(&strain_measures[strain], body, state, u, lambda_part, mu_part, chunk);
 }

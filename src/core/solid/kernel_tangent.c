@@ -1,13 +1,13 @@
 /* Element matrices, and the product of the tangent with a direction. */
 #include "kernel.h"
 
-/* The block [9] of each lane is added to the matrix: eight entries as a vector, the ninth alone. */
-COROT_INLINE void scatter(double (*A)[9], const int place[W], mat3 block) {
-  vd row[W];
-  vd_transpose(&block.m[0][0], row);
-  for (int l = 0; l < W; l++) {
+/* The block [9] of each lane is added to the matrix: eight entries as vectors, the ninth alone. */
+COROT_INLINE void scatter(double (*A)[9], const int place[LANES], mat3 block) {
+  vd row[PARTS][LANES];
+  for (int p = 0; p < PARTS; p++) vd_transpose(&block.m[0][0] + p * LANES, row[p]);
+  for (int l = 0; l < LANES; l++) {
     double *a = A[place[l]];
-    vd_add_to(a, row[l]);
+    for (int p = 0; p < PARTS; p++) vd_add_to(a + p * LANES, row[p][l]);
     a[8] += block.m[2][2][l];
   }
 }
@@ -26,12 +26,12 @@ typedef struct node_rates {
   mat3 rate[4][3]; /* [node][component] */
 } node_rates;
 
-COROT_INLINE node_rates node_rates_of(const tet_block *block, mat3 F, mat3 R) {
+COROT_INLINE node_rates node_rates_of(tet_lanes block, mat3 F, mat3 R) {
   node_rates n;
   for (int i = 0; i < 3; i++) {
     for (int a = 1; a < 4; a++) {
       mat3 V = mat3_scale(vd_all(0), R);
-      for (int j = 0; j < 3; j++) V.m[i][j] = block->g.m[a - 1][j];
+      for (int j = 0; j < 3; j++) V.m[i][j] = gradient_of(block, a, j);
       n.rate[a][i] = stretch_rate_of(F, R, V).rate;
     }
     mat3 sum = mat3_add(mat3_add(n.rate[1][i], n.rate[2][i]), n.rate[3][i]);
@@ -72,10 +72,10 @@ COROT_INLINE vec3 minus_sum(const vec3 *x) {
   return y;
 }
 
-COROT_INLINE node_vectors node_vectors_of(const tet_block *block, const tangent_terms *k) {
+COROT_INLINE node_vectors node_vectors_of(tet_lanes block, const tangent_terms *k) {
   node_vectors n;
   for (int a = 1; a < 4; a++) {
-    for (int c = 0; c < 3; c++) n.g[a].v[c] = block->g.m[a - 1][c];
+    for (int c = 0; c < 3; c++) n.g[a].v[c] = gradient_of(block, a, c);
     n.p[a] = mat3_apply(k->Bp, n.g[a]);
     n.s[a] = mat3_apply(k->Bs, n.g[a]);
   }
@@ -83,9 +83,9 @@ COROT_INLINE node_vectors node_vectors_of(const tet_block *block, const tangent_
   return n;
 }
 
-COROT_INLINE void store_slopes(const tet_block *block, const node_vectors *n, vd slope[4][3]) {
+COROT_INLINE void store_slopes(tet_lanes block, const node_vectors *n, block_vd slope[4][3]) {
   for (int a = 0; a < 4; a++)
-    for (int c = 0; c < 3; c++) slope[a][c] = block->volume * n->p[a].v[c];
+    for (int c = 0; c < 3; c++) vd_put(&slope[a][c], block.part, volume_of(block) * n->p[a].v[c]);
 }
 
 /* A body moved as a whole feels no force: a diagonal block is minus the sum of the others of its
@@ -96,8 +96,10 @@ COROT_INLINE void complete_columns(const pattern *p, int first, int last, double
     double *diagonal = A[p->colptr[j]], half[9];
     for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) {
       double *of_row = A[p->colptr[p->row[k]]];
-      vd a = vd_load(A[k]);
-      vd_add_to(diagonal, -a), vd_add_to(of_row, -a);
+      for (int i = 0; i < 8; i += LANES) {
+        vd a = vd_load(A[k] + i);
+        vd_add_to(diagonal + i, -a), vd_add_to(of_row + i, -a);
+      }
       diagonal[8] -= A[k][8], of_row[8] -= A[k][8];
     }
     for (int i = 0; i < 9; i++) half[i] = 0.5 * diagonal[i];
@@ -110,19 +112,21 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const solid *body, solid_
                               nodal_field u, corot_tangent tangent, int chunk, double (*K)[9],
                               double (*D)[9]) {
   bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
-  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
-    const int(*place)[W] = (const int(*)[W])body->pattern.place[b];
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    const int(*place)[W] = (const int(*)[W])body->pattern.place[b / PARTS];
+    int at = b % PARTS * LANES; /* its first lane in the block */
     element e = element_at(s, body, &state->frames, u, b);
     if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
-    vd lambda = e.block->volume * e.mat->lambda, mu = e.block->volume * e.mat->mu;
-    vd dlambda = e.block->volume * e.mat->damping_lambda, dmu = e.block->volume * e.mat->damping_mu;
+    vd lambda = volume_of(e.block) * e.mat->lambda, mu = volume_of(e.block) * e.mat->mu;
+    vd dlambda = volume_of(e.block) * e.mat->damping_lambda,
+       dmu = volume_of(e.block) * e.mat->damping_mu;
     bool averaged = body->dilatation.npool;
-    vd theta = averaged ? state->dilatation[b] : dilatation_of(s->pressure, e.F, e.R);
-    vd local = e.block->volume * e.mat->lambda_local;
+    vd theta = averaged ? vd_at(state->dilatation, b) : dilatation_of(s->pressure, e.F, e.R);
+    vd local = volume_of(e.block) * e.mat->lambda_local;
     tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e.F, e.R);
     node_vectors n = node_vectors_of(e.block, &t);
-    if (averaged) store_slopes(e.block, &n, state->slope[b]);
+    if (averaged) store_slopes(e.block, &n, state->slope[b / PARTS]);
     bool objective = D && body->objective && s->frame == FRAME_POLAR;
     node_rates rates;
     if (objective) rates = node_rates_of(e.block, e.F, e.R);
@@ -133,11 +137,11 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const solid *body, solid_
       if (s->pressure == BY_GRADIENT)
         A = mat3_add_identity(A, vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
       if (turning) A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
-      if (K) scatter(K, place[k], A);
+      if (K) scatter(K, place[k] + at, A);
       if (objective)
-        scatter(D, place[k], objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
+        scatter(D, place[k] + at, objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
       else if (D)
-        scatter(D, place[k],
+        scatter(D, place[k] + at,
                 constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]));
     }
   }
@@ -147,9 +151,8 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const solid *body, solid_
   return -1;
 }
 
-COROT_CLONES int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,
-                                      corot_tangent tangent, int chunk, double (*K)[9],
-                                      double (*D)[9]) {
+int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,
+                         corot_tangent tangent, int chunk, double (*K)[9], double (*D)[9]) {
   const strain_measure *s = &strain_measures[body->strain];
   if (tangent == COROT_TANGENT_CLAMPED) /* compiled apart, so as not to burden the others */
     return tangent_loop(s, body, state, u, COROT_TANGENT_CLAMPED, chunk, K, D);
@@ -159,20 +162,21 @@ COROT_CLONES int corot_kernel_tangent(const solid *body, solid_state *state, nod
 COROT_INLINE int derivative_loop(const strain_measure *s, const solid *body, solid_state *state,
                                  nodal_field u, nodal_field v, nodal_field du, nodal_field dv,
                                  bool exact, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     element e = element_at(s, body, &state->frames, u, b);
     if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
     mat3 dF = gradient(e.block, du);
     mat3 dR = mat3_scale(vd_all(0), e.R);
     if (exact && s->frame != FRAME_IDENTITY) {
-      const mat3 *Q0 = s->frame == FRAME_WARP ? &body->tets.rest_basis[b] : NULL;
+      mat3 room;
+      const mat3 *Q0 = rest_basis_of(s->frame, body, b, &room);
       dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
     }
-    vd minus = -e.block->volume;
+    vd minus = -volume_of(e.block);
     bool averaged = body->dilatation.npool;
-    vd theta = averaged ? state->dilatation[b] : dilatation_of(s->pressure, e.F, e.R);
-    vd change = averaged ? state->dilatation_change[b]
+    vd theta = averaged ? vd_at(state->dilatation, b) : dilatation_of(s->pressure, e.F, e.R);
+    vd change = averaged ? vd_at(state->dilatation_change, b)
                          : dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
     vd elastic = minus * e.mat->lambda, shear = minus * e.mat->mu;
     mat3 dA = stress_derivative(s, elastic * theta, elastic * change, shear, e.F, e.R, dF, dR);
@@ -189,8 +193,7 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const solid *body, sol
   return -1;
 }
 
-COROT_CLONES int corot_kernel_derivative(const solid *body, solid_state *state, nodal_field u,
-                                         nodal_field v, nodal_field du, nodal_field dv, bool exact,
-                                         int chunk) {
+int corot_kernel_derivative(const solid *body, solid_state *state, nodal_field u, nodal_field v,
+                            nodal_field du, nodal_field dv, bool exact, int chunk) {
   return derivative_loop(&strain_measures[body->strain], body, state, u, v, du, dv, exact, chunk);
 }

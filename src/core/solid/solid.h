@@ -35,27 +35,27 @@ typedef struct solid {
    given, as those that are held, or handed down by another body; or given and turned on since then.
  */
 typedef struct frame_source {
-  corot_frames kind; /* EXACT: own; HELD: given; EXTRAPOLATED: turned on */
-  const mat3 *R;     /* [tets.nblock] */
-  const vec3 *spin;  /* [tets.nblock] [rad/s] */
-  double age;        /* for so long [s] */
+  corot_frames kind;      /* EXACT: own; HELD: given; EXTRAPOLATED: turned on */
+  const block_mat3 *R;    /* [tets.nblock] */
+  const block_vec3 *spin; /* [tets.nblock] [rad/s] */
+  double age;             /* for so long [s] */
 } frame_source;
 
 /* What the evaluations of one run write to, and the frames that are held between them. */
 typedef struct solid_state {
-  frame_source frames; /* of the evaluations */
-  int inverted;        /* tet number in the mesh, or -1 */
-  mat3 *R;             /* [tets.nblock] the held frames */
-  vec3 *spin;          /* [tets.nblock] their angular velocity [rad/s] */
-  mat3 *now_R;         /* [tets.nblock] those in use, to compare with or to hand down */
-  mat3 *new_R;         /* [tets.nblock] those of an update, until it is known to succeed */
-  vd *dilatation; /* [tets.nblock] means in place of tr(e_p); NULL, as the next, where there are
-                     none: see dilatation.h */
-  vd *dilatation_change; /* [tets.nblock] the same of a derivative */
-  double *pool;          /* [dilatation.npool] */
-  vd (*slope)[4][3];     /* [tets.nblock][local node] V times d tr(e_p) / du */
-  double (*gathered)[3]; /* [nnode] zero between uses */
-  vd (*force)[4][3];     /* [window][local node][component] element forces, see pattern.h */
+  frame_source frames;  /* of the evaluations */
+  int inverted;         /* tet number in the mesh, or -1 */
+  block_mat3 *R;        /* [tets.nblock] the held frames */
+  block_vec3 *spin;     /* [tets.nblock] their angular velocity [rad/s] */
+  block_mat3 *now_R;    /* [tets.nblock] those in use, to compare with or to hand down */
+  block_mat3 *new_R;    /* [tets.nblock] those of an update, until it is known to succeed */
+  block_vd *dilatation; /* [tets.nblock] means in place of tr(e_p); NULL, as the next, where there
+                     are none: see dilatation.h */
+  block_vd *dilatation_change; /* [tets.nblock] the same of a derivative */
+  double *pool;                /* [dilatation.npool] */
+  block_vd (*slope)[4][3];     /* [tets.nblock][local node] V times d tr(e_p) / du */
+  double (*gathered)[3];       /* [nnode] zero between uses */
+  block_vd (*force)[4][3];     /* [window][local node][component] element forces, see pattern.h */
 } solid_state;
 
 /* Where the forces on nodes are added up. */
@@ -112,17 +112,18 @@ corot_status corot_solid_internal(const solid *body, solid_state *s, nodal_field
                                   double lambda_part, double mu_part, force_sum *sum);
 
 /* R [tets.nblock] = the frames of u by the measure's rule. */
-corot_status corot_solid_frames(const solid *body, solid_state *s, nodal_field u, mat3 *R);
+corot_status corot_solid_frames(const solid *body, solid_state *s, nodal_field u, block_mat3 *R);
 
 /* s->spin = the angular velocity of these, for v; *spin_max = the largest of it [rad/s]. */
 corot_status corot_solid_spin(const solid *body, solid_state *s, nodal_field u, nodal_field v,
                               double *spin_max);
 
 /* R [tets.nblock] = the frames in use. */
-corot_status corot_solid_frames_in_use(const solid *body, solid_state *s, nodal_field u, mat3 *R);
+corot_status corot_solid_frames_in_use(const solid *body, solid_state *s, nodal_field u,
+                                       block_mat3 *R);
 
 /* Largest and mean angle between two sets of frames. */
-void corot_solid_compare_frames(const solid *body, const mat3 *A, const mat3 *B,
+void corot_solid_compare_frames(const solid *body, const block_mat3 *A, const block_mat3 *B,
                                 corot_frames_change *change);
 
 /* --- For the kernels' callers ---------------------------------------------------------------- */

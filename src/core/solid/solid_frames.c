@@ -1,11 +1,12 @@
 /* The frames of a body: those of the measure's rule, those in use, and how far two sets differ. */
 #include "kernel.h"
 
-corot_status corot_solid_frames(const solid *body, solid_state *s, nodal_field u, mat3 *R) {
+corot_status corot_solid_frames(const solid *body, solid_state *s, nodal_field u, block_mat3 *R) {
   return corot_solid_check(s, corot_kernel_frames(body, u, R));
 }
 
-corot_status corot_solid_frames_in_use(const solid *body, solid_state *s, nodal_field u, mat3 *R) {
+corot_status corot_solid_frames_in_use(const solid *body, solid_state *s, nodal_field u,
+                                       block_mat3 *R) {
   const frame_source *f = &s->frames;
   if (f->kind == COROT_FRAMES_EXACT) return corot_solid_frames(body, s, u, R);
   for (int k = 0; k < body->tets.nblock; k++)
@@ -26,7 +27,7 @@ corot_status corot_solid_spin(const solid *body, solid_state *s, nodal_field u, 
 }
 
 /* |A - B| = sqrt(8) sin of half the angle, which keeps its digits where the angle is small. */
-void corot_solid_compare_frames(const solid *body, const mat3 *A, const mat3 *B,
+void corot_solid_compare_frames(const solid *body, const block_mat3 *A, const block_mat3 *B,
                                 corot_frames_change *change) {
   double sum = 0;
   for (int k = 0; k < body->tets.nblock; k++)

@@ -2,25 +2,25 @@
    viscous stress are added in the frame, where the moments take the elastic one. */
 #include "kernel_handed.h"
 
-/* Of matrices of the leader's tets, that over block b. */
-COROT_INLINE mat3 above_block(const int *above, const mat3 *of_leader, int b) {
-  if (!above) return of_leader[b];
-  const mat3 *A = &of_leader[above[b] / W];
-  int lane = above[b] % W;
+/* Of matrices of the leader's tets, that over part b. */
+COROT_INLINE mat3 above_block(const int *above, const block_mat3 *of_leader, int b) {
+  if (!above) return mat3_at(of_leader, b);
+  int tet = above[b / PARTS];
+  const block_mat3 *A = &of_leader[tet / W];
   mat3 B;
-  EACH_IJ B.m[i][j] = vd_all(A->m[i][j][lane]);
+  EACH_IJ B.m[i][j] = vd_all(A->m[i][j][tet % W]);
   return B;
 }
 
-/* Adds a vector of each tet of block b to that of the leader's tet over it. */
-COROT_INLINE void add_up(const int *above, vec3 a, int b, vec3 *of_leader) {
+/* Adds a vector of each tet of part b to that of the leader's tet over it. */
+COROT_INLINE void add_up(const int *above, vec3 a, int b, block_vec3 *of_leader) {
   if (!above) {
-    of_leader[b] = a;
+    vec3_put(of_leader, b, a);
     return;
   }
-  double(*sum)[W] = (double(*)[W])of_leader[above[b] / W].v;
+  double(*sum)[W] = (double(*)[W])of_leader[above[b / PARTS] / W].v;
   for (int c = 0; c < 3; c++)
-    for (int k = 0; k < W; k++) sum[c][above[b] % W] += a.v[c][k];
+    for (int k = 0; k < LANES; k++) sum[c][above[b / PARTS] % W] += a.v[c][k];
 }
 
 /* Coefficients times a tet's volume. */
@@ -28,9 +28,9 @@ typedef struct coefficients {
   vd lambda, mu, damping_lambda, damping_mu;
 } coefficients;
 
-COROT_INLINE coefficients coefficients_of(const solid *body, const tet_block *block) {
-  const material *mat = &body->material[block->material];
-  vd V = block->volume;
+COROT_INLINE coefficients coefficients_of(const solid *body, tet_lanes block) {
+  const material *mat = &body->material[block.in->material];
+  vd V = volume_of(block);
   return (coefficients){V * mat->lambda, V * mat->mu, V * mat->damping_lambda, V * mat->damping_mu};
 }
 
@@ -42,8 +42,8 @@ COROT_INLINE vi inverted_in(const solid *body, mat3 F) {
 
 COROT_INLINE int handed_force_loop(const solid *body, solid_state *state, const from_leader *lead,
                                    nodal_field u, nodal_field v, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
-    const tet_block *block = &body->tets.block[b];
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    tet_lanes block = tets_at(&body->tets, b);
     coefficients k = coefficients_of(body, block);
     mat3 F = deformation(block, u);
     mat3 R = above_block(lead->above, lead->R, b);
@@ -63,22 +63,22 @@ COROT_INLINE int handed_force_loop(const solid *body, solid_state *state, const 
   return -1;
 }
 
-COROT_CLONES int corot_kernel_handed_force(const solid *body, solid_state *state,
-                                           const from_leader *lead, nodal_field u, nodal_field v,
-                                           int chunk) {
+int corot_kernel_handed_force(const solid *body, solid_state *state, const from_leader *lead,
+                              nodal_field u, nodal_field v, int chunk) {
   return handed_force_loop(body, state, lead, u, v, chunk);
 }
 
-void corot_kernel_hand_down(const solid *body, const from_leader *lead, mat3 *R) {
-  for (int b = 0; b < body->tets.nblock; b++) R[b] = above_block(lead->above, lead->R, b);
+void corot_kernel_hand_down(const solid *body, const from_leader *lead, block_mat3 *R) {
+  for (int b = 0; b < body->tets.nblock * PARTS; b++)
+    mat3_put(R, b, above_block(lead->above, lead->R, b));
 }
 
 /* dR is zero where the frames do not follow. */
 COROT_INLINE int handed_derivative_loop(const solid *body, solid_state *state,
                                         const from_leader *lead, nodal_field u, nodal_field v,
                                         nodal_field du, nodal_field dv, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(body, chunk); b++) {
-    const tet_block *block = &body->tets.block[b];
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    tet_lanes block = tets_at(&body->tets, b);
     coefficients k = coefficients_of(body, block);
     mat3 F = deformation(block, u);
     mat3 R = above_block(lead->above, lead->R, b), dR = above_block(lead->above, lead->dR, b);
@@ -107,26 +107,25 @@ COROT_INLINE int handed_derivative_loop(const solid *body, solid_state *state,
   return -1;
 }
 
-COROT_CLONES int corot_kernel_handed_derivative(const solid *body, solid_state *state,
-                                                const from_leader *lead, nodal_field u,
-                                                nodal_field v, nodal_field du, nodal_field dv,
-                                                int chunk) {
+int corot_kernel_handed_derivative(const solid *body, solid_state *state, const from_leader *lead,
+                                   nodal_field u, nodal_field v, nodal_field du, nodal_field dv,
+                                   int chunk) {
   return handed_derivative_loop(body, state, lead, u, v, du, dv, chunk);
 }
 
 /* The frame's rotation for a unit of moment: z = G^-1 moment, the stress -V P = -R [z]x. */
 COROT_INLINE int turning_force_loop(const solid *leader, solid_state *state,
                                     const from_leader *lead, nodal_field u, int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(leader, chunk); b++) {
-    mat3 F = deformation(&leader->tets.block[b], u), R = lead->R[b];
-    vec3 z = mat3_apply(polar_inverse_g(mat3_sym_tmul(R, F)), lead->moment[b]);
+  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++) {
+    mat3 F = deformation(tets_at(&leader->tets, b), u), R = mat3_at(lead->R, b);
+    vec3 z = mat3_apply(polar_inverse_g(mat3_sym_tmul(R, F)), vec3_at(lead->moment, b));
     store_forces(leader, state, b, mat3_scale(vd_all(-1), mat3_mul(R, mat3_skew(z))));
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_turning_force(const solid *leader, solid_state *state,
-                                            const from_leader *lead, nodal_field u, int chunk) {
+int corot_kernel_turning_force(const solid *leader, solid_state *state, const from_leader *lead,
+                               nodal_field u, int chunk) {
   return turning_force_loop(leader, state, lead, u, chunk);
 }
 
@@ -134,38 +133,39 @@ COROT_CLONES int corot_kernel_turning_force(const solid *leader, solid_state *st
 COROT_INLINE int turning_derivative_loop(const solid *leader, solid_state *state,
                                          const from_leader *lead, nodal_field u, nodal_field du,
                                          int chunk) {
-  for (int b = chunk * CHUNK; b < chunk_end(leader, chunk); b++) {
-    const tet_block *block = &leader->tets.block[b];
-    mat3 F = deformation(block, u), R = lead->R[b];
-    mat3 dF = gradient(block, du), dR = lead->dR[b];
+  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++) {
+    tet_lanes block = tets_at(&leader->tets, b);
+    mat3 F = deformation(block, u), R = mat3_at(lead->R, b);
+    mat3 dF = gradient(block, du), dR = mat3_at(lead->dR, b);
     mat3 dS = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
     mat3 Ginv = polar_inverse_g(mat3_sym_tmul(R, F));
-    vec3 z = mat3_apply(Ginv, lead->moment[b]);
-    vec3 dz = mat3_apply(Ginv, vec3_less(lead->dmoment[b], apply_g_change(dS, z)));
+    vec3 z = mat3_apply(Ginv, vec3_at(lead->moment, b));
+    vec3 dz = mat3_apply(Ginv, vec3_less(vec3_at(lead->dmoment, b), apply_g_change(dS, z)));
     mat3 dP = mat3_add(mat3_mul(dR, mat3_skew(z)), mat3_mul(R, mat3_skew(dz)));
     store_forces(leader, state, b, mat3_scale(vd_all(-1), dP));
   }
   return -1;
 }
 
-COROT_CLONES int corot_kernel_turning_derivative(const solid *leader, solid_state *state,
-                                                 const from_leader *lead, nodal_field u,
-                                                 nodal_field du, int chunk) {
+int corot_kernel_turning_derivative(const solid *leader, solid_state *state,
+                                    const from_leader *lead, nodal_field u, nodal_field du,
+                                    int chunk) {
   return turning_derivative_loop(leader, state, lead, u, du, chunk);
 }
 
-COROT_INLINE void frames_change_loop(frame_rule rule, const solid *leader, const mat3 *R,
-                                     nodal_field u, nodal_field du, mat3 *dR) {
-  for (int b = 0; b < leader->tets.nblock; b++) {
-    const tet_block *block = &leader->tets.block[b];
-    const mat3 *Q0 = rule == FRAME_WARP ? &leader->tets.rest_basis[b] : NULL;
+COROT_INLINE void frames_change_loop(frame_rule rule, const solid *leader, const block_mat3 *R,
+                                     nodal_field u, nodal_field du, block_mat3 *dR) {
+  for (int b = 0; b < leader->tets.nblock * PARTS; b++) {
+    tet_lanes block = tets_at(&leader->tets, b);
+    mat3 room;
+    const mat3 *Q0 = rest_basis_of(rule, leader, b, &room);
     mat3 F = deformation(block, u);
     mat3 dF = gradient(block, du);
-    dR[b] = frame_derivative(rule, F, Q0, R[b], dF);
+    mat3_put(dR, b, frame_derivative(rule, F, Q0, mat3_at(R, b), dF));
   }
 }
 
-COROT_CLONES void corot_kernel_frames_change(const solid *leader, const mat3 *R, nodal_field u,
-                                             nodal_field du, mat3 *dR) {
+void corot_kernel_frames_change(const solid *leader, const block_mat3 *R, nodal_field u,
+                                nodal_field du, block_mat3 *dR) {
   frames_change_loop(strain_measures[leader->strain].frame, leader, R, u, du, dR);
 }

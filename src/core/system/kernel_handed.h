@@ -8,13 +8,13 @@
 
 /* What there is of the leader over a body's tets. */
 typedef struct from_leader {
-  const int *above;       /* [the body's tets.nblock] as in system.h */
-  const mat3 *R, *dR;     /* the frames, and their change */
-  vec3 *moment, *dmoment; /* what turns them, and its change: added to */
+  const int *above;             /* [the body's tets.nblock] as in system.h */
+  const block_mat3 *R, *dR;     /* the frames, and their change */
+  block_vec3 *moment, *dmoment; /* what turns them, and its change: added to */
 } from_leader;
 
 /* R [tets.nblock] = the leader's frames over each tet. */
-void corot_kernel_hand_down(const solid *body, const from_leader *lead, mat3 *R);
+void corot_kernel_hand_down(const solid *body, const from_leader *lead, block_mat3 *R);
 
 /* As corot_kernel_force, and the moments += V vee(R'F sigma) of the elastic stress. */
 int corot_kernel_handed_force(const solid *body, solid_state *state, const from_leader *lead,
@@ -36,7 +36,7 @@ int corot_kernel_turning_derivative(const solid *leader, solid_state *state,
                                     int chunk);
 
 /* dR [tets.nblock] = the change of the leader's frames R for du. */
-void corot_kernel_frames_change(const solid *leader, const mat3 *R, nodal_field u, nodal_field du,
-                                mat3 *dR);
+void corot_kernel_frames_change(const solid *leader, const block_mat3 *R, nodal_field u,
+                                nodal_field du, block_mat3 *dR);
 
 #endif

@@ -95,8 +95,8 @@ typedef struct map_fields {
 
 /* What turns the frames of the leader, and what it hands down in a derivative; see above. */
 typedef struct handing {
-  mat3 *dR;               /* [tets.nblock] change of its frames */
-  vec3 *moment, *dmoment; /* [tets.nblock] from all descendants [J], and their change */
+  block_mat3 *dR;               /* [tets.nblock] change of its frames */
+  block_vec3 *moment, *dmoment; /* [tets.nblock] from all descendants [J], and their change */
 } handing;
 
 typedef struct system_state {
