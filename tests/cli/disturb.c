@@ -55,9 +55,10 @@ static int remove_one(const char *path, const struct stat *info, int flag, struc
   return remove(path);
 }
 
+/* Until the stack is full; compilers need not know that there is no other end. */
 static void recur(volatile char *above) {
   volatile char here[1024] = {*above};
-  recur(here);
+  if (*above == 0) recur(here);
   here[1] = 0; /* so that it is no loop */
 }
 

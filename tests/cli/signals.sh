@@ -65,7 +65,7 @@ for command in run static; do
     what="$command of a large mesh after $after s"
     rm -rf large
     "$corot" $command model.yaml -o large --set "$large" --set start=equilibrium >stdout 2>stderr &
-    sleep $after; kill -TERM $!; ended $! large 15
+    until_true heeds $!; sleep $after; kill -TERM $!; ended $! large 15
   done
 done
 
