@@ -58,14 +58,16 @@ static int remove_one(const char *path, const struct stat *info, int flag, struc
 /* Until the stack is full; compilers need not know that there is no other end. */
 static void recur(volatile char *above) {
   volatile char here[1024] = {*above};
-  if (*above == 0) recur(here);
+  if (*above) recur(here);
   here[1] = 0; /* so that it is no loop */
 }
 
 static void crash(void) {
   if (strcmp(fault, "abort") == 0) abort();
-  if (strcmp(fault, "stack") == 0) recur(fault);
-  *(volatile int *)NULL = 0;
+  if (strcmp(fault, "stack") == 0)
+    recur(fault);
+  else
+    *(volatile int *)NULL = 0;
 }
 
 static void change(void) {
