@@ -195,7 +195,7 @@ int command_kernels(int argc, char **argv) {
         break;
       case 'w':
         if (!parse_count(optarg, W, &lanes)) return usage_error(program, "--lanes: 8, 4 or 2");
-        lanes_limit(lanes);
+        corot_lanes_limit(lanes);
         break;
       case 'h':
         fputs(help, stdout);

@@ -44,7 +44,7 @@ BUILD(_v4)
 
 /* Of the build of the kernels that is in use. */
 static loops loops_in_use(void) {
-  int lanes = lanes_in_use();
+  int lanes = corot_lanes_in_use();
   if (lanes == 8) return loops_v4;
   return lanes == 4 ? loops_v3 : loops_v1;
 }

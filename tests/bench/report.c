@@ -14,7 +14,7 @@ void report_object(json_t *object) {
 }
 
 void report_machine(bool json) {
-  const char *cpu = machine_cpu(), *isa = lanes_instruction_set();
+  const char *cpu = machine_cpu(), *isa = corot_lanes_instruction_set();
   double peak = machine_peak() * 1e-9;
   if (json) {
     report_object(json_pack("{s:s, s:s, s:s, s:f}", "bench", "machine", "cpu", cpu,

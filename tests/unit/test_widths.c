@@ -96,7 +96,7 @@ static void compare_widths(const char *what, const solid *s, bool plain) {
   record widest = {0};
   for (int k = 0; k < NWIDTH; k++) {
     record r = {0};
-    lanes_limit(widths[k]);
+    corot_lanes_limit(widths[k]);
     record_all(s, &f, plain, &r);
     if (k == 0) {
       widest = r;
@@ -105,7 +105,7 @@ static void compare_widths(const char *what, const solid *s, bool plain) {
     compare(what, &widest, &r, width_names[k]);
     drop_record(&r);
   }
-  lanes_limit(0);
+  corot_lanes_limit(0);
   drop_record(&widest);
   free(x);
 }
@@ -153,7 +153,7 @@ static void test_inverted(void **state) {
     int tet[NWIDTH];
     u[i] = i % 2 ? 3 : -3;
     for (int k = 0; k < NWIDTH; k++) {
-      lanes_limit(widths[k]);
+      corot_lanes_limit(widths[k]);
       corot_status status = corot_residual(b.model, b.state, 0, u, u, r);
       tet[k] = status == COROT_RETRY ? corot_state_inverted(b.state) : -1;
       assert_int_equal(tet[k], tet[0]);
@@ -162,7 +162,7 @@ static void test_inverted(void **state) {
     u[i] = 0;
   }
   assert_true(ninverted > b.n / 3); /* most tips are pushed through, others out */
-  lanes_limit(0);
+  corot_lanes_limit(0);
   free(u);
   drop_body(&b);
 }
@@ -170,16 +170,16 @@ static void test_inverted(void **state) {
 /* A limit is kept to, and taken back. */
 static void test_limit(void **state) {
   (void)state;
-  int most = lanes_in_use();
-  lanes_limit(2);
-  bool several = lanes_in_use() < most; /* or the build has only one */
-  lanes_limit(0);
+  int most = corot_lanes_in_use();
+  corot_lanes_limit(2);
+  bool several = corot_lanes_in_use() < most; /* or the build has only one */
+  corot_lanes_limit(0);
   for (int k = 0; k < NWIDTH; k++) {
-    lanes_limit(widths[k]);
-    assert_true(lanes_in_use() <= most);
-    if (several) assert_int_equal(lanes_in_use(), widths[k] < most ? widths[k] : most);
-    lanes_limit(0);
-    assert_int_equal(lanes_in_use(), most);
+    corot_lanes_limit(widths[k]);
+    assert_true(corot_lanes_in_use() <= most);
+    if (several) assert_int_equal(corot_lanes_in_use(), widths[k] < most ? widths[k] : most);
+    corot_lanes_limit(0);
+    assert_int_equal(corot_lanes_in_use(), most);
   }
 }
 

@@ -82,7 +82,7 @@ corot_status provenance_make(json_t **out) {
                    "sundials", corot_sundials_version(), "suitesparse", "version",
                    known(l.suitesparse), "klu", known(l.klu), "cholmod", known(l.cholmod), "blas",
                    blas_json(&l), "compiler", provenance_compiler, "processor",
-                   lanes_instruction_set());
+                   corot_lanes_instruction_set());
   return *out ? COROT_OK : no_memory();
 }
 

@@ -24,32 +24,32 @@ static int has_v3(void) {
 
 static int limit = 8;
 
-void lanes_limit(int most) { limit = most ? most : 8; }
+void corot_lanes_limit(int most) { limit = most ? most : 8; }
 
-int lanes_in_use(void) {
+int corot_lanes_in_use(void) {
   if (limit >= 8 && has_v4()) return 8;
   return limit >= 4 && has_v3() ? 4 : 2;
 }
 
-const char *lanes_instruction_set(void) {
-  int lanes = lanes_in_use();
+const char *corot_lanes_instruction_set(void) {
+  int lanes = corot_lanes_in_use();
   if (lanes == 8) return "x86-64-v4";
   return lanes == 4 ? "x86-64-v3" : "x86-64";
 }
 
 #else
 
-void lanes_limit(int most) { (void)most; }
+void corot_lanes_limit(int most) { (void)most; }
 
 #if defined(__AVX512F__)
-int lanes_in_use(void) { return 8; }
-const char *lanes_instruction_set(void) { return "as built, AVX-512"; }
+int corot_lanes_in_use(void) { return 8; }
+const char *corot_lanes_instruction_set(void) { return "as built, AVX-512"; }
 #elif defined(__AVX2__)
-int lanes_in_use(void) { return 4; }
-const char *lanes_instruction_set(void) { return "as built, AVX2"; }
+int corot_lanes_in_use(void) { return 4; }
+const char *corot_lanes_instruction_set(void) { return "as built, AVX2"; }
 #else
-int lanes_in_use(void) { return 2; }
-const char *lanes_instruction_set(void) { return "as built"; }
+int corot_lanes_in_use(void) { return 2; }
+const char *corot_lanes_instruction_set(void) { return "as built"; }
 #endif
 
 #endif

@@ -3,13 +3,13 @@
 #define COROT_CORE_LANES_WIDTHS_H
 
 /* Lanes of the widest build of the kernels that this processor has the instructions for. */
-int lanes_in_use(void);
+int corot_lanes_in_use(void);
 
 /* Of the whole process, from now on, not while a kernel runs: no more than so many; 0: no limit. So
    that tests and benchmarks see every build; bits differ between them. */
-void lanes_limit(int most);
+void corot_lanes_limit(int most);
 
 /* The instruction set of the build in use, by name. */
-const char *lanes_instruction_set(void);
+const char *corot_lanes_instruction_set(void);
 
 #endif
