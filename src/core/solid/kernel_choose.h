@@ -7,7 +7,7 @@
 #define CHOOSE(result, name, parameters, arguments)                \
   extern __typeof__(name) name##_v1, name##_v3, name##_v4;         \
   result name parameters {                                         \
-    int lanes = corot_lanes_in_use();                                    \
+    int lanes = corot_lanes_in_use();                              \
     if (lanes == 8) return name##_v4 arguments;                    \
     return lanes == 4 ? name##_v3 arguments : name##_v1 arguments; \
   }
