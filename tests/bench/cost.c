@@ -58,10 +58,13 @@ static double viscous_flops(void) { return DOT + 1 + SYM_TMUL + MUL + 1 + 27; }
 static double vector(const specimen *s) { return 8.0 * s->n; }
 static double matrix(const specimen *s) { return 72.0 * solid_of(s->model)->pattern.nblock; }
 static double blocks(const specimen *s) {
-  return solid_of(s->model)->tets.nblock * (double)sizeof(tet_block);
+  const element_set *e = &solid_of(s->model)->elements;
+  double block = sizeof *e->block + e->kind->nnode * sizeof *e->node;
+  double point = sizeof *e->weight + (e->kind->nnode - 1) * sizeof *e->slope;
+  return e->nblock * block + points_of(e) * point;
 }
 static double frames(const specimen *s) {
-  return solid_of(s->model)->tets.nblock * (double)sizeof(mat3);
+  return solid_of(s->model)->elements.nblock * (double)sizeof(mat3);
 }
 static double dofs(const specimen *s) { return 12.0 * solid_of(s->model)->pattern.nnode; }
 
@@ -107,11 +110,12 @@ cost cost_jacobian(const specimen *s, bool exact, double steps) {
   if (m->pressure == BY_GRADIENT) pair += APPLY + 5 + 3;
   if (exact_polar) pair += 27 + 9 * 4;
   if (damped) pair += bases + 9;
-  double tet = DEFORMATION + frame_flops(m, false, steps) + terms + vectors + NPAIR * pair;
+  double tet = DEFORMATION + frame_flops(m, false, steps) + terms + vectors +
+               element_kinds[TET4].npair * pair;
   double diagonal = (p->nblock - p->nnode) * 18.0 * (damped ? 2 : 1);
   return (cost){.bytes = blocks(s) + frame_bytes(s, false) +
-                         24.0 * W * solid_of(s->model)->tets.nblock + 4.0 * p->nblock + dofs(s) +
-                         vector(s) + (damped ? 2 : 1) * matrix(s),
+                         24.0 * W * solid_of(s->model)->elements.nblock + 4.0 * p->nblock +
+                         dofs(s) + vector(s) + (damped ? 2 : 1) * matrix(s),
                 .flops = tet * s->ntet + diagonal};
 }
 
@@ -152,12 +156,12 @@ cost cost_combine(const specimen *s, const corot_csc *csc) {
 }
 
 double cost_polar_steps(const specimen *s) {
-  const tets *t = &solid_of(s->model)->tets;
+  const element_set *t = &solid_of(s->model)->elements;
   corot_element_fields none = {0};
   if (corot_elements(s->model, s->state, 0, s->u, &none) != COROT_OK) return 0; /* sets state->u */
   double sum = 0;
   for (int b = 0; b < t->nblock; b++) {
-    mat3 X = deformation(tets_at(t, b), (nodal_field)s->state->u);
+    mat3 X = deformation(point_of(solid_of(s->model), b, 0), (nodal_field)s->state->u);
     for (int k = 0;; k++) { /* as in core/lanes/polar.h, strains this small being left unscaled */
       mat3 C = mat3_cofactor(X);
       vi rough = ~(mat3_dot(X, X) - 3 < 1e-8);

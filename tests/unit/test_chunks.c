@@ -155,8 +155,8 @@ static void buffers_wrap(void **state) {
     sample s = make("green", l, COROT_MASS_LUMPED);
     const pattern *p = &solid_of(s.b.model)->pattern;
     assert_true(p->nchunk > 10);
-    assert_true(p->window >= CHUNK && p->window <= solid_of(s.b.model)->tets.nblock);
-    if (!layouts[l].mixed) assert_true(2 * p->window < solid_of(s.b.model)->tets.nblock);
+    assert_true(p->window >= CHUNK && p->window <= solid_of(s.b.model)->elements.nblock);
+    if (!layouts[l].mixed) assert_true(2 * p->window < solid_of(s.b.model)->elements.nblock);
     drop(&s);
   }
 }

@@ -102,7 +102,7 @@ static void frames_come_from_where_they_are_said_to(void **state) {
   (void)state;
   for (int k = 0; k < NMEASURE; k++) {
     sample s = make(measures[k]);
-    int nblock = s.solid->tets.nblock;
+    int nblock = s.solid->elements.nblock;
     double(*own)[4] = corot_vector_calloc(s.nnode, sizeof *own);
     force_sum first = {.r = own[0], .sign = 1}, given = {.r = s.f[0], .sign = 1};
     assert_ok(force(&s, &first));

@@ -10,9 +10,10 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "core/element/element.h"
 #include "folder.h"
 
-enum { HEADER = 4096, VTK_TETRA = 10 };
+enum { HEADER = 4096 };
 
 typedef enum section { FIELD, POINT, CELL, POINTS, CELLS } section;
 
@@ -179,7 +180,7 @@ static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *materi
     offsets[e] = 4 * (e + 1);
     number[e] = material[e];
   }
-  memset(w->array[TYPES], VTK_TETRA, (size_t)mesh->ntet);
+  memset(w->array[TYPES], element_kinds[TET4].vtk, (size_t)mesh->ntet);
   return COROT_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "tets.h"
 
 #include <limits.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -36,19 +37,55 @@ static void ascending(const int tet[4], int node[4]) {
   }
 }
 
-/* Rest gradients: the rows of D^-1 for D = [x1 - x0, x2 - x0, x3 - x0]; volume |det D| / 6. */
-static void fill_block(const corot_mesh *mesh, const int *number, tet_block *block) {
-  mat3 D;
+/* The Jacobian of the map from the reference element at a point: J = sum_a (x_a - x_0) slope_a'. */
+static mat3 jacobian_at(const corot_mesh *mesh, const element_set *e, int b, int q) {
+  mat3 J;
   for (int l = 0; l < W; l++) {
-    int node[4];
-    ascending(mesh->tet[number[l]], node);
-    for (int a = 0; a < 4; a++) block->node[a][l] = node[a];
-    EACH_IJ D.m[i][j][l] = mesh->x[node[j + 1]][i] - mesh->x[node[0]][i];
+    const double *x0 = mesh->x[nodes_at(e, b, 0)[l]];
+    EACH_IJ {
+      double sum = 0;
+      for (int a = 1; a < e->kind->nnode; a++)
+        sum += (mesh->x[nodes_at(e, b, a)[l]][i] - x0[i]) * e->kind->slope[q][a - 1][j];
+      J.m[i][j][l] = sum;
+    }
   }
-  mat3 C = mat3_cofactor(D);
-  vd det = mat3_det(D, C);
-  block->g = mat3_scale(1.0 / det, mat3_transpose(C));
-  for (int l = 0; l < W; l++) block->volume[l] = l < block->ntet ? fabs(det[l]) / 6 : 0;
+  return J;
+}
+
+/* Rest gradients J^-T slope_a and weights: parts of |det J| / 6, the volume of a tet. */
+static void fill_point(const corot_mesh *mesh, int b, int q, element_set *e) {
+  const element_kind *kind = e->kind;
+  int at = b * kind->npoint + q;
+  mat3 J = jacobian_at(mesh, e, b, q), C = mat3_cofactor(J);
+  vd det = mat3_det(J, C);
+  mat3 inverse = mat3_scale(1.0 / det, mat3_transpose(C));
+  block_vd(*slope)[3] = e->slope + (size_t)at * (kind->nnode - 1);
+  for (int a = 1; a < kind->nnode; a++)
+    for (int c = 0; c < 3; c++)
+      for (int k = 0; k < 3; k++) slope[a - 1][c] += inverse.m[k][c] * kind->slope[q][a - 1][k];
+  for (int l = 0; l < W; l++)
+    e->weight[at][l] = l < e->block[b].n ? kind->part[q] * fabs(det[l]) / 6 : 0;
+}
+
+static void fill_block(const corot_mesh *mesh, int b, element_set *e) {
+  for (int l = 0; l < W; l++) {
+    int node[KIND_NODES];
+    ascending(mesh->tet[e->number[b * W + l]], node);
+    for (int a = 0; a < e->kind->nnode; a++) e->node[b * e->kind->nnode + a][l] = node[a];
+  }
+  for (int q = 0; q < e->kind->npoint; q++) fill_point(mesh, b, q, e);
+}
+
+static corot_status allocate(int with_rest_basis, element_set *e) {
+  size_t nblock = e->nblock, npoint = nblock * e->kind->npoint;
+  e->block = calloc(nblock, sizeof *e->block);
+  e->node = malloc(nblock * e->kind->nnode * sizeof *e->node);
+  e->slope = corot_vector_calloc(npoint * (e->kind->nnode - 1), sizeof *e->slope);
+  e->weight = corot_vector_calloc(npoint, sizeof *e->weight);
+  e->number = malloc(nblock * W * sizeof *e->number);
+  if (with_rest_basis) e->rest_basis = corot_vector_calloc(nblock, sizeof *e->rest_basis);
+  bool all = e->block && e->node && e->slope && e->weight && e->number;
+  return all && (!with_rest_basis || e->rest_basis) ? COROT_OK : COROT_ENOMEM;
 }
 
 mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number) {
@@ -72,8 +109,8 @@ static void find_lowest(const corot_mesh *mesh, int together, int *lowest) {
 }
 
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
-                               int together, int with_rest_basis, tets *out) {
-  tets t = {0};
+                               int together, int with_rest_basis, element_set *out) {
+  element_set e = {.kind = &element_kinds[TET4]};
   if (mesh->ntet > INT_MAX / (4 * 3) - W * nmaterial) /* slots in the force buffer */
     return corot_fail(COROT_EINVAL, "%d tets exceed 32-bit counts", mesh->ntet);
   int ntet = mesh->ntet, nkey = mesh->nnode > nmaterial ? mesh->nnode : nmaterial;
@@ -87,35 +124,34 @@ corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int 
 
   /* blocks: W tets in order, a new one where the material changes */
   for (int k = 0, lanes = W; k < ntet; k++, lanes++)
-    if (lanes == W || material[order[k]] != material[order[k - 1]]) t.nblock++, lanes = 0;
-  t.block = corot_vector_calloc(t.nblock, sizeof *t.block);
-  t.number = malloc((size_t)t.nblock * W * sizeof *t.number);
-  if (with_rest_basis) t.rest_basis = corot_vector_calloc(t.nblock, sizeof *t.rest_basis);
-  if (!t.block || !t.number || (with_rest_basis && !t.rest_basis)) goto no_memory;
+    if (lanes == W || material[order[k]] != material[order[k - 1]]) e.nblock++, lanes = 0;
+  if (allocate(with_rest_basis, &e) != COROT_OK) goto no_memory;
 
-  for (int b = 0, k = 0; b < t.nblock; b++) {
-    int *number = t.number + (size_t)b * W, m = material[order[k]];
-    tet_block *block = &t.block[b];
+  for (int b = 0, k = 0; b < e.nblock; b++) {
+    int *number = e.number + (size_t)b * W, m = material[order[k]];
+    element_block *block = &e.block[b];
     block->material = m;
-    while (block->ntet < W && k < ntet && material[order[k]] == m)
-      number[block->ntet++] = order[k++];
-    for (int l = block->ntet; l < W; l++) number[l] = number[block->ntet - 1];
-    fill_block(mesh, number, block);
-    if (with_rest_basis) t.rest_basis[b] = corot_tets_rest_basis(mesh, number);
+    while (block->n < W && k < ntet && material[order[k]] == m) number[block->n++] = order[k++];
+    for (int l = block->n; l < W; l++) number[l] = number[block->n - 1];
+    fill_block(mesh, b, &e);
+    if (with_rest_basis) e.rest_basis[b] = corot_tets_rest_basis(mesh, number);
   }
   free(lowest), free(count), free(by_node), free(order);
-  *out = t;
+  *out = e;
   return COROT_OK;
 
 no_memory:
   free(lowest), free(count), free(by_node), free(order);
-  corot_tets_clear(&t);
+  corot_tets_clear(&e);
   return corot_fail(COROT_ENOMEM, "no memory for %d tets", ntet);
 }
 
-void corot_tets_clear(tets *t) {
-  free(t->block);
-  free(t->number);
-  free(t->rest_basis);
-  *t = (tets){0};
+void corot_tets_clear(element_set *e) {
+  free(e->block);
+  free(e->node);
+  free(e->slope);
+  free(e->weight);
+  free(e->number);
+  free(e->rest_basis);
+  *e = (element_set){0};
 }

@@ -1,60 +1,90 @@
-/* The tets as the kernels see them: blocks of W, each of one material, structure of arrays. */
+/* The elements of a mesh as the kernels see them: blocks of W, each of one material, structure of
+   arrays. */
 #ifndef COROT_CORE_ELEMENT_TETS_H
 #define COROT_CORE_ELEMENT_TETS_H
 
 #include <corot/mesh.h>
 
 #include "core/lanes/mat3.h"
+#include "element.h"
 
-/* The nodes of a tet are in ascending order here, whatever the mesh says: then local node a > b
-   means global node a > b, and the lower triangle of an element matrix is part of the lower
-   triangle of the whole. Lanes beyond a material's last tet repeat it with volume zero. */
-typedef struct tet_block {
-  block_mat3 g;    /* row a-1: rest gradient of the shape function of node a = 1, 2, 3 [1/m];
-                      that of node 0 is minus their sum */
-  block_vd volume; /* rest volume [m^3] */
-  int node[4][W];  /* [local node][lane] */
+typedef struct element_block {
   int material;
-  int ntet; /* lanes in use, the first ones */
-} tet_block;
+  int n; /* lanes in use, the first ones */
+} element_block;
 
-typedef struct tets {
+/* The nodes of an element are in ascending order here, whatever the mesh says: then local node a >
+   b means global node a > b, and the lower triangle of an element matrix is part of the lower
+   triangle of the whole. Lanes beyond a material's last element repeat it with weights of zero. */
+typedef struct element_set {
+  const element_kind *kind;
   int nblock;
-  tet_block *block;       /* [nblock] aligned to a vector */
-  int *number;            /* [nblock * W] the tet's number in the mesh; repeated in padding lanes */
+  element_block *block;   /* [nblock] */
+  int (*node)[W];         /* [nblock][kind->nnode] */
+  block_vd (*slope)[3];   /* [nblock][kind->npoint][kind->nnode - 1] rest gradients of the shape
+                             functions of nodes 1, 2, ... [1/m]; that of node 0 is minus their sum */
+  block_vd *weight;       /* [nblock][kind->npoint] rest volume that a point stands for [m^3] */
+  int *number;            /* [nblock * W] the number in the mesh; repeated in padding lanes */
   block_mat3 *rest_basis; /* [nblock] Gram-Schmidt of the rest edges 0-1 and 0-2 in the mesh's own
-                       node order, on request; else NULL */
-} tets;
+                             node order, on request; else NULL */
+} element_set;
 
-/* LANES tets of a block: what a loop takes at a time. */
-typedef struct tet_lanes {
-  const tet_block *in;
-  int part;
-} tet_lanes;
-
-/* Part b % PARTS of block b / PARTS: loops count parts. */
-COROT_INLINE tet_lanes tets_at(const tets *t, int b) {
-  return (tet_lanes){&t->block[b / PARTS], b % PARTS};
+/* The lanes' node a of block b. */
+static inline const int *nodes_at(const element_set *e, int b, int a) {
+  return e->node[b * e->kind->nnode + a];
 }
 
-COROT_INLINE vd volume_of(tet_lanes t) { return vd_at(&t.in->volume, t.part); }
+/* How many points there are, of blocks. */
+static inline int points_of(const element_set *e) { return e->nblock * e->kind->npoint; }
 
-/* Component c of the rest gradient of node a = 1, 2, 3. */
-COROT_INLINE vd gradient_of(tet_lanes t, int a, int c) {
-  return vd_at(&t.in->g.m[a - 1][c], t.part);
+/* Rest volume of one element of block b [m^3]. */
+static inline double volume_at(const element_set *e, int b, int lane) {
+  double sum = 0;
+  for (int q = 0; q < e->kind->npoint; q++) sum += e->weight[b * e->kind->npoint + q][lane];
+  return sum;
+}
+
+/* --- A point of LANES elements of a block: what a loop takes at a time -------------------------
+ */
+
+typedef struct point_lanes {
+  const element_kind *kind;
+  const element_set *set;
+  int block, part; /* part of the block */
+  int q;           /* point */
+} point_lanes;
+
+/* Part b % PARTS of block b / PARTS: loops count parts. */
+COROT_INLINE point_lanes point_at(const element_kind *kind, const element_set *e, int b, int q) {
+  return (point_lanes){kind, e, b / PARTS, b % PARTS, q};
+}
+
+/* Where it stands in arrays [nblock][npoint], in parts. */
+COROT_INLINE int index_of(point_lanes p) {
+  return (p.block * p.kind->npoint + p.q) * PARTS + p.part;
+}
+
+COROT_INLINE int material_of(point_lanes p) { return p.set->block[p.block].material; }
+
+COROT_INLINE vd weight_of(point_lanes p) { return vd_at(p.set->weight, index_of(p)); }
+
+/* Component c of the rest gradient of node a = 1, 2, ... */
+COROT_INLINE vd slope_of(point_lanes p, int a, int c) {
+  int at = (p.block * p.kind->npoint + p.q) * (p.kind->nnode - 1) + a - 1;
+  return vd_at(&p.set->slope[at][c], p.part);
 }
 
 /* Rows x of node a. */
-COROT_INLINE void gather_node(tet_lanes t, int a, const double (*x)[4], vd out[3]) {
-  vd_gather3(x, t.in->node[a] + t.part * LANES, out);
+COROT_INLINE void gather_node(point_lanes p, int a, const double (*x)[4], vd out[3]) {
+  vd_gather3(x, p.set->node[p.block * p.kind->nnode + a] + p.part * LANES, out);
 }
 
 /* `material` [ntet] says what each tet is made of, 0 <= material < nmaterial. From the mesh's first
    tet on, each `together` of the same material follow one another: if that is a multiple of W, no
    block has tets of two such groups. */
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
-                               int together, int with_rest_basis, tets *out);
-void corot_tets_clear(tets *t);
+                               int together, int with_rest_basis, element_set *out);
+void corot_tets_clear(element_set *e);
 
 /* The rest basis of one block. */
 block_mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number);

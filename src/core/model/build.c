@@ -112,13 +112,15 @@ static corot_status list_kinks(corot_model *m) {
 static double body_length(const corot_model *m) {
   const double(*x)[3] = (const double(*)[3])m->mesh->x;
   double moment[3] = {0, 0, 0}, volume = 0, square = 0;
-  const tets *t = &solid_of(m)->tets;
+  const element_set *t = &solid_of(m)->elements;
   for (int b = 0; b < t->nblock; b++) {
-    const tet_block *block = &t->block[b];
-    for (int l = 0; l < block->ntet; l++) {
-      volume += block->volume[l];
-      for (int a = 0; a < 4; a++)
-        for (int c = 0; c < 3; c++) moment[c] += block->volume[l] / 4 * x[block->node[a][l]][c];
+    for (int l = 0; l < t->block[b].n; l++) {
+      double whole = volume_at(t, b, l);
+      volume += whole;
+      for (int a = 0; a < t->kind->nnode; a++) {
+        double part = whole * t->kind->lumped[a] / t->kind->lumped_over;
+        for (int c = 0; c < 3; c++) moment[c] += part * x[nodes_at(t, b, a)[l]][c];
+      }
     }
   }
   for (int n = 0; n < m->mesh->nnode; n++) {

@@ -1,22 +1,24 @@
 /* The mass, lumped or consistent, and the mass damping, which is the same matrix with density times
    damping in place of density.
 
-   Of linear shape functions a tet of mass m has m/10 on the diagonal and m/20 beside it, the same
-   in each component; a row sums to m/4, and that is what lumping puts on the diagonal. */
+   The shares of an element's nodes and pairs of nodes are those of its kind: of a tet of mass m,
+   with linear shape functions, m/10 on the diagonal and m/20 beside it, the same in each component;
+   a row sums to m/4, and that is what lumping puts on the diagonal. */
 #include <stdlib.h>
 
 #include "model.h"
 
 void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
-  const tets *t = &solid_of(m)->tets;
+  const element_set *t = &solid_of(m)->elements;
   for (int b = 0; b < t->nblock; b++) {
-    const tet_block *block = &t->block[b];
-    const material *mat = &m->material[block->material];
-    for (int l = 0; l < block->ntet; l++)
-      for (int a = 0; a < 4; a++) {
-        double quarter = mat->density * block->volume[l] / 4;
-        nodal[block->node[a][l]][0] += quarter;
-        nodal[block->node[a][l]][1] += quarter * mat->damping_mass;
+    const material *mat = &m->material[t->block[b].material];
+    for (int l = 0; l < t->block[b].n; l++)
+      for (int a = 0; a < t->kind->nnode; a++) {
+        double whole = mat->density * volume_at(t, b, l);
+        double part = whole * t->kind->lumped[a] / t->kind->lumped_over;
+        int n = nodes_at(t, b, a)[l];
+        nodal[n][0] += part;
+        nodal[n][1] += part * mat->damping_mass;
       }
   }
 }
@@ -53,14 +55,15 @@ static corot_status couple(corot_model *m) {
   if (m->mass_damped) m->damping_pair = calloc(p->nblock, sizeof *m->damping_pair);
   if (!m->mass_pair || (m->mass_damped && !m->damping_pair))
     return corot_fail(COROT_ENOMEM, "no memory for the mass of %d pairs of nodes", p->nblock);
-  const tets *t = &solid_of(m)->tets;
+  const element_set *t = &solid_of(m)->elements;
+  int npair = t->kind->npair;
   for (int b = 0; b < t->nblock; b++) {
-    const tet_block *block = &t->block[b];
-    const material *mat = &m->material[block->material];
-    for (int l = 0; l < block->ntet; l++)
-      for (int k = 0; k < NPAIR + 4; k++) {
-        double part = mat->density * block->volume[l] / (k < NPAIR ? 20 : 10);
-        int at = k < NPAIR ? p->place[b][k][l] : p->colptr[block->node[k - NPAIR][l]];
+    const material *mat = &m->material[t->block[b].material];
+    for (int l = 0; l < t->block[b].n; l++)
+      for (int k = 0; k < npair + t->kind->nnode; k++) {
+        int i = k < npair ? pair_row[k] : k - npair, j = k < npair ? pair_col[k] : i;
+        double part = mat->density * volume_at(t, b, l) * t->kind->mass[i][j] / t->kind->mass_over;
+        int at = k < npair ? p->place[b * npair + k][l] : p->colptr[nodes_at(t, b, i)[l]];
         m->mass_pair[at] += part;
         if (m->mass_damped) m->damping_pair[at] += part * mat->damping_mass;
       }

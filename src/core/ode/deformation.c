@@ -3,10 +3,10 @@
 #include "state.h"
 
 /* The principal stretches of the lanes that are strained beyond the limit. */
-COROT_INLINE void note_stretches(const tet_block *block, mat3 C, vi within, double limit,
+COROT_INLINE void note_stretches(point_lanes at, mat3 C, vi within, double limit,
                                  corot_deformation *d) {
   eigen3 e = eigen_of(C);
-  for (int l = 0; l < block->ntet; l++) {
+  for (int l = 0; l < at.set->block[at.block].n; l++) {
     if (!within[l]) continue;
     double least = INFINITY, most = 0;
     for (int i = 0; i < 3; i++) {
@@ -14,29 +14,29 @@ COROT_INLINE void note_stretches(const tet_block *block, mat3 C, vi within, doub
       least = fmin(least, stretch), most = fmax(most, stretch);
     }
     if (!(least < 1 - limit || most > 1 + limit)) continue;
-    d->strained += block->volume[l];
+    d->strained += weight_of(at)[l];
     d->stretch_min = fmin(d->stretch_min, least);
     d->stretch_max = fmax(d->stretch_max, most);
   }
 }
 
 /* The turns of the lanes beyond the limit: cos(angle) = (tr R - 1) / 2. */
-COROT_INLINE void note_turns(const tet_block *block, mat3 F, vi upright, double limit,
+COROT_INLINE void note_turns(point_lanes at, mat3 F, vi upright, double limit,
                              corot_deformation *d) {
   vi bad;
   vd trace = mat3_trace(polar(F, &bad));
-  for (int l = 0; l < block->ntet; l++) {
+  for (int l = 0; l < at.set->block[at.block].n; l++) {
     double angle = acos(fmax(-1, fmin(1, 0.5 * (trace[l] - 1))));
     if (!upright[l] || bad[l] || !(angle > limit)) continue;
-    d->turned += block->volume[l];
+    d->turned += weight_of(at)[l];
     d->turn_max = fmax(d->turn_max, angle);
   }
 }
 
-COROT_INLINE void note_determinants(const solid *body, int b, vd det, corot_deformation *d) {
-  for (int l = 0; l < body->tets.block[b].ntet; l++) {
+COROT_INLINE void note_determinants(point_lanes at, vd det, corot_deformation *d) {
+  for (int l = 0; l < at.set->block[at.block].n; l++) {
     d->ninverted += !(det[l] > 0);
-    if (!(det[l] >= d->det_min)) d->det_min = det[l], d->det_tet = body->tets.number[b * W + l];
+    if (!(det[l] >= d->det_min)) d->det_min = det[l], d->det_tet = at.set->number[at.block * W + l];
   }
 }
 
@@ -47,18 +47,19 @@ COROT_INLINE void note_determinants(const solid *body, int b, vd det, corot_defo
 static COROT_CLONES void deformation_loop(const solid *body, nodal_field u, double strain_limit,
                                           double turn_limit, corot_deformation *d) {
   double least = strain_limit - 0.5 * strain_limit * strain_limit;
-  for (int b = 0; b < body->tets.nblock; b++) {
-    const tet_block *block = &body->tets.block[b];
-    mat3 F = deformation(tets_at(&body->tets, b), u), C = mat3_gram(F);
-    vd det = mat3_det(F, mat3_cofactor(F));
-    mat3 twice_e = mat3_add_identity(C, vd_all(-1)), H = mat3_add_identity(F, vd_all(-1));
-    vi upright = det > vd_all(0);
-    vi strained = upright & (mat3_dot(twice_e, twice_e) > vd_all(4 * least * least));
-    vi turned = upright & (mat3_dot(H, H) > vd_all(turn_limit * turn_limit));
-    note_determinants(body, b, det, d);
-    if (vi_any(strained)) note_stretches(block, C, strained, strain_limit, d);
-    if (vi_any(turned)) note_turns(block, F, turned, turn_limit, d);
-  }
+  for (int b = 0; b < body->elements.nblock; b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      mat3 F = deformation(at, u), C = mat3_gram(F);
+      vd det = mat3_det(F, mat3_cofactor(F));
+      mat3 twice_e = mat3_add_identity(C, vd_all(-1)), H = mat3_add_identity(F, vd_all(-1));
+      vi upright = det > vd_all(0);
+      vi strained = upright & (mat3_dot(twice_e, twice_e) > vd_all(4 * least * least));
+      vi turned = upright & (mat3_dot(H, H) > vd_all(turn_limit * turn_limit));
+      note_determinants(at, det, d);
+      if (vi_any(strained)) note_stretches(at, C, strained, strain_limit, d);
+      if (vi_any(turned)) note_turns(at, F, turned, turn_limit, d);
+    }
 }
 
 void corot_deformation_measure(const corot_model *m, corot_state *s, double t, const double *u,
@@ -68,8 +69,8 @@ void corot_deformation_measure(const corot_model *m, corot_state *s, double t, c
   const solid *body = solid_of(m);
   deformation_loop(body, corot_state_displace(m, s, &now, u), strain_limit, turn_limit, &d);
   double volume = 0;
-  for (int b = 0; b < body->tets.nblock; b++)
-    for (int l = 0; l < body->tets.block[b].ntet; l++) volume += body->tets.block[b].volume[l];
+  for (int b = 0; b < body->elements.nblock; b++)
+    for (int l = 0; l < body->elements.block[b].n; l++) volume += volume_at(&body->elements, b, l);
   d.strained /= volume;
   d.turned /= volume;
   *out = d;

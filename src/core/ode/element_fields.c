@@ -30,29 +30,29 @@ COROT_INLINE void store_lane(const corot_element_fields *f, int tet, int l, mat3
   if (f->det) f->det[tet] = det[l];
 }
 
-/* Unlike the loops in kernel.h it goes on after an inversion: the other tets are still worth
- * seeing. */
+/* At the first point of each element. Unlike the loops in kernel.h it goes on after an inversion:
+ * the other tets are still worth seeing. */
 static COROT_CLONES int elements_loop(const solid *body, const solid_state *s, nodal_field u,
                                       const corot_element_fields *fields) {
   const strain_measure *measure = &strain_measures[body->strain];
   bool linear = strain_is_linear(measure);
   int first = -1;
-  for (int b = 0; b < body->tets.nblock; b++) {
-    const tet_block *block = &body->tets.block[b];
-    const material *mat = &body->material[block->material];
+  for (int b = 0; b < body->elements.nblock; b++) {
+    point_lanes at = point_of(body, b, 0);
+    const material *mat = &body->material[material_of(at)];
     vi inverted = {0};
-    mat3 F = deformation(tets_at(&body->tets, b), u);
-    mat3 R = frame_in_use(measure, body, &s->frames, b, F, &inverted);
+    mat3 F = deformation(at, u);
+    mat3 R = frame_in_use(measure, &s->frames, at, F, &inverted);
     vd lambda = vd_all(mat->lambda), mu = vd_all(mat->mu);
     mat3 P = body->dilatation.npool
-                 ? stress_at_pressure(measure, lambda * s->dilatation[b], mu, F, R)
+                 ? stress_at_pressure(measure, lambda * s->dilatation[index_of(at)], mu, F, R)
                  : stress(measure, lambda, mu, F, R);
     vd det = mat3_det(F, mat3_cofactor(F));
     mat3 cauchy = linear ? P : mat3_scale(1.0 / det, mat3_mul(P, mat3_transpose(F)));
     vd mises = von_mises_of(cauchy);
     mat3 e = strain_of(measure->shear, F, R);
-    for (int l = 0; l < block->ntet; l++)
-      store_lane(fields, body->tets.number[b * W + l], l, R, e, mises, det);
+    for (int l = 0; l < body->elements.block[b].n; l++)
+      store_lane(fields, body->elements.number[b * W + l], l, R, e, mises, det);
     if (first < 0) first = first_inverted(body, b, inverted);
   }
   return first;

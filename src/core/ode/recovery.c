@@ -38,7 +38,7 @@ typedef struct norms {
 COROT_INLINE stress6 stress_of(const recovery *r, int b, int l, mat3 F) {
   static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
   const solid *body = r->body;
-  const material *mat = &body->material[body->tets.block[b].material];
+  const material *mat = &body->material[body->elements.block[b].material];
   bool linear = r->linear, deviator = body->dilatation.npool > 0;
   double e[6], trace = 0;
   for (int k = 0; k < 6; k++) {
@@ -68,18 +68,18 @@ static double energy_of(const material *mat, const stress6 *a) {
 
 /* Adds the stresses of a material's tets to their nodes. */
 static void gather(const recovery *r, int which) {
-  const tets *t = &r->body->tets;
+  const element_set *t = &r->body->elements;
   for (int n = 0; n < r->body->mesh->nnode; n++) r->sum[n] = (stress6){{0}}, r->volume[n] = 0;
   for (int b = 0; b < t->nblock; b++) {
-    const tet_block *block = &t->block[b];
-    if (block->material != which) continue;
-    mat3 F = deformation(tets_at(t, b), r->u);
-    for (int l = 0; l < block->ntet; l++) {
+    if (t->block[b].material != which) continue;
+    mat3 F = deformation(point_of(r->body, b, 0), r->u);
+    for (int l = 0; l < t->block[b].n; l++) {
+      double volume = volume_at(t, b, l);
       stress6 s = stress_of(r, b, l, F);
-      for (int a = 0; a < 4; a++) {
-        int n = block->node[a][l];
-        for (int k = 0; k < 6; k++) r->sum[n].s[k] += block->volume[l] * s.s[k];
-        r->volume[n] += block->volume[l];
+      for (int a = 0; a < t->kind->nnode; a++) {
+        int n = nodes_at(t, b, a)[l];
+        for (int k = 0; k < 6; k++) r->sum[n].s[k] += volume * s.s[k];
+        r->volume[n] += volume;
       }
     }
   }
@@ -88,24 +88,28 @@ static void gather(const recovery *r, int which) {
 /* Strains are differences of displacements, and of F'F from the identity: a hundred times what
    double precision leaves of either. */
 COROT_INLINE double rounding_of(const recovery *r, int b, int l) {
-  const tet_block *block = &r->body->tets.block[b];
-  double e = 100 * DBL_EPSILON * (1 + r->moved * sqrt(mat3_dot(block->g, block->g)[l]));
-  return block->volume[l] * 2 * r->body->material[block->material].mu * e * e;
+  const element_set *t = &r->body->elements;
+  point_lanes at = point_of(r->body, b, 0);
+  double square = 0;
+  for (int a = 1; a < t->kind->nnode; a++)
+    for (int c = 0; c < 3; c++) square += slope_of(at, a, c)[l] * slope_of(at, a, c)[l];
+  double e = 100 * DBL_EPSILON * (1 + r->moved * sqrt(square));
+  return volume_at(t, b, l) * 2 * r->body->material[material_of(at)].mu * e * e;
 }
 
 /* Adds what a material's tets differ by, and what their stresses amount to. */
 static void compare(const recovery *r, int which, norms *sum) {
-  const tets *t = &r->body->tets;
+  const element_set *t = &r->body->elements;
   const material *mat = &r->body->material[which];
   for (int b = 0; b < t->nblock; b++) {
-    const tet_block *block = &t->block[b];
-    if (block->material != which) continue;
-    mat3 F = deformation(tets_at(t, b), r->u);
-    for (int l = 0; l < block->ntet; l++) {
+    if (t->block[b].material != which) continue;
+    mat3 F = deformation(point_of(r->body, b, 0), r->u);
+    for (int l = 0; l < t->block[b].n; l++) {
+      double volume = volume_at(t, b, l);
       stress6 s = stress_of(r, b, l, F), all = {{0}};
       double each = 0;
-      for (int a = 0; a < 4; a++) {
-        int n = block->node[a][l];
+      for (int a = 0; a < t->kind->nnode; a++) {
+        int n = nodes_at(t, b, a)[l];
         stress6 d;
         for (int k = 0; k < 6; k++) {
           d.s[k] = r->sum[n].s[k] / r->volume[n] - s.s[k];
@@ -113,8 +117,8 @@ static void compare(const recovery *r, int which, norms *sum) {
         }
         each += energy_of(mat, &d);
       }
-      sum->apart += block->volume[l] / 20 * (energy_of(mat, &all) + each);
-      sum->whole += block->volume[l] * energy_of(mat, &s);
+      sum->apart += volume / 20 * (energy_of(mat, &all) + each);
+      sum->whole += volume * energy_of(mat, &s);
       sum->rounding += rounding_of(r, b, l);
     }
   }

@@ -6,70 +6,70 @@
 
 /* Blocks of one material follow each other: a node's pool is new where its last one belongs to an
    earlier material. */
-static corot_status number_pools(int nnode, const tets *t, dilatation *d) {
+static corot_status number_pools(int nnode, const element_set *t, dilatation *d) {
   int *material = malloc(nnode * sizeof *material), *last = malloc(nnode * sizeof *last);
-  d->pool = malloc(t->nblock * sizeof *d->pool);
+  int of_element = t->kind->nnode;
+  d->pool = malloc((size_t)t->nblock * of_element * sizeof *d->pool);
   if (!material || !last || !d->pool) {
     free(material), free(last);
     return corot_fail(COROT_ENOMEM, "no memory for the averages of %d nodes", nnode);
   }
   for (int n = 0; n < nnode; n++) material[n] = -1;
   for (int b = 0; b < t->nblock; b++) {
-    const tet_block *block = &t->block[b];
-    for (int a = 0; a < 4; a++)
+    for (int a = 0; a < of_element; a++)
       for (int l = 0; l < W; l++) {
-        int n = block->node[a][l];
-        if (material[n] != block->material) {
-          material[n] = block->material;
+        int n = nodes_at(t, b, a)[l];
+        if (material[n] != t->block[b].material) {
+          material[n] = t->block[b].material;
           last[n] = d->npool++;
         }
-        d->pool[b][a][l] = last[n];
+        d->pool[b * of_element + a][l] = last[n];
       }
   }
   free(material), free(last);
   return COROT_OK;
 }
 
-static corot_status weigh_pools(const tets *t, const double *averaged, dilatation *d) {
+static corot_status weigh_pools(const element_set *t, const double *averaged, dilatation *d) {
   d->volume = calloc(d->npool, sizeof *d->volume);
   d->lambda = malloc(d->npool * sizeof *d->lambda);
   if (!d->volume || !d->lambda)
     return corot_fail(COROT_ENOMEM, "no memory for %d averages", d->npool);
   for (int b = 0; b < t->nblock; b++)
-    for (int a = 0; a < 4; a++)
+    for (int a = 0; a < t->kind->nnode; a++)
       for (int l = 0; l < W; l++) {
-        int pool = d->pool[b][a][l];
-        d->volume[pool] += t->block[b].volume[l];
+        int pool = pools_at(d, t, b, a)[l];
+        d->volume[pool] += volume_at(t, b, l);
         d->lambda[pool] = averaged[t->block[b].material];
       }
   return COROT_OK;
 }
 
 /* Count, then fill: `next` is shifted by one while filling, in place after. */
-static corot_status list_tets(const tets *t, dilatation *d) {
+static corot_status list_tets(const element_set *t, dilatation *d) {
   size_t n = 0;
-  for (int b = 0; b < t->nblock; b++) n += 4 * (size_t)t->block[b].ntet;
+  for (int b = 0; b < t->nblock; b++) n += (size_t)t->kind->nnode * t->block[b].n;
   d->tet_first = calloc((size_t)d->npool + 2, sizeof *d->tet_first);
   d->tet = malloc(n * sizeof *d->tet);
   if (!d->tet_first || !d->tet)
     return corot_fail(COROT_ENOMEM, "no memory for %d averages", d->npool);
   int *next = d->tet_first + 1;
   for (int b = 0; b < t->nblock; b++)
-    for (int a = 0; a < 4; a++)
-      for (int l = 0; l < t->block[b].ntet; l++) next[d->pool[b][a][l] + 1]++;
+    for (int a = 0; a < t->kind->nnode; a++)
+      for (int l = 0; l < t->block[b].n; l++) next[pools_at(d, t, b, a)[l] + 1]++;
   for (int p = 0; p < d->npool; p++) next[p + 1] += next[p];
   for (int b = 0; b < t->nblock; b++)
-    for (int a = 0; a < 4; a++)
-      for (int l = 0; l < t->block[b].ntet; l++) d->tet[next[d->pool[b][a][l]]++] = b * W + l;
+    for (int a = 0; a < t->kind->nnode; a++)
+      for (int l = 0; l < t->block[b].n; l++) d->tet[next[pools_at(d, t, b, a)[l]]++] = b * W + l;
   return COROT_OK;
 }
 
 /* The nodes of a pool's tets, ascending, into `list`; returns their number. */
-static int ring_of(const tets *t, const dilatation *d, int pool, int *mark, int *list) {
+static int ring_of(const element_set *t, const dilatation *d, int pool, int *mark, int *list) {
   int n = 0;
   for (int k = d->tet_first[pool]; k < d->tet_first[pool + 1]; k++)
-    for (int a = 0; a < 4; a++) {
-      int i = t->block[d->tet[k] / W].node[a][d->tet[k] % W];
+    for (int a = 0; a < t->kind->nnode; a++) {
+      int i = nodes_at(t, d->tet[k] / W, a)[d->tet[k] % W];
       if (mark[i] == pool) continue;
       mark[i] = pool;
       int at = n++;
@@ -79,7 +79,7 @@ static int ring_of(const tets *t, const dilatation *d, int pool, int *mark, int 
   return n;
 }
 
-static corot_status list_rings(int nnode, const tets *t, dilatation *d) {
+static corot_status list_rings(int nnode, const element_set *t, dilatation *d) {
   int *mark = malloc(nnode * sizeof *mark), *list = malloc(nnode * sizeof *list);
   d->ring_first = calloc((size_t)d->npool + 1, sizeof *d->ring_first);
   if (!mark || !list || !d->ring_first) goto no_memory;
@@ -109,7 +109,7 @@ no_memory:
   return corot_fail(COROT_ENOMEM, "no memory for the nodes of %d averages", d->npool);
 }
 
-corot_status corot_dilatation_create(int nnode, const tets *t, const double *averaged,
+corot_status corot_dilatation_create(int nnode, const element_set *t, const double *averaged,
                                      dilatation *out) {
   dilatation d = {0};
   corot_status status = number_pools(nnode, t, &d);
@@ -135,8 +135,9 @@ void corot_dilatation_clear(dilatation *d) {
   *d = (dilatation){0};
 }
 
-size_t corot_dilatation_bytes(const dilatation *d, const tets *t) {
+size_t corot_dilatation_bytes(const dilatation *d, const element_set *t) {
   if (!d->npool) return 0;
   size_t lists = 2 * ((size_t)d->npool + 1) + d->tet_first[d->npool] + d->ring_first[d->npool];
-  return t->nblock * sizeof *d->pool + d->npool * 2 * sizeof(double) + lists * sizeof(int);
+  return (size_t)t->nblock * t->kind->nnode * sizeof *d->pool + d->npool * 2 * sizeof(double) +
+         lists * sizeof(int);
 }

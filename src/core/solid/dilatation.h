@@ -21,20 +21,25 @@
 
 /* A pool is what is averaged: the tets of one material around a node. */
 typedef struct dilatation {
-  int npool;         /* 0: every dilatation is its tet's own */
-  int (*pool)[4][W]; /* [tets.nblock] the pools of each tet, one for each node */
-  double *volume;    /* [npool] of its tets [m^3] */
-  double *lambda;    /* [npool] what is averaged of it [Pa] */
-  int *tet_first;    /* [npool + 1] each pool's part of `tet` */
-  int *tet;          /* [4 ntet] W times block plus lane, ascending */
-  int *ring_first;   /* [npool + 1] each pool's part of `ring` */
-  int *ring;         /* the nodes of its tets, ascending; none where lambda is zero */
+  int npool;       /* 0: every dilatation is its tet's own */
+  int (*pool)[W];  /* [elements.nblock][kind->nnode] the pools of each element's nodes */
+  double *volume;  /* [npool] of its tets [m^3] */
+  double *lambda;  /* [npool] what is averaged of it [Pa] */
+  int *tet_first;  /* [npool + 1] each pool's part of `tet` */
+  int *tet;        /* [kind->nnode ntet] W times block plus lane, ascending */
+  int *ring_first; /* [npool + 1] each pool's part of `ring` */
+  int *ring;       /* the nodes of its tets, ascending; none where lambda is zero */
 } dilatation;
 
+/* The pools of the lanes' node a of block b. */
+static inline const int *pools_at(const dilatation *d, const element_set *e, int b, int a) {
+  return d->pool[b * e->kind->nnode + a];
+}
+
 /* averaged [material]: lambda - local [Pa]. */
-corot_status corot_dilatation_create(int nnode, const tets *t, const double *averaged,
+corot_status corot_dilatation_create(int nnode, const element_set *t, const double *averaged,
                                      dilatation *out);
 void corot_dilatation_clear(dilatation *d);
-size_t corot_dilatation_bytes(const dilatation *d, const tets *t);
+size_t corot_dilatation_bytes(const dilatation *d, const element_set *t);
 
 #endif

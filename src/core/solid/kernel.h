@@ -29,10 +29,10 @@ int corot_kernel_derivative(const solid *body, solid_state *state, nodal_field u
 int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field u, nodal_field v,
                         double *elastic, double *power);
 
-/* R [tets.nblock] = the measure's own frames. */
+/* R [elements.nblock] = the measure's own frames. */
 int corot_kernel_frames(const solid *body, nodal_field u, block_mat3 *R);
 
-/* spin [tets.nblock] = the angular velocity of the measure's own frames for the velocity v:
+/* spin [elements.nblock] = the angular velocity of the measure's own frames for the velocity v:
    dR/dt = [spin]x R. */
 int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, block_vec3 *spin);
 
@@ -55,90 +55,109 @@ void corot_kernel_dilatation_tangent(const solid *body, solid_state *state, doub
 COROT_INLINE int chunk_start(int chunk) { return chunk * CHUNK * PARTS; }
 
 COROT_INLINE int chunk_end(const solid *body, int chunk) {
-  return chunk < body->tets.nblock / CHUNK ? chunk_start(chunk + 1) : body->tets.nblock * PARTS;
+  return chunk < body->elements.nblock / CHUNK ? chunk_start(chunk + 1)
+                                               : body->elements.nblock * PARTS;
+}
+
+/* The kind of the body's elements, known where a loop is compiled. */
+COROT_INLINE const element_kind *kind_of(const solid *body) {
+  (void)body;
+  _Static_assert(NKIND == 1, "each kernel chooses among loops of the kinds");
+  return &element_kinds[TET4];
+}
+
+#define EACH_POINT(body, q) for (int q = 0; q < kind_of(body)->npoint; q++)
+
+/* Point q of part b. */
+COROT_INLINE point_lanes point_of(const solid *body, int b, int q) {
+  return point_at(kind_of(body), &body->elements, b, q);
 }
 
 /* Gradient of a nodal field. */
-COROT_INLINE mat3 gradient(tet_lanes block, nodal_field x) {
+COROT_INLINE mat3 gradient(point_lanes at, nodal_field x) {
   mat3 G;
   vd x0[3], xa[3];
-  gather_node(block, 0, x, x0);
-  for (int a = 0; a < 3; a++) {
-    gather_node(block, a + 1, x, xa);
+  gather_node(at, 0, x, x0);
+  for (int a = 1; a < at.kind->nnode; a++) {
+    gather_node(at, a, x, xa);
     EACH_IJ {
-      vd part = (xa[i] - x0[i]) * gradient_of(block, a + 1, j);
-      G.m[i][j] = a == 0 ? part : G.m[i][j] + part;
+      vd part = (xa[i] - x0[i]) * slope_of(at, a, j);
+      G.m[i][j] = a == 1 ? part : G.m[i][j] + part;
     }
   }
   return G;
 }
 
 /* F = I + grad u. */
-COROT_INLINE mat3 deformation(tet_lanes block, nodal_field u) {
-  return mat3_add_identity(gradient(block, u), vd_all(1));
+COROT_INLINE mat3 deformation(point_lanes at, nodal_field u) {
+  return mat3_add_identity(gradient(at, u), vd_all(1));
 }
 
-/* What the warping frame of part b starts from, in `room` if need be; NULL for other rules. */
-COROT_INLINE const mat3 *rest_basis_of(frame_rule rule, const solid *body, int b, mat3 *room) {
-  return rule == FRAME_WARP ? mat3_in(body->tets.rest_basis, b, room) : NULL;
+/* What the warping frames of a part start from, in `room` if need be; NULL for other rules. */
+COROT_INLINE const mat3 *rest_basis_of(frame_rule rule, point_lanes at, mat3 *room) {
+  const block_mat3 *all = at.set->rest_basis;
+  return rule == FRAME_WARP ? mat3_in(all, at.block * PARTS + at.part, room) : NULL;
 }
 
-/* The frame in use of part b, and the lanes whose F is not that of a deformation. Cauchy strain is
+/* The frame in use at a point, and the lanes whose F is not that of a deformation. Cauchy strain is
    linear in F, so there nothing can invert. */
-COROT_INLINE mat3 frame_in_use(const strain_measure *s, const solid *body, const frame_source *from,
-                               int b, mat3 F, vi *inverted) {
+COROT_INLINE mat3 frame_in_use(const strain_measure *s, const frame_source *from, point_lanes at,
+                               mat3 F, vi *inverted) {
   if (strain_is_linear(s)) return mat3_identity();
   vi bad;
   mat3 R, room;
   if (from->kind == COROT_FRAMES_EXACT || s->frame == FRAME_IDENTITY) {
-    R = frame_of(s->frame, F, rest_basis_of(s->frame, body, b, &room), &bad);
+    R = frame_of(s->frame, F, rest_basis_of(s->frame, at, &room), &bad);
   } else {
     bad = ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
-    R = mat3_at(from->R, b);
+    R = mat3_at(from->R, index_of(at));
     if (from->kind == COROT_FRAMES_EXTRAPOLATED)
-      R = rotate_by(vec3_at(from->spin, b), from->age, R);
+      R = rotate_by(vec3_at(from->spin, index_of(at)), from->age, R);
   }
   *inverted |= bad;
   return R;
 }
 
-/* What every loop starts from: the tets of part b displaced by u. */
+/* What every loop starts from: a point of the elements displaced by u. */
 typedef struct element {
-  tet_lanes block;
+  point_lanes at;
   const material *mat;
   mat3 F, R;
   vi inverted;
 } element;
 
 COROT_INLINE element element_at(const strain_measure *s, const solid *body,
-                                const frame_source *from, nodal_field u, int b) {
-  element e = {.block = tets_at(&body->tets, b)};
-  e.mat = &body->material[e.block.in->material];
-  e.F = deformation(e.block, u);
-  e.R = frame_in_use(s, body, from, b, e.F, &e.inverted);
+                                const frame_source *from, nodal_field u, point_lanes at) {
+  element e = {.at = at};
+  e.mat = &body->material[material_of(at)];
+  e.F = deformation(at, u);
+  e.R = frame_in_use(s, from, at, e.F, &e.inverted);
   return e;
 }
 
-/* Nodal forces A g_a of part b into the buffer; A is -V P. */
-COROT_INLINE void store_forces(const solid *body, solid_state *state, int b, mat3 A) {
-  tet_lanes block = tets_at(&body->tets, b);
-  block_vd(*force)[3] = state->force[b / PARTS % body->pattern.window];
+COROT_INLINE void add_force(block_vd *to, point_lanes at, vd f) {
+  vd_put(to, at.part, at.q == 0 ? f : vd_at(to, at.part) + f);
+}
+
+/* Nodal forces A g_a of a point into the buffer, to those of the points before it; A is -w P. */
+COROT_INLINE void store_forces(const solid *body, solid_state *state, point_lanes at, mat3 A) {
+  block_vd(*force)[3] = state->force + at.block % body->pattern.window * at.kind->nnode;
   for (int i = 0; i < 3; i++) {
     vd rest = vd_all(0);
-    for (int a = 1; a < 4; a++) {
-      vd f = A.m[i][0] * gradient_of(block, a, 0) + A.m[i][1] * gradient_of(block, a, 1) +
-             A.m[i][2] * gradient_of(block, a, 2);
-      vd_put(&force[a][i], b % PARTS, f);
+    for (int a = 1; a < at.kind->nnode; a++) {
+      vd f = A.m[i][0] * slope_of(at, a, 0) + A.m[i][1] * slope_of(at, a, 1) +
+             A.m[i][2] * slope_of(at, a, 2);
+      add_force(&force[a][i], at, f);
       rest -= f;
     }
-    vd_put(&force[0][i], b % PARTS, rest);
+    add_force(&force[0][i], at, rest);
   }
 }
 
 /* The mesh's number of the first inverted tet of part b; -1 if there is none. */
 COROT_INLINE int first_inverted(const solid *body, int b, vi inverted) {
   for (int l = 0; l < LANES; l++)
-    if (inverted[l]) return body->tets.number[b * LANES + l];
+    if (inverted[l]) return body->elements.number[b * LANES + l];
   return -1;
 }
 

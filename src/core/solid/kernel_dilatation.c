@@ -4,19 +4,26 @@
 /* theta [nblock] of the tets becomes the mean that stands in for it. */
 static void average(const solid *body, double *pool, vd *theta) {
   const dilatation *d = &body->dilatation;
+  const element_set *e = &body->elements;
+  int nnode = kind_of(body)->nnode;
   memset(pool, 0, d->npool * sizeof *pool);
-  for (int b = 0; b < body->tets.nblock; b++) {
-    vd part = body->tets.block[b].volume * theta[b];
-    for (int a = 0; a < 4; a++)
-      for (int l = 0; l < W; l++) pool[d->pool[b][a][l]] += part[l];
-  }
+  for (int b = 0; b < e->nblock; b++)
+    EACH_POINT (body, q) {
+      int at = index_of(point_of(body, b, q));
+      vd part = e->weight[at] * theta[at];
+      for (int a = 0; a < nnode; a++)
+        for (int l = 0; l < W; l++) pool[pools_at(d, e, b, a)[l]] += part[l];
+    }
   for (int p = 0; p < d->npool; p++) pool[p] /= d->volume[p];
-  for (int b = 0; b < body->tets.nblock; b++) {
-    double own = body->material[body->tets.block[b].material].own_share;
+  for (int b = 0; b < e->nblock; b++) {
+    double own = body->material[e->block[b].material].own_share;
     vd sum = vd_all(0);
-    for (int a = 0; a < 4; a++)
-      for (int l = 0; l < W; l++) sum[l] += pool[d->pool[b][a][l]];
-    theta[b] = own * theta[b] + (1 - own) / 4 * sum;
+    for (int a = 0; a < nnode; a++)
+      for (int l = 0; l < W; l++) sum[l] += pool[pools_at(d, e, b, a)[l]];
+    EACH_POINT (body, q) {
+      int at = index_of(point_of(body, b, q));
+      theta[at] = own * theta[at] + (1 - own) / nnode * sum;
+    }
   }
 }
 
@@ -24,12 +31,14 @@ static void average(const solid *body, double *pool, vd *theta) {
 COROT_CLONES static void own_dilatation(const solid *body, const solid_state *state, nodal_field u,
                                         vd *theta) {
   const strain_measure *s = &strain_measures[body->strain];
-  for (int b = 0; b < body->tets.nblock; b++) {
-    mat3 F = deformation(tets_at(&body->tets, b), u), R = F;
-    vi inverted = {0};
-    if (s->pressure == BY_FRAME) R = frame_in_use(s, body, &state->frames, b, F, &inverted);
-    theta[b] = dilatation_of(s->pressure, F, R);
-  }
+  for (int b = 0; b < body->elements.nblock; b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      mat3 F = deformation(at, u), R = F;
+      vi inverted = {0};
+      if (s->pressure == BY_FRAME) R = frame_in_use(s, &state->frames, at, F, &inverted);
+      theta[index_of(at)] = dilatation_of(s->pressure, F, R);
+    }
 }
 
 void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field u) {
@@ -40,14 +49,17 @@ void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field 
 
 COROT_CLONES static void internal_dilatation(const solid *body, nodal_field u,
                                              const strain_measure *s, vd *theta) {
-  for (int b = 0; b < body->tets.nblock; b++) {
-    mat3 F = deformation(tets_at(&body->tets, b), u), R = F;
-    mat3 Q0 = mat3_identity();
-    vi inverted = {0};
-    if (s->frame == FRAME_WARP) Q0 = corot_tets_rest_basis(body->mesh, body->tets.number + b * W);
-    if (s->pressure == BY_FRAME) R = frame_of(s->frame, F, &Q0, &inverted);
-    theta[b] = dilatation_of(s->pressure, F, R);
-  }
+  for (int b = 0; b < body->elements.nblock; b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      mat3 F = deformation(at, u), R = F;
+      mat3 Q0 = mat3_identity();
+      vi inverted = {0};
+      if (s->frame == FRAME_WARP)
+        Q0 = corot_tets_rest_basis(body->mesh, body->elements.number + b * W);
+      if (s->pressure == BY_FRAME) R = frame_of(s->frame, F, &Q0, &inverted);
+      theta[index_of(at)] = dilatation_of(s->pressure, F, R);
+    }
 }
 
 void corot_kernel_internal_dilatation(const solid *body, solid_state *state, nodal_field u,
@@ -61,17 +73,18 @@ COROT_CLONES static void change_of_dilatation(const solid *body, const solid_sta
                                               nodal_field u, nodal_field du, bool exact,
                                               vd *change) {
   const strain_measure *s = &strain_measures[body->strain];
-  for (int b = 0; b < body->tets.nblock; b++) {
-    element e = element_at(s, body, &state->frames, u, b);
-    mat3 dF = gradient(e.block, du);
-    mat3 dR = mat3_scale(vd_all(0), e.R);
-    if (exact && s->frame != FRAME_IDENTITY) {
-      mat3 room;
-      const mat3 *Q0 = rest_basis_of(s->frame, body, b, &room);
-      dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
+  for (int b = 0; b < body->elements.nblock; b++)
+    EACH_POINT (body, q) {
+      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+      mat3 dF = gradient(e.at, du);
+      mat3 dR = mat3_scale(vd_all(0), e.R);
+      if (exact && s->frame != FRAME_IDENTITY) {
+        mat3 room;
+        const mat3 *Q0 = rest_basis_of(s->frame, e.at, &room);
+        dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
+      }
+      change[index_of(e.at)] = dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
     }
-    change[b] = dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
-  }
 }
 
 void corot_kernel_dilatation_change(const solid *body, solid_state *state, nodal_field u,
@@ -86,9 +99,13 @@ static void gather_slopes(const solid *body, solid_state *state, int pool) {
   const dilatation *d = &body->dilatation;
   for (int k = d->tet_first[pool]; k < d->tet_first[pool + 1]; k++) {
     int b = d->tet[k] / W, l = d->tet[k] % W;
-    for (int a = 0; a < 4; a++)
-      for (int c = 0; c < 3; c++)
-        state->gathered[body->tets.block[b].node[a][l]][c] += state->slope[b][a][c][l];
+    EACH_POINT (body, q)
+      for (int a = 0; a < kind_of(body)->nnode; a++) {
+        const block_vd *slope =
+            state->slope[(b * kind_of(body)->npoint + q) * kind_of(body)->nnode + a];
+        double *sum = state->gathered[nodes_at(&body->elements, b, a)[l]];
+        for (int c = 0; c < 3; c++) sum[c] += slope[c][l];
+      }
   }
 }
 
@@ -101,7 +118,7 @@ void corot_kernel_dilatation_tangent(const solid *body, solid_state *state, doub
     int n = d->ring_first[pool + 1] - d->ring_first[pool];
     if (!n) continue;
     gather_slopes(body, state, pool);
-    double factor = d->lambda[pool] / (4 * d->volume[pool]);
+    double factor = d->lambda[pool] / (kind_of(body)->nnode * d->volume[pool]);
     for (int j = 0; j < n; j++) {
       double *qj = q[ring[j]];
       for (int i = j, at = p->colptr[ring[j]]; i < n; i++, at++) {

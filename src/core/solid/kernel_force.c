@@ -13,19 +13,21 @@ COROT_INLINE mat3 viscous_stress(const strain_measure *s, bool objective, const 
 
 COROT_INLINE int force_loop(const strain_measure *s, const solid *body, solid_state *state,
                             nodal_field u, nodal_field v, bool averaged, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
-    element e = element_at(s, body, &state->frames, u, b);
-    vd minus = -volume_of(e.block);
-    vd lambda = minus * e.mat->lambda, mu = minus * e.mat->mu;
-    mat3 A = averaged ? stress_at_pressure(s, lambda * vd_at(state->dilatation, b), mu, e.F, e.R)
-                      : stress(s, lambda, mu, e.F, e.R);
-    if (v) {
-      mat3 V = gradient(e.block, v);
-      A = mat3_add(A, viscous_stress(s, body->objective, e.mat, minus, e.F, e.R, V));
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
+    EACH_POINT (body, q) {
+      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+      vd minus = -weight_of(e.at);
+      vd lambda = minus * e.mat->lambda, mu = minus * e.mat->mu;
+      mat3 A = averaged ? stress_at_pressure(s, lambda * vd_at(state->dilatation, index_of(e.at)),
+                                             mu, e.F, e.R)
+                        : stress(s, lambda, mu, e.F, e.R);
+      if (v) {
+        mat3 V = gradient(e.at, v);
+        A = mat3_add(A, viscous_stress(s, body->objective, e.mat, minus, e.F, e.R, V));
+      }
+      store_forces(body, state, e.at, A);
+      if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
     }
-    store_forces(body, state, b, A);
-    if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
-  }
   return -1;
 }
 
@@ -46,17 +48,19 @@ int corot_kernel_force(const solid *body, solid_state *state, nodal_field u, nod
 COROT_INLINE int energy_loop(const strain_measure *s, const solid *body, const solid_state *state,
                              nodal_field u, nodal_field v, double *elastic, double *power) {
   double sum_elastic = 0, sum_power = 0;
-  for (int b = 0; b < body->tets.nblock * PARTS; b++) {
-    element e = element_at(s, body, &state->frames, u, b);
-    if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
-    vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
-    const vd *average = body->dilatation.npool ? (const vd *)state->dilatation + b : NULL;
-    sum_elastic += vd_sum(volume_of(e.block) * strain_energy(s, lambda, mu, e.F, e.R, average));
-    if (!v) continue;
-    mat3 V = gradient(e.block, v);
-    mat3 P = viscous_stress(s, body->objective, e.mat, vd_all(1), e.F, e.R, V);
-    sum_power += vd_sum(volume_of(e.block) * mat3_dot(P, V));
-  }
+  for (int b = 0; b < body->elements.nblock * PARTS; b++)
+    EACH_POINT (body, q) {
+      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+      if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
+      vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
+      const vd *average =
+          body->dilatation.npool ? (const vd *)state->dilatation + index_of(e.at) : NULL;
+      sum_elastic += vd_sum(weight_of(e.at) * strain_energy(s, lambda, mu, e.F, e.R, average));
+      if (!v) continue;
+      mat3 V = gradient(e.at, v);
+      mat3 P = viscous_stress(s, body->objective, e.mat, vd_all(1), e.F, e.R, V);
+      sum_power += vd_sum(weight_of(e.at) * mat3_dot(P, V));
+    }
   *elastic = sum_elastic;
   *power = sum_power;
   return -1;
@@ -69,14 +73,16 @@ int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field
 
 COROT_INLINE int frames_loop(const strain_measure *s, const solid *body, nodal_field u,
                              block_mat3 *R) {
-  for (int b = 0; b < body->tets.nblock * PARTS; b++) {
-    vi inverted = {0};
-    mat3 F = deformation(tets_at(&body->tets, b), u);
-    mat3 room;
-    const mat3 *Q0 = rest_basis_of(s->frame, body, b, &room);
-    mat3_put(R, b, frame_of(s->frame, F, Q0, &inverted));
-    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
-  }
+  for (int b = 0; b < body->elements.nblock * PARTS; b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      vi inverted = {0};
+      mat3 F = deformation(at, u);
+      mat3 room;
+      const mat3 *Q0 = rest_basis_of(s->frame, at, &room);
+      mat3_put(R, index_of(at), frame_of(s->frame, F, Q0, &inverted));
+      if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
+    }
   return -1;
 }
 
@@ -86,18 +92,20 @@ int corot_kernel_frames(const solid *body, nodal_field u, block_mat3 *R) {
 
 COROT_INLINE int spin_loop(const strain_measure *s, const solid *body, nodal_field u, nodal_field v,
                            block_vec3 *spin) {
-  for (int b = 0; b < body->tets.nblock * PARTS; b++) {
-    tet_lanes block = tets_at(&body->tets, b);
-    mat3 room;
-    const mat3 *Q0 = rest_basis_of(s->frame, body, b, &room);
-    vi inverted = {0};
-    mat3 F = deformation(block, u);
-    mat3 V = gradient(block, v);
-    mat3 R = frame_of(s->frame, F, Q0, &inverted);
-    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
-    mat3 dR = frame_derivative(s->frame, F, Q0, R, V);
-    vec3_put(spin, b, mat3_vee(mat3_scale(vd_all(0.5), mat3_mul(dR, mat3_transpose(R)))));
-  }
+  for (int b = 0; b < body->elements.nblock * PARTS; b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      mat3 room;
+      const mat3 *Q0 = rest_basis_of(s->frame, at, &room);
+      vi inverted = {0};
+      mat3 F = deformation(at, u);
+      mat3 V = gradient(at, v);
+      mat3 R = frame_of(s->frame, F, Q0, &inverted);
+      if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
+      mat3 dR = frame_derivative(s->frame, F, Q0, R, V);
+      vec3_put(spin, index_of(at),
+               mat3_vee(mat3_scale(vd_all(0.5), mat3_mul(dR, mat3_transpose(R)))));
+    }
   return -1;
 }
 
@@ -107,28 +115,30 @@ int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, block_vec
 
 /* The rest basis of part b, where the model keeps none. */
 COROT_INLINE mat3 rest_basis_anew(const solid *body, int b) {
-  block_mat3 whole = corot_tets_rest_basis(body->mesh, body->tets.number + b / PARTS * W);
+  block_mat3 whole = corot_tets_rest_basis(body->mesh, body->elements.number + b / PARTS * W);
   return mat3_at(&whole, b % PARTS);
 }
 
 COROT_INLINE int internal_loop(const strain_measure *s, const solid *body, solid_state *state,
                                nodal_field u, double lambda_part, double mu_part, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
-    tet_lanes block = tets_at(&body->tets, b);
-    const material *mat = &body->material[block.in->material];
-    mat3 Q0 = mat3_identity();
-    if (s->frame == FRAME_WARP) Q0 = rest_basis_anew(body, b);
-    vi inverted = {0};
-    mat3 F = deformation(block, u);
-    mat3 R = frame_of(s->frame, F, &Q0, &inverted);
-    if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(body, b, inverted);
-    vd lambda = -volume_of(block) * (lambda_part * mat->lambda),
-       mu = -volume_of(block) * (mu_part * mat->mu);
-    mat3 A = body->dilatation.npool
-                 ? stress_at_pressure(s, lambda * vd_at(state->dilatation, b), mu, F, R)
-                 : stress(s, lambda, mu, F, R);
-    store_forces(body, state, b, A);
-  }
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      const material *mat = &body->material[material_of(at)];
+      mat3 Q0 = mat3_identity();
+      if (s->frame == FRAME_WARP) Q0 = rest_basis_anew(body, b);
+      vi inverted = {0};
+      mat3 F = deformation(at, u);
+      mat3 R = frame_of(s->frame, F, &Q0, &inverted);
+      if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(body, b, inverted);
+      vd lambda = -weight_of(at) * (lambda_part * mat->lambda),
+         mu = -weight_of(at) * (mu_part * mat->mu);
+      mat3 A =
+          body->dilatation.npool
+              ? stress_at_pressure(s, lambda * vd_at(state->dilatation, index_of(at)), mu, F, R)
+              : stress(s, lambda, mu, F, R);
+      store_forces(body, state, at, A);
+    }
   return -1;
 }
 

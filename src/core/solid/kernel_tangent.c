@@ -23,18 +23,19 @@ COROT_INLINE mat3 constant_bases(vd lambda, vd mu, vd gg, mat3 BsBs, vec3 pa, ve
 /* The stretch rates of unit velocities e_i of the nodes, and the damping block of two nodes
    under the objective law, dS/dt : D : dS/dt. */
 typedef struct node_rates {
-  mat3 rate[4][3]; /* [node][component] */
+  mat3 rate[KIND_NODES][3]; /* [node][component] */
 } node_rates;
 
-COROT_INLINE node_rates node_rates_of(tet_lanes block, mat3 F, mat3 R) {
+COROT_INLINE node_rates node_rates_of(point_lanes at, mat3 F, mat3 R) {
   node_rates n;
   for (int i = 0; i < 3; i++) {
-    for (int a = 1; a < 4; a++) {
+    for (int a = 1; a < at.kind->nnode; a++) {
       mat3 V = mat3_scale(vd_all(0), R);
-      for (int j = 0; j < 3; j++) V.m[i][j] = gradient_of(block, a, j);
+      for (int j = 0; j < 3; j++) V.m[i][j] = slope_of(at, a, j);
       n.rate[a][i] = stretch_rate_of(F, R, V).rate;
     }
-    mat3 sum = mat3_add(mat3_add(n.rate[1][i], n.rate[2][i]), n.rate[3][i]);
+    mat3 sum = n.rate[1][i];
+    for (int a = 2; a < at.kind->nnode; a++) sum = mat3_add(sum, n.rate[a][i]);
     n.rate[0][i] = mat3_scale(vd_all(-1), sum);
   }
   return n;
@@ -63,29 +64,37 @@ COROT_INLINE mat3 add_skew_transposed(mat3 A, vec3 a, mat3 Q) {
 
 /* Gradients of the nodes, and the bases applied to them. */
 typedef struct node_vectors {
-  vec3 g[4], p[4], s[4];
+  vec3 g[KIND_NODES], p[KIND_NODES], s[KIND_NODES];
 } node_vectors;
 
-COROT_INLINE vec3 minus_sum(const vec3 *x) {
+/* Of x [n]. */
+COROT_INLINE vec3 minus_sum(int n, const vec3 *x) {
   vec3 y;
-  for (int c = 0; c < 3; c++) y.v[c] = -(x[0].v[c] + x[1].v[c] + x[2].v[c]);
+  for (int c = 0; c < 3; c++) {
+    y.v[c] = x[0].v[c];
+    for (int a = 1; a < n; a++) y.v[c] += x[a].v[c];
+    y.v[c] = -y.v[c];
+  }
   return y;
 }
 
-COROT_INLINE node_vectors node_vectors_of(tet_lanes block, const tangent_terms *k) {
+COROT_INLINE node_vectors node_vectors_of(point_lanes at, const tangent_terms *k) {
   node_vectors n;
-  for (int a = 1; a < 4; a++) {
-    for (int c = 0; c < 3; c++) n.g[a].v[c] = gradient_of(block, a, c);
+  for (int a = 1; a < at.kind->nnode; a++) {
+    for (int c = 0; c < 3; c++) n.g[a].v[c] = slope_of(at, a, c);
     n.p[a] = mat3_apply(k->Bp, n.g[a]);
     n.s[a] = mat3_apply(k->Bs, n.g[a]);
   }
-  n.g[0] = minus_sum(&n.g[1]), n.p[0] = minus_sum(&n.p[1]), n.s[0] = minus_sum(&n.s[1]);
+  int rest = at.kind->nnode - 1;
+  n.g[0] = minus_sum(rest, &n.g[1]), n.p[0] = minus_sum(rest, &n.p[1]);
+  n.s[0] = minus_sum(rest, &n.s[1]);
   return n;
 }
 
-COROT_INLINE void store_slopes(tet_lanes block, const node_vectors *n, block_vd slope[4][3]) {
-  for (int a = 0; a < 4; a++)
-    for (int c = 0; c < 3; c++) vd_put(&slope[a][c], block.part, volume_of(block) * n->p[a].v[c]);
+COROT_INLINE void store_slopes(point_lanes at, const node_vectors *n, block_vd (*slope)[3]) {
+  slope += (at.block * at.kind->npoint + at.q) * at.kind->nnode;
+  for (int a = 0; a < at.kind->nnode; a++)
+    for (int c = 0; c < 3; c++) vd_put(&slope[a][c], at.part, weight_of(at) * n->p[a].v[c]);
 }
 
 /* A body moved as a whole feels no force: a diagonal block is minus the sum of the others of its
@@ -112,39 +121,42 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const solid *body, solid_
                               nodal_field u, corot_tangent tangent, int chunk, double (*K)[9],
                               double (*D)[9]) {
   bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
-    const int(*place)[W] = (const int(*)[W])body->pattern.place[b / PARTS];
-    int at = b % PARTS * LANES; /* its first lane in the block */
-    element e = element_at(s, body, &state->frames, u, b);
-    if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
+    EACH_POINT (body, q) {
+      int npair = kind_of(body)->npair, lane = b % PARTS * LANES; /* the first in the block */
+      const int(*place)[W] = (const int(*)[W])body->pattern.place + b / PARTS * npair;
+      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+      if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
-    vd lambda = volume_of(e.block) * e.mat->lambda, mu = volume_of(e.block) * e.mat->mu;
-    vd dlambda = volume_of(e.block) * e.mat->damping_lambda,
-       dmu = volume_of(e.block) * e.mat->damping_mu;
-    bool averaged = body->dilatation.npool;
-    vd theta = averaged ? vd_at(state->dilatation, b) : dilatation_of(s->pressure, e.F, e.R);
-    vd local = volume_of(e.block) * e.mat->lambda_local;
-    tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e.F, e.R);
-    node_vectors n = node_vectors_of(e.block, &t);
-    if (averaged) store_slopes(e.block, &n, state->slope[b / PARTS]);
-    bool objective = D && body->objective && s->frame == FRAME_POLAR;
-    node_rates rates;
-    if (objective) rates = node_rates_of(e.block, e.F, e.R);
-    for (int k = 0; k < NPAIR; k++) {
-      int a = pair_row[k], c = pair_col[k];
-      vd gg = vec3_dot(n.g[a], n.g[c]);
-      mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
-      if (s->pressure == BY_GRADIENT)
-        A = mat3_add_identity(A, vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
-      if (turning) A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
-      if (K) scatter(K, place[k] + at, A);
-      if (objective)
-        scatter(D, place[k] + at, objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
-      else if (D)
-        scatter(D, place[k] + at,
-                constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]));
+      vd lambda = weight_of(e.at) * e.mat->lambda, mu = weight_of(e.at) * e.mat->mu;
+      vd dlambda = weight_of(e.at) * e.mat->damping_lambda,
+         dmu = weight_of(e.at) * e.mat->damping_mu;
+      bool averaged = body->dilatation.npool;
+      vd theta = averaged ? vd_at(state->dilatation, index_of(e.at))
+                          : dilatation_of(s->pressure, e.F, e.R);
+      vd local = weight_of(e.at) * e.mat->lambda_local;
+      tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e.F, e.R);
+      node_vectors n = node_vectors_of(e.at, &t);
+      if (averaged) store_slopes(e.at, &n, state->slope);
+      bool objective = D && body->objective && s->frame == FRAME_POLAR;
+      node_rates rates;
+      if (objective) rates = node_rates_of(e.at, e.F, e.R);
+      for (int k = 0; k < npair; k++) {
+        int a = pair_row[k], c = pair_col[k];
+        vd gg = vec3_dot(n.g[a], n.g[c]);
+        mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
+        if (s->pressure == BY_GRADIENT)
+          A = mat3_add_identity(A, vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
+        if (turning) A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
+        if (K) scatter(K, place[k] + lane, A);
+        if (objective)
+          scatter(D, place[k] + lane,
+                  objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
+        else if (D)
+          scatter(D, place[k] + lane,
+                  constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]));
+      }
     }
-  }
   const pattern *p = &body->pattern;
   if (K) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], K);
   if (D) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], D);
@@ -162,34 +174,36 @@ int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,
 COROT_INLINE int derivative_loop(const strain_measure *s, const solid *body, solid_state *state,
                                  nodal_field u, nodal_field v, nodal_field du, nodal_field dv,
                                  bool exact, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
-    element e = element_at(s, body, &state->frames, u, b);
-    if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
+    EACH_POINT (body, q) {
+      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+      if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
-    mat3 dF = gradient(e.block, du);
-    mat3 dR = mat3_scale(vd_all(0), e.R);
-    if (exact && s->frame != FRAME_IDENTITY) {
-      mat3 room;
-      const mat3 *Q0 = rest_basis_of(s->frame, body, b, &room);
-      dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
+      mat3 dF = gradient(e.at, du);
+      mat3 dR = mat3_scale(vd_all(0), e.R);
+      if (exact && s->frame != FRAME_IDENTITY) {
+        mat3 room;
+        const mat3 *Q0 = rest_basis_of(s->frame, e.at, &room);
+        dR = frame_derivative(s->frame, e.F, Q0, e.R, dF);
+      }
+      vd minus = -weight_of(e.at);
+      bool averaged = body->dilatation.npool;
+      vd theta = averaged ? vd_at(state->dilatation, index_of(e.at))
+                          : dilatation_of(s->pressure, e.F, e.R);
+      vd change = averaged ? vd_at(state->dilatation_change, index_of(e.at))
+                           : dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
+      vd elastic = minus * e.mat->lambda, shear = minus * e.mat->mu;
+      mat3 dA = stress_derivative(s, elastic * theta, elastic * change, shear, e.F, e.R, dF, dR);
+      if (v) {
+        mat3 V = gradient(e.at, v);
+        mat3 dV = gradient(e.at, dv);
+        vd lambda = minus * e.mat->damping_lambda, mu = minus * e.mat->damping_mu;
+        dA = mat3_add(dA, body->objective && s->frame == FRAME_POLAR
+                              ? stress_objective_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV)
+                              : stress_viscous_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV));
+      }
+      store_forces(body, state, e.at, dA);
     }
-    vd minus = -volume_of(e.block);
-    bool averaged = body->dilatation.npool;
-    vd theta = averaged ? vd_at(state->dilatation, b) : dilatation_of(s->pressure, e.F, e.R);
-    vd change = averaged ? vd_at(state->dilatation_change, b)
-                         : dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
-    vd elastic = minus * e.mat->lambda, shear = minus * e.mat->mu;
-    mat3 dA = stress_derivative(s, elastic * theta, elastic * change, shear, e.F, e.R, dF, dR);
-    if (v) {
-      mat3 V = gradient(e.block, v);
-      mat3 dV = gradient(e.block, dv);
-      vd lambda = minus * e.mat->damping_lambda, mu = minus * e.mat->damping_mu;
-      dA = mat3_add(dA, body->objective && s->frame == FRAME_POLAR
-                            ? stress_objective_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV)
-                            : stress_viscous_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV));
-    }
-    store_forces(body, state, b, dA);
-  }
   return -1;
 }
 

@@ -4,25 +4,26 @@
 #include <limits.h>
 #include <stdlib.h>
 
-enum { BLOCK_SLOTS = 4 * 3 * W }; /* element forces of a block */
+/* Element forces of a block. */
+static int block_slots(const element_set *t) { return t->kind->nnode * 3 * W; }
 
 /* Each node's slots in a force buffer of all blocks: count, then fill in the order of the tets. */
-static corot_status list_slots(int nnode, const tets *t, pattern *p) {
+static corot_status list_slots(int nnode, const element_set *t, pattern *p) {
   size_t nslot = 0;
-  for (int b = 0; b < t->nblock; b++) nslot += 4 * (size_t)t->block[b].ntet;
+  for (int b = 0; b < t->nblock; b++) nslot += (size_t)t->kind->nnode * t->block[b].n;
   p->first = calloc(nnode + 2, sizeof *p->first);
   p->slot = malloc(nslot * sizeof *p->slot);
   if (!p->first || !p->slot) return corot_fail(COROT_ENOMEM, "no memory for the node lists");
 
   int *next = p->first + 1; /* shifted by one while filling, in place after */
   for (int b = 0; b < t->nblock; b++)
-    for (int a = 0; a < 4; a++)
-      for (int l = 0; l < t->block[b].ntet; l++) next[t->block[b].node[a][l] + 1]++;
+    for (int a = 0; a < t->kind->nnode; a++)
+      for (int l = 0; l < t->block[b].n; l++) next[nodes_at(t, b, a)[l] + 1]++;
   for (int n = 0; n < nnode; n++) next[n + 1] += next[n];
   for (int b = 0; b < t->nblock; b++)
-    for (int a = 0; a < 4; a++)
-      for (int l = 0; l < t->block[b].ntet; l++)
-        p->slot[next[t->block[b].node[a][l]]++] = b * BLOCK_SLOTS + a * 3 * W + l;
+    for (int a = 0; a < t->kind->nnode; a++)
+      for (int l = 0; l < t->block[b].n; l++)
+        p->slot[next[nodes_at(t, b, a)[l]]++] = b * block_slots(t) + a * 3 * W + l;
   return COROT_OK;
 }
 
@@ -44,15 +45,15 @@ static void add_row(column *c, int i) {
 
 /* The nodes >= j that share a tet, an average, or a block of `more` with node j, ascending: into
    `list`; returns their number. */
-static int column_rows(const tets *t, const dilatation *d, const pattern *more, const pattern *p,
-                       int j, int *mark, int *list) {
+static int column_rows(const element_set *t, const dilatation *d, const pattern *more,
+                       const pattern *p, int j, int *mark, int *list) {
   column c = {.j = j, .row = list, .mark = mark};
   for (int k = p->first[j]; k < p->first[j + 1]; k++) {
-    int slot = p->slot[k], lane = slot % W, b = slot / BLOCK_SLOTS;
-    for (int a = 0; a < 4; a++) {
-      add_row(&c, t->block[b].node[a][lane]);
+    int slot = p->slot[k], lane = slot % W, b = slot / block_slots(t);
+    for (int a = 0; a < t->kind->nnode; a++) {
+      add_row(&c, nodes_at(t, b, a)[lane]);
       if (!d->npool) continue;
-      int pool = d->pool[b][a][lane];
+      int pool = d->pool[b * t->kind->nnode + a][lane];
       for (int r = d->ring_first[pool]; r < d->ring_first[pool + 1]; r++) add_row(&c, d->ring[r]);
     }
   }
@@ -61,8 +62,8 @@ static int column_rows(const tets *t, const dilatation *d, const pattern *more, 
   return c.n;
 }
 
-static corot_status list_blocks(int nnode, const tets *t, const dilatation *d, const pattern *more,
-                                pattern *p) {
+static corot_status list_blocks(int nnode, const element_set *t, const dilatation *d,
+                                const pattern *more, pattern *p) {
   int *mark = malloc(nnode * sizeof *mark), *list = malloc(nnode * sizeof *list);
   p->colptr = malloc((nnode + 1) * sizeof *p->colptr);
   if (!mark || !list || !p->colptr) goto no_memory;
@@ -105,25 +106,24 @@ int corot_pattern_find(const pattern *p, int i, int j) {
   return low;
 }
 
-static corot_status place_tets(const tets *t, pattern *p) {
-  p->place = malloc(t->nblock * sizeof *p->place);
+static corot_status place_tets(const element_set *t, pattern *p) {
+  int npair = t->kind->npair;
+  p->place = malloc((size_t)t->nblock * npair * sizeof *p->place);
   if (!p->place) return corot_fail(COROT_ENOMEM, "no memory for the matrix places");
   for (int b = 0; b < t->nblock; b++)
-    for (int k = 0; k < NPAIR; k++)
-      for (int l = 0; l < W; l++) {
-        const tet_block *block = &t->block[b];
-        p->place[b][k][l] =
-            corot_pattern_find(p, block->node[pair_row[k]][l], block->node[pair_col[k]][l]);
-      }
+    for (int k = 0; k < npair; k++)
+      for (int l = 0; l < W; l++)
+        p->place[b * npair + k][l] =
+            corot_pattern_find(p, nodes_at(t, b, pair_row[k])[l], nodes_at(t, b, pair_col[k])[l]);
   return COROT_OK;
 }
 
-static int chunk_end(const tets *t, int chunk) {
+static int chunk_end(const element_set *t, int chunk) {
   return chunk < t->nblock / CHUNK ? (chunk + 1) * CHUNK : t->nblock;
 }
 
 /* A node is ready when all nodes up to it are below the lowest node of every later tet. */
-static corot_status plan_chunks(int nnode, const tets *t, pattern *p) {
+static corot_status plan_chunks(int nnode, const element_set *t, pattern *p) {
   p->nchunk = (t->nblock + CHUNK - 1) / CHUNK;
   p->ready = malloc((p->nchunk + 1) * sizeof *p->ready);
   if (!p->ready) return corot_fail(COROT_ENOMEM, "no memory for %d chunks", p->nchunk);
@@ -132,23 +132,23 @@ static corot_status plan_chunks(int nnode, const tets *t, pattern *p) {
     p->ready[c] = p->ready[c + 1];
     for (int b = c * CHUNK; b < chunk_end(t, c); b++)
       for (int l = 0; l < W; l++)
-        if (t->block[b].node[0][l] < p->ready[c]) p->ready[c] = t->block[b].node[0][l];
+        if (nodes_at(t, b, 0)[l] < p->ready[c]) p->ready[c] = nodes_at(t, b, 0)[l];
   }
   for (int c = 0; c < p->nchunk; c++)
     for (int n = p->ready[c]; n < p->ready[c + 1]; n++) {
-      int back = chunk_end(t, c) - p->slot[p->first[n]] / BLOCK_SLOTS;
+      int back = chunk_end(t, c) - p->slot[p->first[n]] / block_slots(t);
       if (back > p->window) p->window = back;
     }
   return COROT_OK;
 }
 
 /* The buffer is used again and again: no more than a window of it is needed at a time. */
-static void wrap_slots(int nnode, pattern *p) {
-  int size = p->window * BLOCK_SLOTS;
+static void wrap_slots(int nnode, const element_set *t, pattern *p) {
+  int size = p->window * block_slots(t);
   for (int k = 0; k < p->first[nnode]; k++) p->slot[k] %= size;
 }
 
-corot_status corot_pattern_create(int nnode, const tets *t, const dilatation *d,
+corot_status corot_pattern_create(int nnode, const element_set *t, const dilatation *d,
                                   const pattern *more, pattern *out) {
   pattern p = {.nnode = nnode};
   corot_status status = list_slots(nnode, t, &p);
@@ -159,7 +159,7 @@ corot_status corot_pattern_create(int nnode, const tets *t, const dilatation *d,
     corot_pattern_clear(&p);
     return status;
   }
-  wrap_slots(nnode, &p);
+  wrap_slots(nnode, t, &p);
   *out = p;
   return COROT_OK;
 }

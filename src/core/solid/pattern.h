@@ -5,11 +5,6 @@
 
 #include "dilatation.h"
 
-/* Pairs (a, b), a > b, of local nodes: the edges of a tet. */
-enum { NPAIR = 6 };
-static const int pair_row[NPAIR] = {1, 2, 3, 2, 3, 3};
-static const int pair_col[NPAIR] = {0, 0, 0, 1, 1, 2};
-
 /* The kernels work through the blocks of tets in chunks of so many. When a chunk is done, the nodes
    that have no tet in later ones are summed up while what they need is in the cache. */
 enum { CHUNK = 32 };
@@ -19,21 +14,22 @@ enum { CHUNK = 32 };
 typedef struct pattern {
   int nnode;
   int nblock;
-  int *colptr;            /* [nnode + 1] */
-  int *row;               /* [nblock] */
-  int (*place)[NPAIR][W]; /* [tets.nblock] the block each pair of each tet is added to */
+  int *colptr;     /* [nnode + 1] */
+  int *row;        /* [nblock] */
+  int (*place)[W]; /* [elements.nblock][kind->npair] the block that each pair of nodes of each
+                      element is added to */
   int nchunk;
   int *ready; /* [nchunk + 1] chunk c completes the nodes ready[c] to ready[c + 1] - 1 */
   int window; /* so many blocks back reach the tets of the nodes that a chunk completes */
   int *first; /* [nnode + 1] each node's part of `slot` */
-  int *slot;  /* [4 ntet] element forces of a node, in the order of the tets: where the x component
-                 stands in the buffer [window][4][3][W], which block b uses at b modulo window;
-                 y and z W further */
+  int *slot; /* [kind->nnode ntet] element forces of a node, in the order of the elements: where the
+                x component stands in the buffer [window][kind->nnode][3][W], which block b uses at
+                b modulo window; y and z W further */
 } pattern;
 
 /* Nodes that share a tet, or an average of the dilatation; and the pairs of `more` (or NULL), a
    pattern of the nodes below more->nnode. */
-corot_status corot_pattern_create(int nnode, const tets *t, const dilatation *d,
+corot_status corot_pattern_create(int nnode, const element_set *t, const dilatation *d,
                                   const pattern *more, pattern *out);
 void corot_pattern_clear(pattern *p);
 

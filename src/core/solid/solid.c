@@ -14,7 +14,8 @@ static corot_status average(solid *body, int nmaterial) {
   }
   corot_status status = COROT_OK;
   if (any)
-    status = corot_dilatation_create(body->mesh->nnode, &body->tets, averaged, &body->dilatation);
+    status =
+        corot_dilatation_create(body->mesh->nnode, &body->elements, averaged, &body->dilatation);
   free(averaged);
   return status;
 }
@@ -22,36 +23,41 @@ static corot_status average(solid *body, int nmaterial) {
 corot_status corot_solid_fill(solid *body, int nmaterial, const int *of_tet, int together,
                               double volume, const pattern *more) {
   bool warp = strain_measures[body->strain].frame == FRAME_WARP;
-  COROT_TRY(corot_tets_create(body->mesh, nmaterial, of_tet, together, warp, &body->tets));
-  for (int k = 0; volume != 1 && k < body->tets.nblock; k++) body->tets.block[k].volume *= volume;
+  COROT_TRY(corot_tets_create(body->mesh, nmaterial, of_tet, together, warp, &body->elements));
+  for (int k = 0; volume != 1 && k < points_of(&body->elements); k++)
+    body->elements.weight[k] *= volume;
   COROT_TRY(average(body, nmaterial));
-  return corot_pattern_create(body->mesh->nnode, &body->tets, &body->dilatation, more,
+  return corot_pattern_create(body->mesh->nnode, &body->elements, &body->dilatation, more,
                               &body->pattern);
 }
 
 void corot_solid_clear(solid *body) {
-  corot_tets_clear(&body->tets);
+  corot_tets_clear(&body->elements);
   corot_dilatation_clear(&body->dilatation);
   corot_pattern_clear(&body->pattern);
 }
 
 size_t corot_solid_bytes(const solid *body) {
-  const tets *t = &body->tets;
+  const element_set *t = &body->elements;
   const pattern *p = &body->pattern;
-  size_t bytes = t->nblock * (sizeof *t->block + W * sizeof *t->number);
+  size_t bytes =
+      t->nblock * (sizeof *t->block + W * sizeof *t->number) +
+      (size_t)t->nblock * t->kind->nnode * sizeof *t->node +
+      (size_t)points_of(t) * (sizeof *t->weight + (t->kind->nnode - 1) * sizeof *t->slope);
   bytes += corot_dilatation_bytes(&body->dilatation, t);
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
   return bytes +
          (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) * sizeof(int) +
-         t->nblock * sizeof *p->place;
+         (size_t)t->nblock * t->kind->npair * sizeof *p->place;
 }
 
 static corot_status allocate_averages(const solid *body, solid_state *s) {
-  int nnode = body->mesh->nnode, nblock = body->tets.nblock, npool = body->dilatation.npool;
+  int nnode = body->mesh->nnode, npoint = points_of(&body->elements);
+  int npool = body->dilatation.npool;
   if (!npool) return COROT_OK;
-  s->dilatation = corot_vector_calloc(nblock, sizeof *s->dilatation);
-  s->dilatation_change = corot_vector_calloc(nblock, sizeof *s->dilatation_change);
-  s->slope = corot_vector_calloc(nblock, sizeof *s->slope);
+  s->dilatation = corot_vector_calloc(npoint, sizeof *s->dilatation);
+  s->dilatation_change = corot_vector_calloc(npoint, sizeof *s->dilatation_change);
+  s->slope = corot_vector_calloc((size_t)npoint * body->elements.kind->nnode, sizeof *s->slope);
   s->pool = malloc(npool * sizeof *s->pool);
   s->gathered = calloc(nnode, sizeof *s->gathered);
   if (!s->dilatation || !s->dilatation_change || !s->slope || !s->pool || !s->gathered)
@@ -60,16 +66,16 @@ static corot_status allocate_averages(const solid *body, solid_state *s) {
 }
 
 corot_status corot_solid_state_fill(const solid *body, solid_state *s) {
-  int nblock = body->tets.nblock;
+  int npoint = points_of(&body->elements), nnode = body->elements.kind->nnode;
   s->inverted = -1;
-  s->R = corot_vector_calloc(nblock, sizeof *s->R);
-  s->new_R = corot_vector_calloc(nblock, sizeof *s->new_R);
-  s->now_R = corot_vector_calloc(nblock, sizeof *s->now_R);
-  s->spin = corot_vector_calloc(nblock, sizeof *s->spin);
-  s->force = corot_vector_calloc(body->pattern.window, sizeof *s->force);
+  s->R = corot_vector_calloc(npoint, sizeof *s->R);
+  s->new_R = corot_vector_calloc(npoint, sizeof *s->new_R);
+  s->now_R = corot_vector_calloc(npoint, sizeof *s->now_R);
+  s->spin = corot_vector_calloc(npoint, sizeof *s->spin);
+  s->force = corot_vector_calloc((size_t)body->pattern.window * nnode, sizeof *s->force);
   if (!s->R || !s->new_R || !s->now_R || !s->spin || !s->force)
     return corot_fail(COROT_ENOMEM, "no memory for a state of %d nodes", body->mesh->nnode);
-  for (int k = 0; k < nblock; k++) s->R[k] = mat3_identity();
+  for (int k = 0; k < npoint; k++) s->R[k] = mat3_identity();
   s->frames = (frame_source){COROT_FRAMES_EXACT, s->R, s->spin, 0};
   return allocate_averages(body, s);
 }
@@ -88,11 +94,12 @@ void corot_solid_state_clear(solid_state *s) {
 }
 
 size_t corot_solid_state_bytes(const solid *body, const solid_state *s) {
-  size_t nblock = (size_t)body->tets.nblock, npool = (size_t)body->dilatation.npool;
-  size_t bytes =
-      nblock * (3 * sizeof *s->R + sizeof *s->spin) + body->pattern.window * sizeof *s->force;
+  size_t npoint = (size_t)points_of(&body->elements), npool = (size_t)body->dilatation.npool;
+  size_t nnode = (size_t)body->elements.kind->nnode;
+  size_t bytes = npoint * (3 * sizeof *s->R + sizeof *s->spin) +
+                 body->pattern.window * nnode * sizeof *s->force;
   if (npool)
-    bytes += nblock * (2 * sizeof *s->dilatation + sizeof *s->slope) + npool * sizeof *s->pool +
-             body->mesh->nnode * sizeof *s->gathered;
+    bytes += npoint * (2 * sizeof *s->dilatation + nnode * sizeof *s->slope) +
+             npool * sizeof *s->pool + body->mesh->nnode * sizeof *s->gathered;
   return bytes;
 }

@@ -26,36 +26,38 @@ typedef struct solid {
   int strain;               /* index into strain_measures */
   bool damped;              /* some viscous coefficient is not zero */
   bool objective;           /* viscous law on the stretch's own rate */
-  tets tets;
+  element_set elements;
   dilatation dilatation; /* averages, where some material has them */
   pattern pattern;
 } solid;
 
-/* Where the frames of an evaluation come from: from F, by the measure's own rule; or they are
-   given, as those that are held, or handed down by another body; or given and turned on since then.
+/* Arrays [points] have an entry for each point of each block, [elements.nblock][kind->npoint]:
+   frames are found at each. Where the frames of an evaluation come from: from F, by the measure's
+   own rule; or they are given, as those that are held, or handed down by another body; or given and
+   turned on since then.
  */
 typedef struct frame_source {
   corot_frames kind;      /* EXACT: own; HELD: given; EXTRAPOLATED: turned on */
-  const block_mat3 *R;    /* [tets.nblock] */
-  const block_vec3 *spin; /* [tets.nblock] [rad/s] */
+  const block_mat3 *R;    /* [points] */
+  const block_vec3 *spin; /* [points] [rad/s] */
   double age;             /* for so long [s] */
 } frame_source;
 
 /* What the evaluations of one run write to, and the frames that are held between them. */
 typedef struct solid_state {
-  frame_source frames;  /* of the evaluations */
-  int inverted;         /* tet number in the mesh, or -1 */
-  block_mat3 *R;        /* [tets.nblock] the held frames */
-  block_vec3 *spin;     /* [tets.nblock] their angular velocity [rad/s] */
-  block_mat3 *now_R;    /* [tets.nblock] those in use, to compare with or to hand down */
-  block_mat3 *new_R;    /* [tets.nblock] those of an update, until it is known to succeed */
-  block_vd *dilatation; /* [tets.nblock] means in place of tr(e_p); NULL, as the next, where there
-                     are none: see dilatation.h */
-  block_vd *dilatation_change; /* [tets.nblock] the same of a derivative */
+  frame_source frames;         /* of the evaluations */
+  int inverted;                /* tet number in the mesh, or -1 */
+  block_mat3 *R;               /* [points] the held frames */
+  block_vec3 *spin;            /* [points] their angular velocity [rad/s] */
+  block_mat3 *now_R;           /* [points] those in use, to compare with or to hand down */
+  block_mat3 *new_R;           /* [points] those of an update, until it is known to succeed */
+  block_vd *dilatation;        /* [points] means in place of tr(e_p); NULL, as the next, where there
+                            are none: see dilatation.h */
+  block_vd *dilatation_change; /* [points] the same of a derivative */
   double *pool;                /* [dilatation.npool] */
-  block_vd (*slope)[4][3];     /* [tets.nblock][local node] V times d tr(e_p) / du */
+  block_vd (*slope)[3];        /* [points][kind->nnode] weight times d tr(e_p) / du */
   double (*gathered)[3];       /* [nnode] zero between uses */
-  block_vd (*force)[4][3];     /* [window][local node][component] element forces, see pattern.h */
+  block_vd (*force)[3];        /* [window][kind->nnode] element forces, see pattern.h */
 } solid_state;
 
 /* Where the forces on nodes are added up. */
@@ -111,14 +113,14 @@ corot_status corot_solid_energy(const solid *body, solid_state *s, nodal_field u
 corot_status corot_solid_internal(const solid *body, solid_state *s, nodal_field u, int strain,
                                   double lambda_part, double mu_part, force_sum *sum);
 
-/* R [tets.nblock] = the frames of u by the measure's rule. */
+/* R [points] = the frames of u by the measure's rule. */
 corot_status corot_solid_frames(const solid *body, solid_state *s, nodal_field u, block_mat3 *R);
 
 /* s->spin = the angular velocity of these, for v; *spin_max = the largest of it [rad/s]. */
 corot_status corot_solid_spin(const solid *body, solid_state *s, nodal_field u, nodal_field v,
                               double *spin_max);
 
-/* R [tets.nblock] = the frames in use. */
+/* R [points] = the frames in use. */
 corot_status corot_solid_frames_in_use(const solid *body, solid_state *s, nodal_field u,
                                        block_mat3 *R);
 

@@ -9,7 +9,7 @@ corot_status corot_solid_frames_in_use(const solid *body, solid_state *s, nodal_
                                        block_mat3 *R) {
   const frame_source *f = &s->frames;
   if (f->kind == COROT_FRAMES_EXACT) return corot_solid_frames(body, s, u, R);
-  for (int k = 0; k < body->tets.nblock; k++)
+  for (int k = 0; k < points_of(&body->elements); k++)
     R[k] = f->kind == COROT_FRAMES_EXTRAPOLATED ? rotate_by(f->spin[k], f->age, f->R[k]) : f->R[k];
   return COROT_OK;
 }
@@ -18,7 +18,7 @@ corot_status corot_solid_spin(const solid *body, solid_state *s, nodal_field u, 
                               double *spin_max) {
   double square = 0;
   COROT_TRY(corot_solid_check(s, corot_kernel_spin(body, u, v, s->spin)));
-  for (int k = 0; k < body->tets.nblock; k++) {
+  for (int k = 0; k < points_of(&body->elements); k++) {
     vd w2 = vec3_dot(s->spin[k], s->spin[k]);
     for (int l = 0; l < W; l++) square = fmax(square, w2[l]);
   }
@@ -29,9 +29,10 @@ corot_status corot_solid_spin(const solid *body, solid_state *s, nodal_field u, 
 /* |A - B| = sqrt(8) sin of half the angle, which keeps its digits where the angle is small. */
 void corot_solid_compare_frames(const solid *body, const block_mat3 *A, const block_mat3 *B,
                                 corot_frames_change *change) {
+  int npoint = body->elements.kind->npoint;
   double sum = 0;
-  for (int k = 0; k < body->tets.nblock; k++)
-    for (int l = 0; l < body->tets.block[k].ntet; l++) {
+  for (int k = 0; k < points_of(&body->elements); k++)
+    for (int l = 0; l < body->elements.block[k / npoint].n; l++) {
       double square = 0;
       EACH_IJ {
         double d = A[k].m[i][j][l] - B[k].m[i][j][l];
@@ -41,8 +42,8 @@ void corot_solid_compare_frames(const solid *body, const block_mat3 *A, const bl
       sum += angle;
       if (angle > change->angle_max) {
         change->angle_max = angle;
-        change->angle_tet = body->tets.number[k * W + l];
+        change->angle_tet = body->elements.number[k / npoint * W + l];
       }
     }
-  change->angle_mean = sum / body->mesh->ntet;
+  change->angle_mean = sum / ((double)body->mesh->ntet * npoint);
 }

@@ -79,9 +79,9 @@ static corot_status hand_down(const solid_system *y, system_state *s, const term
 /* The loops over tets in handed down frames add to them. */
 static void clear_moments(const solid_system *y, system_state *s) {
   if (y->leader < 0) return;
-  size_t nblock = y->term[y->leader].body.tets.nblock;
-  memset(s->lead.moment, 0, nblock * sizeof *s->lead.moment);
-  memset(s->lead.dmoment, 0, nblock * sizeof *s->lead.dmoment);
+  size_t npoint = points_of(&y->term[y->leader].body.elements);
+  memset(s->lead.moment, 0, npoint * sizeof *s->lead.moment);
+  memset(s->lead.dmoment, 0, npoint * sizeof *s->lead.dmoment);
 }
 
 /* Frames that are held do not turn with u. */
@@ -214,7 +214,7 @@ static void change_frames(const solid_system *y, system_state *s, const term_fie
   if (follow)
     corot_kernel_frames_change(leader, s->of[y->leader].now_R, f.u, f.du, s->lead.dR);
   else
-    memset(s->lead.dR, 0, leader->tets.nblock * sizeof *s->lead.dR);
+    memset(s->lead.dR, 0, points_of(&leader->elements) * sizeof *s->lead.dR);
 }
 
 corot_status corot_system_derivative(const solid_system *y, system_state *s, double age,

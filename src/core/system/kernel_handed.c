@@ -2,25 +2,26 @@
    viscous stress are added in the frame, where the moments take the elastic one. */
 #include "kernel_handed.h"
 
-/* Of matrices of the leader's tets, that over part b. */
-COROT_INLINE mat3 above_block(const int *above, const block_mat3 *of_leader, int b) {
-  if (!above) return mat3_at(of_leader, b);
-  int tet = above[b / PARTS];
+/* Of matrices of the leader's tets, which have one point, that over a point. */
+COROT_INLINE mat3 above_point(const int *above, const block_mat3 *of_leader, point_lanes at) {
+  if (!above) return mat3_at(of_leader, index_of(at));
+  int tet = above[at.block];
   const block_mat3 *A = &of_leader[tet / W];
   mat3 B;
   EACH_IJ B.m[i][j] = vd_all(A->m[i][j][tet % W]);
   return B;
 }
 
-/* Adds a vector of each tet of part b to that of the leader's tet over it. */
-COROT_INLINE void add_up(const int *above, vec3 a, int b, block_vec3 *of_leader) {
+/* Adds a vector of each lane's point to that of the leader's tet over it. */
+COROT_INLINE void add_up(const int *above, vec3 a, point_lanes at, block_vec3 *of_leader) {
   if (!above) {
-    vec3_put(of_leader, b, a);
+    vec3_put(of_leader, index_of(at), a);
     return;
   }
-  double(*sum)[W] = (double(*)[W])of_leader[above[b / PARTS] / W].v;
+  int tet = above[at.block];
+  double(*sum)[W] = (double(*)[W])of_leader[tet / W].v;
   for (int c = 0; c < 3; c++)
-    for (int k = 0; k < LANES; k++) sum[c][above[b / PARTS] % W] += a.v[c][k];
+    for (int k = 0; k < LANES; k++) sum[c][tet % W] += a.v[c][k];
 }
 
 /* Coefficients times a tet's volume. */
@@ -28,9 +29,9 @@ typedef struct coefficients {
   vd lambda, mu, damping_lambda, damping_mu;
 } coefficients;
 
-COROT_INLINE coefficients coefficients_of(const solid *body, tet_lanes block) {
-  const material *mat = &body->material[block.in->material];
-  vd V = volume_of(block);
+COROT_INLINE coefficients coefficients_of(const solid *body, point_lanes at) {
+  const material *mat = &body->material[material_of(at)];
+  vd V = weight_of(at);
   return (coefficients){V * mat->lambda, V * mat->mu, V * mat->damping_lambda, V * mat->damping_mu};
 }
 
@@ -42,24 +43,25 @@ COROT_INLINE vi inverted_in(const solid *body, mat3 F) {
 
 COROT_INLINE int handed_force_loop(const solid *body, solid_state *state, const from_leader *lead,
                                    nodal_field u, nodal_field v, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
-    tet_lanes block = tets_at(&body->tets, b);
-    coefficients k = coefficients_of(body, block);
-    mat3 F = deformation(block, u);
-    mat3 R = above_block(lead->above, lead->R, b);
-    vi inverted = inverted_in(body, F);
-    if (vi_any(inverted)) return first_inverted(body, b, inverted);
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      coefficients k = coefficients_of(body, at);
+      mat3 F = deformation(at, u);
+      mat3 R = above_point(lead->above, lead->R, at);
+      vi inverted = inverted_in(body, F);
+      if (vi_any(inverted)) return first_inverted(body, b, inverted);
 
-    mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
-    mat3 sigma = hooke(k.lambda, k.mu, e);
-    add_up(lead->above, mat3_vee(mat3_mul(mat3_tmul(R, F), sigma)), b, lead->moment);
-    if (v) {
-      mat3 V = gradient(block, v);
-      mat3 rate = mat3_sym_tmul(R, V);
-      sigma = mat3_add(sigma, hooke(k.damping_lambda, k.damping_mu, rate));
+      mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
+      mat3 sigma = hooke(k.lambda, k.mu, e);
+      add_up(lead->above, mat3_vee(mat3_mul(mat3_tmul(R, F), sigma)), at, lead->moment);
+      if (v) {
+        mat3 V = gradient(at, v);
+        mat3 rate = mat3_sym_tmul(R, V);
+        sigma = mat3_add(sigma, hooke(k.damping_lambda, k.damping_mu, rate));
+      }
+      store_forces(body, state, at, mat3_scale(vd_all(-1), mat3_mul(R, sigma)));
     }
-    store_forces(body, state, b, mat3_scale(vd_all(-1), mat3_mul(R, sigma)));
-  }
   return -1;
 }
 
@@ -69,41 +71,45 @@ int corot_kernel_handed_force(const solid *body, solid_state *state, const from_
 }
 
 void corot_kernel_hand_down(const solid *body, const from_leader *lead, block_mat3 *R) {
-  for (int b = 0; b < body->tets.nblock * PARTS; b++)
-    mat3_put(R, b, above_block(lead->above, lead->R, b));
+  for (int b = 0; b < body->elements.nblock * PARTS; b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      mat3_put(R, index_of(at), above_point(lead->above, lead->R, at));
+    }
 }
 
 /* dR is zero where the frames do not follow. */
 COROT_INLINE int handed_derivative_loop(const solid *body, solid_state *state,
                                         const from_leader *lead, nodal_field u, nodal_field v,
                                         nodal_field du, nodal_field dv, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
-    tet_lanes block = tets_at(&body->tets, b);
-    coefficients k = coefficients_of(body, block);
-    mat3 F = deformation(block, u);
-    mat3 R = above_block(lead->above, lead->R, b), dR = above_block(lead->above, lead->dR, b);
-    mat3 dF = gradient(block, du);
-    vi inverted = inverted_in(body, F);
-    if (vi_any(inverted)) return first_inverted(body, b, inverted);
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
+    EACH_POINT (body, q) {
+      point_lanes at = point_of(body, b, q);
+      coefficients k = coefficients_of(body, at);
+      mat3 F = deformation(at, u);
+      mat3 R = above_point(lead->above, lead->R, at), dR = above_point(lead->above, lead->dR, at);
+      mat3 dF = gradient(at, du);
+      vi inverted = inverted_in(body, F);
+      if (vi_any(inverted)) return first_inverted(body, b, inverted);
 
-    mat3 de = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
-    mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
-    mat3 sigma = hooke(k.lambda, k.mu, e), dsigma = hooke(k.lambda, k.mu, de);
-    mat3 A = mat3_tmul(R, F), dA = mat3_add(mat3_tmul(dR, F), mat3_tmul(R, dF));
-    vec3 dmoment = mat3_vee(mat3_add(mat3_mul(dA, sigma), mat3_mul(A, dsigma)));
-    add_up(lead->above, mat3_vee(mat3_mul(A, sigma)), b, lead->moment);
-    add_up(lead->above, dmoment, b, lead->dmoment);
-    if (v) {
-      mat3 V = gradient(block, v);
-      mat3 dV = gradient(block, dv);
-      mat3 rate = mat3_sym_tmul(R, V);
-      mat3 drate = mat3_add(mat3_sym_tmul(dR, V), mat3_sym_tmul(R, dV));
-      sigma = mat3_add(sigma, hooke(k.damping_lambda, k.damping_mu, rate));
-      dsigma = mat3_add(dsigma, hooke(k.damping_lambda, k.damping_mu, drate));
+      mat3 de = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
+      mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
+      mat3 sigma = hooke(k.lambda, k.mu, e), dsigma = hooke(k.lambda, k.mu, de);
+      mat3 A = mat3_tmul(R, F), dA = mat3_add(mat3_tmul(dR, F), mat3_tmul(R, dF));
+      vec3 dmoment = mat3_vee(mat3_add(mat3_mul(dA, sigma), mat3_mul(A, dsigma)));
+      add_up(lead->above, mat3_vee(mat3_mul(A, sigma)), at, lead->moment);
+      add_up(lead->above, dmoment, at, lead->dmoment);
+      if (v) {
+        mat3 V = gradient(at, v);
+        mat3 dV = gradient(at, dv);
+        mat3 rate = mat3_sym_tmul(R, V);
+        mat3 drate = mat3_add(mat3_sym_tmul(dR, V), mat3_sym_tmul(R, dV));
+        sigma = mat3_add(sigma, hooke(k.damping_lambda, k.damping_mu, rate));
+        dsigma = mat3_add(dsigma, hooke(k.damping_lambda, k.damping_mu, drate));
+      }
+      mat3 dP = mat3_add(mat3_mul(dR, sigma), mat3_mul(R, dsigma));
+      store_forces(body, state, at, mat3_scale(vd_all(-1), dP));
     }
-    mat3 dP = mat3_add(mat3_mul(dR, sigma), mat3_mul(R, dsigma));
-    store_forces(body, state, b, mat3_scale(vd_all(-1), dP));
-  }
   return -1;
 }
 
@@ -116,11 +122,14 @@ int corot_kernel_handed_derivative(const solid *body, solid_state *state, const 
 /* The frame's rotation for a unit of moment: z = G^-1 moment, the stress -V P = -R [z]x. */
 COROT_INLINE int turning_force_loop(const solid *leader, solid_state *state,
                                     const from_leader *lead, nodal_field u, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++) {
-    mat3 F = deformation(tets_at(&leader->tets, b), u), R = mat3_at(lead->R, b);
-    vec3 z = mat3_apply(polar_inverse_g(mat3_sym_tmul(R, F)), vec3_at(lead->moment, b));
-    store_forces(leader, state, b, mat3_scale(vd_all(-1), mat3_mul(R, mat3_skew(z))));
-  }
+  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++)
+    EACH_POINT (leader, q) {
+      point_lanes at = point_of(leader, b, q);
+      mat3 F = deformation(at, u), R = mat3_at(lead->R, index_of(at));
+      vec3 z =
+          mat3_apply(polar_inverse_g(mat3_sym_tmul(R, F)), vec3_at(lead->moment, index_of(at)));
+      store_forces(leader, state, at, mat3_scale(vd_all(-1), mat3_mul(R, mat3_skew(z))));
+    }
   return -1;
 }
 
@@ -133,17 +142,19 @@ int corot_kernel_turning_force(const solid *leader, solid_state *state, const fr
 COROT_INLINE int turning_derivative_loop(const solid *leader, solid_state *state,
                                          const from_leader *lead, nodal_field u, nodal_field du,
                                          int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++) {
-    tet_lanes block = tets_at(&leader->tets, b);
-    mat3 F = deformation(block, u), R = mat3_at(lead->R, b);
-    mat3 dF = gradient(block, du), dR = mat3_at(lead->dR, b);
-    mat3 dS = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
-    mat3 Ginv = polar_inverse_g(mat3_sym_tmul(R, F));
-    vec3 z = mat3_apply(Ginv, vec3_at(lead->moment, b));
-    vec3 dz = mat3_apply(Ginv, vec3_less(vec3_at(lead->dmoment, b), apply_g_change(dS, z)));
-    mat3 dP = mat3_add(mat3_mul(dR, mat3_skew(z)), mat3_mul(R, mat3_skew(dz)));
-    store_forces(leader, state, b, mat3_scale(vd_all(-1), dP));
-  }
+  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++)
+    EACH_POINT (leader, q) {
+      point_lanes at = point_of(leader, b, q);
+      mat3 F = deformation(at, u), R = mat3_at(lead->R, index_of(at));
+      mat3 dF = gradient(at, du), dR = mat3_at(lead->dR, index_of(at));
+      mat3 dS = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
+      mat3 Ginv = polar_inverse_g(mat3_sym_tmul(R, F));
+      vec3 z = mat3_apply(Ginv, vec3_at(lead->moment, index_of(at)));
+      vec3 dz =
+          mat3_apply(Ginv, vec3_less(vec3_at(lead->dmoment, index_of(at)), apply_g_change(dS, z)));
+      mat3 dP = mat3_add(mat3_mul(dR, mat3_skew(z)), mat3_mul(R, mat3_skew(dz)));
+      store_forces(leader, state, at, mat3_scale(vd_all(-1), dP));
+    }
   return -1;
 }
 
@@ -155,14 +166,15 @@ int corot_kernel_turning_derivative(const solid *leader, solid_state *state,
 
 COROT_INLINE void frames_change_loop(frame_rule rule, const solid *leader, const block_mat3 *R,
                                      nodal_field u, nodal_field du, block_mat3 *dR) {
-  for (int b = 0; b < leader->tets.nblock * PARTS; b++) {
-    tet_lanes block = tets_at(&leader->tets, b);
-    mat3 room;
-    const mat3 *Q0 = rest_basis_of(rule, leader, b, &room);
-    mat3 F = deformation(block, u);
-    mat3 dF = gradient(block, du);
-    mat3_put(dR, b, frame_derivative(rule, F, Q0, mat3_at(R, b), dF));
-  }
+  for (int b = 0; b < leader->elements.nblock * PARTS; b++)
+    EACH_POINT (leader, q) {
+      point_lanes at = point_of(leader, b, q);
+      mat3 room;
+      const mat3 *Q0 = rest_basis_of(rule, at, &room);
+      mat3 F = deformation(at, u);
+      mat3 dF = gradient(at, du);
+      mat3_put(dR, index_of(at), frame_derivative(rule, F, Q0, mat3_at(R, index_of(at)), dF));
+    }
 }
 
 void corot_kernel_frames_change(const solid *leader, const block_mat3 *R, nodal_field u,

@@ -106,7 +106,7 @@ static corot_status list_above(solid_system *y) {
   _Static_assert(W == 8, "the descendants of a tet fill whole blocks");
   term *fine = &y->term[0];
   const term *leader = &y->term[y->leader];
-  const tets *up = &leader->body.tets, *down = &fine->body.tets;
+  const element_set *up = &leader->body.elements, *down = &fine->body.elements;
   int shift = 3 * (y->nlevel - leader->level), ntet = leader->body.mesh->ntet;
   if (shift == 0) return COROT_OK;
   int *at = malloc(ntet * sizeof *at);
@@ -116,7 +116,7 @@ static corot_status list_above(solid_system *y) {
     return corot_fail(COROT_ENOMEM, "no memory for the frames of %d tets", fine->body.mesh->ntet);
   }
   for (int b = 0; b < up->nblock; b++)
-    for (int k = 0; k < up->block[b].ntet; k++) at[up->number[b * W + k]] = b * W + k;
+    for (int k = 0; k < up->block[b].n; k++) at[up->number[b * W + k]] = b * W + k;
   for (int b = 0; b < down->nblock; b++) fine->above[b] = at[down->number[b * W] >> shift];
   free(at);
   return COROT_OK;
@@ -202,7 +202,7 @@ size_t corot_system_bytes(const solid_system *y) {
   for (int k = 0; k < y->nterm; k++) {
     const term *t = &y->term[k];
     bytes += corot_solid_bytes(&t->body);
-    if (t->above) bytes += t->body.tets.nblock * sizeof *t->above;
+    if (t->above) bytes += t->body.elements.nblock * sizeof *t->above;
     if (t->place) bytes += t->body.pattern.nblock * sizeof *t->place;
   }
   for (int k = 0; k < y->nmap; k++)

@@ -35,8 +35,8 @@ typedef struct term {
   int map;         /* through which it sees the fields; -1: as they are */
   int level;       /* of the refinement that its tets are of */
   int frames_from; /* the term that hands its frames down to this one; -1: they are its own */
-  int *above;      /* [tets.nblock] the tet of that term over those of a block, as block * W + lane;
-                      NULL: its tets are these */
+  int *above; /* [elements.nblock] the tet of that term over those of a block, as block * W + lane;
+                 NULL: its tets are these */
   int *place; /* [pattern.nblock] where the blocks of its matrices are in those of the first term;
                  NULL: they are not in them */
   int from;   /* one way: the first node it has forces on; else 0 */
@@ -95,8 +95,8 @@ typedef struct map_fields {
 
 /* What turns the frames of the leader, and what it hands down in a derivative; see above. */
 typedef struct handing {
-  block_mat3 *dR;               /* [tets.nblock] change of its frames */
-  block_vec3 *moment, *dmoment; /* [tets.nblock] from all descendants [J], and their change */
+  block_mat3 *dR;               /* [elements.nblock] change of its frames */
+  block_vec3 *moment, *dmoment; /* [elements.nblock] from all descendants [J], and their change */
 } handing;
 
 typedef struct system_state {

@@ -25,7 +25,7 @@ static void give_old(const solid_system *y, system_state *s) {
     if (!has_own(y, k)) continue;
     of->frames.kind = s->frames == COROT_FRAMES_EXTRAPOLATED ? s->frames : COROT_FRAMES_HELD;
     if (s->frames != COROT_FRAMES_EXTRAPOLATED) continue;
-    for (int b = 0; b < y->term[k].body.tets.nblock; b++)
+    for (int b = 0; b < points_of(&y->term[k].body.elements); b++)
       of->now_R[b] = rotate_by(of->spin[b], of->frames.age, of->R[b]);
     of->frames = (frame_source){.kind = COROT_FRAMES_HELD, .R = of->now_R};
   }
@@ -72,7 +72,7 @@ corot_status corot_system_update_frames(const solid_system *y, system_state *s, 
     mat3 *old = of->R;
     of->R = of->new_R;
     of->new_R = old;
-    memset(of->spin, 0, y->term[k].body.tets.nblock * sizeof *of->spin);
+    memset(of->spin, 0, points_of(&y->term[k].body.elements) * sizeof *of->spin);
   }
   return COROT_OK;
 }

@@ -13,10 +13,10 @@ static corot_status allocate_fields(int n, map_fields *f) {
 }
 
 static corot_status allocate_lead(const solid *leader, handing *lead) {
-  int nblock = leader->tets.nblock;
-  lead->dR = corot_vector_calloc(nblock, sizeof *lead->dR);
-  lead->moment = corot_vector_calloc(nblock, sizeof *lead->moment);
-  lead->dmoment = corot_vector_calloc(nblock, sizeof *lead->dmoment);
+  int npoint = points_of(&leader->elements);
+  lead->dR = corot_vector_calloc(npoint, sizeof *lead->dR);
+  lead->moment = corot_vector_calloc(npoint, sizeof *lead->moment);
+  lead->dmoment = corot_vector_calloc(npoint, sizeof *lead->dmoment);
   if (lead->dR && lead->moment && lead->dmoment) return COROT_OK;
   return corot_fail(COROT_ENOMEM, "no memory for the frames of %d tets", leader->mesh->ntet);
 }
@@ -65,7 +65,7 @@ size_t corot_system_state_bytes(const solid_system *y, const system_state *s) {
   for (int k = 0; k < y->nmap; k++) bytes += 5 * (size_t)y->map[k].map.nnode * sizeof *s->nodal;
   if (y->nmap > 0) bytes += y->term[0].body.mesh->nnode * sizeof *s->nodal;
   if (y->leader >= 0)
-    bytes += y->term[y->leader].body.tets.nblock *
+    bytes += points_of(&y->term[y->leader].body.elements) *
              (sizeof *s->lead.dR + sizeof *s->lead.moment + sizeof *s->lead.dmoment);
   return bytes;
 }
