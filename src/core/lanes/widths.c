@@ -1,3 +1,4 @@
+/* Asks the processor which build of the kernels it can take. */
 #include "widths.h"
 
 #ifdef COROT_MANY_KERNELS

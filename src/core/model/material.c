@@ -89,6 +89,8 @@ corot_status corot_materials_create(const corot_model_def *def, corot_model *m, 
 
   int ntet = m->mesh->ntet, rest = -1;
   for (int e = 0; e < ntet; e++) of_tet[e] = -1;
+
+  /* each with the tets of its group; one without a group has the rest */
   for (int k = 0; k < def->nmaterial; k++) {
     const corot_material *from = &def->material[k];
     m->material[k] = (material){.lambda = from->lambda,

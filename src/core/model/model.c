@@ -80,6 +80,8 @@ size_t corot_model_bytes(const corot_model *m) {
   size_t bytes = sizeof *m + corot_mesh_bytes(m->mesh) + m->nmaterial * sizeof *m->material +
                  m->mesh->nnode * sizeof *m->dof + corot_system_bytes(&m->system);
   bytes += 2 * m->ndof * sizeof *m->mass;
+
+  /* loads and motions */
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
     bytes += sizeof *l + corot_amplitude_bytes(&l->amplitude) + l->ntri * sizeof *l->tri;
@@ -92,6 +94,8 @@ size_t corot_model_bytes(const corot_model *m) {
       bytes += sizeof *a->law + corot_amplitude_bytes(&a->law[i].amplitude);
   }
   bytes += m->nkink * sizeof *m->kink;
+
+  /* and what is there of the mass beside its diagonal */
   if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
   if (m->mass_pair) bytes += nblock * sizeof *m->mass_pair;
   if (m->damping_pair) bytes += nblock * sizeof *m->damping_pair;

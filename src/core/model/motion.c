@@ -217,6 +217,7 @@ typedef struct progress {
 static progress progress_at(const motion *a, const instant *now) {
   progress p = {0};
   double t = now->t, phase = isnan(now->side) ? t : now->side;
+  /* spans of constant rate: those that are over have left their whole way */
   for (int k = 0; k < a->nspan; k++) {
     const motion_span *s = &a->span[k];
     if (phase < s->from) continue;
@@ -229,6 +230,7 @@ static progress progress_at(const motion *a, const instant *now) {
       p.velocity[c] += moving ? s->velocity[c] : 0;
     }
   }
+  /* what follows amplitudes */
   for (int k = 0; k < a->nlaw; k++) {
     const motion_law *l = &a->law[k];
     double factor = corot_amplitude_at(&l->amplitude, phase, t);

@@ -47,6 +47,7 @@ static COROT_CLONES int elements_loop(const solid *body, const solid_state *s, n
     mat3 P = body->dilatation.npool
                  ? stress_at_pressure(measure, lambda * s->dilatation[index_of(at)], mu, F, R)
                  : stress(measure, lambda, mu, F, R);
+    /* from P to the stress on the deformed body */
     vd det = mat3_det(F, mat3_cofactor(F));
     mat3 cauchy = linear ? P : mat3_scale(1.0 / det, mat3_mul(P, mat3_transpose(F)));
     vd mises = von_mises_of(cauchy);

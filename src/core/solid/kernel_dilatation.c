@@ -6,6 +6,8 @@ static void average(const solid *body, double *pool, vd *theta) {
   const dilatation *d = &body->dilatation;
   const element_set *e = &body->elements;
   int nnode = kind_of(body)->nnode;
+
+  /* means over the pools */
   memset(pool, 0, d->npool * sizeof *pool);
   for (int b = 0; b < e->nblock; b++)
     EACH_POINT (body, q) {
@@ -15,6 +17,8 @@ static void average(const solid *body, double *pool, vd *theta) {
         for (int l = 0; l < W; l++) pool[pools_at(d, e, b, a)[l]] += part[l];
     }
   for (int p = 0; p < d->npool; p++) pool[p] /= d->volume[p];
+
+  /* and back to the points, beside each one's own share */
   for (int b = 0; b < e->nblock; b++) {
     double own = body->material[e->block[b].material].own_share;
     vd sum = vd_all(0);

@@ -179,6 +179,7 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const solid *body, sol
       element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
       if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
+      /* the change of the frame */
       mat3 dF = gradient(e.at, du);
       mat3 dR = mat3_scale(vd_all(0), e.R);
       if (exact && s->frame != FRAME_IDENTITY) {
@@ -192,6 +193,7 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const solid *body, sol
                           : dilatation_of(s->pressure, e.F, e.R);
       vd change = averaged ? vd_at(state->dilatation_change, index_of(e.at))
                            : dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
+      /* of the elastic stress, and of the viscous one */
       vd elastic = minus * e.mat->lambda, shear = minus * e.mat->mu;
       mat3 dA = stress_derivative(s, elastic * theta, elastic * change, shear, e.F, e.R, dF, dR);
       if (v) {

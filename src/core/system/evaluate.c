@@ -158,6 +158,8 @@ corot_status corot_system_force(const solid_system *y, system_state *s, double a
   COROT_TRY(find_frames(y, s, &all));
   clear_moments(y, s);
   clear_sums(y, s);
+
+  /* each term's own force */
   for (int k = 0; k < y->nterm; k++) {
     const term *t = &y->term[k];
     if (t->sign == 0) continue;
@@ -168,6 +170,8 @@ corot_status corot_system_force(const solid_system *y, system_state *s, double a
                               : corot_solid_force(&t->body, &s->of[k], f.u, f.v, &sum);
     COROT_TRY(corot_system_told(y, s, k, status));
   }
+
+  /* that by which the leader's frames turn, for which all moments must be there */
   if (turns(y, s)) {
     term_fields f = corot_system_seen(y, s, y->leader, &all);
     force_sum sum = sum_of(y, s, y->leader, row, r);
@@ -227,6 +231,8 @@ corot_status corot_system_derivative(const solid_system *y, system_state *s, dou
   change_frames(y, s, &all, exact);
   clear_moments(y, s);
   clear_sums(y, s);
+
+  /* as the forces are summed */
   for (int k = 0; k < y->nterm; k++) {
     const term *t = &y->term[k];
     if (t->sign == 0) continue;

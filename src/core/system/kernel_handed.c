@@ -52,6 +52,7 @@ COROT_INLINE int handed_force_loop(const solid *body, solid_state *state, const 
       vi inverted = inverted_in(body, F);
       if (vi_any(inverted)) return first_inverted(body, b, inverted);
 
+      /* the elastic stress in the frame, and what it turns the frame by */
       mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
       mat3 sigma = hooke(k.lambda, k.mu, e);
       add_up(lead->above, mat3_vee(mat3_mul(mat3_tmul(R, F), sigma)), at, lead->moment);
@@ -92,6 +93,7 @@ COROT_INLINE int handed_derivative_loop(const solid *body, solid_state *state,
       vi inverted = inverted_in(body, F);
       if (vi_any(inverted)) return first_inverted(body, b, inverted);
 
+      /* changes of strain and stress in the frame, and of the moment */
       mat3 de = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
       mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
       mat3 sigma = hooke(k.lambda, k.mu, e), dsigma = hooke(k.lambda, k.mu, de);
