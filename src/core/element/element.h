@@ -15,7 +15,6 @@
 enum { KIND_NODES = 4, KIND_POINTS = 1, KIND_PAIRS = KIND_NODES * (KIND_NODES - 1) / 2 }; /* most */
 
 typedef struct element_kind {
-  const char *name;
   int nnode;  /* corners first */
   int npoint; /* of integration */
   int npair;  /* of nodes: the edges of the element's part of a graph */
@@ -34,8 +33,7 @@ typedef struct element_kind {
 enum { TET4, NKIND };
 
 static const element_kind element_kinds[NKIND] = {
-    [TET4] = {.name = "tet4",
-              .nnode = 4,
+    [TET4] = {.nnode = 4,
               .npoint = 1,
               .npair = 6,
               .slope = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},

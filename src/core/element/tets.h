@@ -44,8 +44,7 @@ static inline double volume_at(const element_set *e, int b, int lane) {
   return sum;
 }
 
-/* --- A point of LANES elements of a block: what a loop takes at a time -------------------------
- */
+/* --- A point of LANES elements of a block: what a loop takes at a time --- */
 
 typedef struct point_lanes {
   const element_kind *kind;

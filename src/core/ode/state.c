@@ -19,14 +19,13 @@ corot_status corot_state_create(const corot_model *m, corot_state **state) {
   corot_state *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "no memory for a state");
   s->nnode = m->mesh->nnode;
-  s->ndof = m->ndof;
   s->side = NAN;
   corot_status status = allocate(m, s);
   if (status) {
     corot_state_destroy(s);
     return status;
   }
-  s->bytes = sizeof *s + 4 * s->nnode * sizeof *s->u + s->ndof * sizeof *s->r +
+  s->bytes = sizeof *s + 4 * s->nnode * sizeof *s->u + m->ndof * sizeof *s->r +
              corot_system_state_bytes(&m->system, &s->system);
   *state = s;
   return COROT_OK;

@@ -5,7 +5,7 @@
 #include "core/model/model.h"
 
 struct corot_state {
-  int nnode, ndof;    /* of the model */
+  int nnode;          /* of the model */
   double side;        /* of kinks: see instant.h */
   bool still;         /* nothing has a velocity, and the loads are those */
   double load_time;   /* of this time, not of the evaluation's */

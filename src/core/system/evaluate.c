@@ -45,11 +45,11 @@ corot_status corot_system_told(const solid_system *y, system_state *s, int k, co
   return corot_fail(COROT_RETRY, "tet %d of level %d is inverted", tet, t->level);
 }
 
-/* --- Frames handed down ------------------------------------------------------------------------
- */
+/* --- Frames handed down --- */
 
-static from_leader lead_of(const solid_system *y, const system_state *s) {
-  return (from_leader){.above = y->term[0].above,
+/* What term k has of the leader. */
+static from_leader lead_of(const solid_system *y, const system_state *s, int k) {
+  return (from_leader){.above = y->term[k].above,
                        .R = s->of[y->leader].now_R,
                        .dR = s->lead.dR,
                        .moment = s->lead.moment,
@@ -70,9 +70,11 @@ static corot_status find_frames(const solid_system *y, system_state *s, const te
 static corot_status hand_down(const solid_system *y, system_state *s, const term_fields *all) {
   if (y->leader < 0) return COROT_OK;
   COROT_TRY(find_frames(y, s, all));
-  const from_leader lead = lead_of(y, s);
-  for (int k = 0; k < y->nterm; k++)
-    if (y->term[k].frames_from >= 0) corot_kernel_hand_down(&y->term[k].body, &lead, s->of[k].R);
+  for (int k = 0; k < y->nterm; k++) {
+    if (y->term[k].frames_from < 0) continue;
+    const from_leader lead = lead_of(y, s, k);
+    corot_kernel_hand_down(&y->term[k].body, &lead, s->of[k].R);
+  }
   return COROT_OK;
 }
 
@@ -96,8 +98,7 @@ corot_status corot_system_settle(const solid_system *y, system_state *s, double 
   return hand_down(y, s, &all);
 }
 
-/* --- Sums of forces ----------------------------------------------------------------------------
- */
+/* --- Sums of forces --- */
 
 static void clear_sums(const solid_system *y, system_state *s) {
   for (int k = 0; k < y->nmap; k++)
@@ -131,7 +132,7 @@ static corot_status handed_force(const solid_system *y, system_state *s, int k, 
                                  nodal_field v, force_sum *sum) {
   const solid *body = &y->term[k].body;
   solid_state *of = &s->of[k];
-  const from_leader lead = lead_of(y, s);
+  const from_leader lead = lead_of(y, s, k);
   for (int c = 0; c < body->pattern.nchunk; c++)
     COROT_TRY(
         corot_solid_collect(body, of, corot_kernel_handed_force(body, of, &lead, u, v, c), c, sum));
@@ -143,7 +144,7 @@ static corot_status turning_force(const solid_system *y, system_state *s, nodal_
                                   force_sum *sum) {
   const solid *leader = &y->term[y->leader].body;
   solid_state *of = &s->of[y->leader];
-  const from_leader lead = lead_of(y, s);
+  const from_leader lead = lead_of(y, s, y->leader);
   sum->sign = 1;
   for (int c = 0; c < leader->pattern.nchunk; c++)
     COROT_TRY(corot_solid_collect(leader, of, corot_kernel_turning_force(leader, of, &lead, u, c),
@@ -181,14 +182,13 @@ corot_status corot_system_force(const solid_system *y, system_state *s, double a
   return COROT_OK;
 }
 
-/* --- Their changes ------------------------------------------------------------------------------
- */
+/* --- Their changes --- */
 
 static corot_status handed_derivative(const solid_system *y, system_state *s, int k,
                                       const term_fields *f, force_sum *sum) {
   const solid *body = &y->term[k].body;
   solid_state *of = &s->of[k];
-  const from_leader lead = lead_of(y, s);
+  const from_leader lead = lead_of(y, s, k);
   for (int c = 0; c < body->pattern.nchunk; c++) {
     int tet = corot_kernel_handed_derivative(body, of, &lead, f->u, f->v, f->du, f->dv, c);
     COROT_TRY(corot_solid_collect(body, of, tet, c, sum));
@@ -200,7 +200,7 @@ static corot_status turning_derivative(const solid_system *y, system_state *s, n
                                        nodal_field du, force_sum *sum) {
   const solid *leader = &y->term[y->leader].body;
   solid_state *of = &s->of[y->leader];
-  const from_leader lead = lead_of(y, s);
+  const from_leader lead = lead_of(y, s, y->leader);
   sum->sign = 1;
   for (int c = 0; c < leader->pattern.nchunk; c++) {
     int tet = corot_kernel_turning_derivative(leader, of, &lead, u, du, c);
@@ -253,8 +253,7 @@ corot_status corot_system_derivative(const solid_system *y, system_state *s, dou
   return COROT_OK;
 }
 
-/* --- Matrices and energy ------------------------------------------------------------------------
- */
+/* --- Matrices and energy --- */
 
 static void add_blocks(const term *t, const double (*part)[9], double (*A)[9]) {
   for (int k = 0; k < t->body.pattern.nblock; k++)

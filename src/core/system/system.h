@@ -157,8 +157,7 @@ corot_status corot_system_update_frames(const solid_system *y, system_state *s, 
 corot_status corot_system_spin(const solid_system *y, system_state *s, double age, nodal_field u,
                                nodal_field v, double *spin_max);
 
-/* --- Shared by its files -----------------------------------------------------------------------
- */
+/* --- Shared by its files --- */
 
 /* The fields as a term sees them. */
 typedef struct term_fields {
