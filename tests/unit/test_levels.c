@@ -362,6 +362,38 @@ static void test_failed_allocations(void **state) {
   drop_solid(&s);
 }
 
+/* The corners of one tet are moved so that it turns inside out, while each of its eight
+   descendants, whose other nodes stay, keeps at least two fifths of its volume: the fields are
+   those of sound tets, but there is no frame to hand down. */
+static void test_fields_in_frames_of_an_inverted_tet_are_refused(void **state) {
+  (void)state;
+  static const double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  static const int tet[1][4] = {{0, 1, 2, 3}};
+  static const double moved[4][3] = {
+      {0.2, 0.6, -0.7}, {-0.1, -0.3, -0.4}, {-0.8, 0, -0.1}, {-0.8, 0.6, 0.4}};
+  choice c = {"cauchy", "polar", 1, 0, true};
+  corot_hierarchy_def hierarchy;
+  corot_model_def def = definition(&c, COROT_COUPLING_NODES, &undamped, false, &hierarchy);
+  solid s = {0};
+  assert_ok(corot_mesh_create(4, x, 1, tet, &s.coarse));
+  assert_ok(corot_mesh_refine(s.coarse, 1, COROT_DIAGONAL_CONSISTENT, &s.mesh, &s.refinement));
+  def.mesh = s.mesh, hierarchy.refinement = s.refinement;
+  assert_ok(corot_model_create(&def, &s.model));
+  assert_ok(corot_state_create(s.model, &s.state));
+  s.n = corot_model_ndof(s.model);
+
+  double *u = vectors(1, s.n), det[8];
+  corot_element_fields fields = {.det = det};
+  assert_ok(corot_elements(s.model, s.state, 0, u, &fields));
+  memcpy(u, moved, sizeof moved);
+  assert_fails(corot_elements(s.model, s.state, 0, u, &fields), COROT_RETRY,
+               "tet 0 of level 0 is inverted");
+  assert_int_equal(corot_state_inverted(s.state), 0);
+  for (int e = 0; e < 8; e++) assert_above(det[e], 0.3);
+  free(u);
+  drop_solid(&s);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       coupled_unit_test(test_force_is_the_gradient_of_the_energy),
@@ -375,6 +407,7 @@ int main(void) {
       each_coupling_unit_test(test_force_on_all_nodes),
       each_coupling_unit_test(test_standing_still_has_no_viscous_force),
       each_coupling_unit_test(test_inverted_tets_are_named),
+      cmocka_unit_test(test_fields_in_frames_of_an_inverted_tet_are_refused),
       each_coupling_unit_test(test_refusals),
       each_coupling_unit_test(test_materials_are_those_of_level_0),
       each_coupling_unit_test(test_failed_allocations),
