@@ -51,11 +51,11 @@ lines "{r['solver'] for r in d if r.get('role') == 'static'} >= {'pcg, hierarchi
 lines "len(d) > 6 and all(0 < r['median_s'] and 1 <= r['ratio'] for r in d[1:])
   and {r['iterations'] > 0 for r in d[1:] if r['solver'] == 'pcg, multigrid'} == {True}" \
   jitter --json --cells 1,1,2 --levels 1 --end 1 --repeat 1
-# A peak far below what the kernels reach is found out, with a sentence.
-message=$("$bench" kernels --json --tets 6 --peak 1 2>&1 >/dev/null)
+# A peak far below what the kernels reach, even with sanitizers and on a busy machine, is found out.
+message=$("$bench" kernels --json --tets 6 --peak 1e-6 2>&1 >/dev/null)
 case $?:$message in
 5:*"less than its floor"*) ;;
-*) echo "FAILED: corot-bench kernels --peak 1: not refused: $message"; failed=1 ;;
+*) echo "FAILED: corot-bench kernels --peak 1e-6: not refused: $message"; failed=1 ;;
 esac
 "$bench" --help | grep -q kernels || { echo "FAILED: corot-bench --help"; failed=1; }
 usage

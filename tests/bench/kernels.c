@@ -173,7 +173,8 @@ int command_kernels(int argc, char **argv) {
                                         {"help", no_argument, NULL, 'h'},
                                         {0}};
   enum { MOST = 16 };
-  int ntet[MOST], nsize = 0, peak, lanes;
+  int ntet[MOST], nsize = 0, lanes;
+  double peak;
   bool json = false, large = false;
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":h", known, NULL)) != -1;) switch (answer) {
@@ -189,7 +190,7 @@ int command_kernels(int argc, char **argv) {
           return usage_error(program, "--tets %s: expected a whole number > 0", optarg);
         break;
       case 'p':
-        if (!parse_count(optarg, 1000 * 1000, &peak))
+        if (!parse_positive(optarg, &peak))
           return usage_error(program, "--peak %s: not > 0", optarg);
         machine_set_peak(1e9 * peak);
         break;

@@ -89,11 +89,11 @@ bool parse_three(const char *text, double number[3]) {
   return true;
 }
 
-bool parse_seconds(const char *text, double *seconds) {
+bool parse_positive(const char *text, double *number) {
   char *end;
   double x = strtod(text, &end);
   if (end == text || *end || !(x > 0 && x < 1e9)) return false;
-  *seconds = x;
+  *number = x;
   return true;
 }
 

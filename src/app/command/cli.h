@@ -45,7 +45,7 @@ corot_status read_failure(corot_status status, const char *path);
 bool parse_three(const char *text, double number[3]);
 
 /* A number > 0, below 1e9. */
-bool parse_seconds(const char *text, double *seconds);
+bool parse_positive(const char *text, double *number);
 
 /* A whole number from 1 to `most`. */
 bool parse_count(const char *text, int most, int *number);

@@ -109,7 +109,7 @@ static int take_option(int answer, char **argv, arguments *a) {
       if (parse_shard(optarg, &a->o.shard, &a->o.nshard)) return -1;
       return usage_error("corot study", "--shard %s: expected I/N, such as 1/4", optarg);
     case 't':
-      if (parse_seconds(optarg, &a->o.timeout)) return -1;
+      if (parse_positive(optarg, &a->o.timeout)) return -1;
       return usage_error("corot study", "--timeout %s: expected seconds > 0", optarg);
     case 'd':
       a->dry = true;

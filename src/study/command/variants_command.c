@@ -36,7 +36,7 @@ static int take_option(const variants_command *c, int answer, char **argv,
       if (parse_count(optarg, POOL_MAX, &a->options.njob)) return -1;
       return usage_error(c->program, "--jobs %s: expected 1 to %d", optarg, POOL_MAX);
     case 'T':
-      if (parse_seconds(optarg, &a->options.timeout)) return -1;
+      if (parse_positive(optarg, &a->options.timeout)) return -1;
       return usage_error(c->program, "--timeout %s: expected seconds > 0", optarg);
     case FORCE:
       a->options.force = true;
