@@ -33,7 +33,8 @@ typedef struct corot_mesh {
   int nnode;
   double (*x)[3]; /* [nnode] rest positions [m] */
   int ntet;
-  int (*tet)[4]; /* [ntet] node numbers */
+  int (*tet)[4]; /* [ntet] node numbers of the corners */
+  int (*mid)[6]; /* [ntet] ten-node tets: the nodes on the edges 01 12 02 03 13 23; NULL: linear ones */
   int ngroup;
   corot_group *group; /* [ngroup] distinct names */
 } corot_mesh;

@@ -45,12 +45,14 @@ void corot_mesh_destroy(corot_mesh *mesh) {
   for (int g = 0; g < mesh->ngroup; g++) corot_group_clear(&mesh->group[g]);
   free(mesh->group);
   free(mesh->tet);
+  free(mesh->mid);
   free(mesh->x);
   free(mesh);
 }
 
 size_t corot_mesh_bytes(const corot_mesh *mesh) {
   size_t bytes = sizeof *mesh + mesh->nnode * sizeof *mesh->x + mesh->ntet * sizeof *mesh->tet;
+  if (mesh->mid) bytes += mesh->ntet * sizeof *mesh->mid;
   for (int k = 0; k < mesh->ngroup; k++) {
     const corot_group *g = &mesh->group[k];
     bytes += sizeof *g + strlen(g->name) + 1 + g->nnode * sizeof *g->node +

@@ -21,6 +21,7 @@ corot_status corot_mesh_copy(const corot_mesh *mesh, corot_mesh **copy) {
   m->x = copy_array(mesh->x, mesh->nnode, sizeof *m->x, &failed);
   m->ntet = mesh->ntet;
   m->tet = copy_array(mesh->tet, mesh->ntet, sizeof *m->tet, &failed);
+  if (mesh->mid) m->mid = copy_array(mesh->mid, mesh->ntet, sizeof *m->mid, &failed);
   if (mesh->ngroup) m->group = calloc(mesh->ngroup, sizeof *m->group);
   if (failed || (mesh->ngroup && !m->group)) goto no_memory;
 
