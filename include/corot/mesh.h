@@ -162,6 +162,12 @@ corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const doub
    COROT_ENOMEM. */
 corot_status corot_mesh_boundary(const corot_mesh *mesh, int *ntri, int (**tri)[3]);
 
+/* Of a mesh of order 2 all nodes of triangles that are faces of its tets: the corners, then the nodes
+   on the edges 01 12 20. *node [ntri] is the caller's to free. COROT_EINVAL: the mesh is of order 1.
+   COROT_ENOMEM. */
+corot_status corot_mesh_face_nodes(const corot_mesh *mesh, int ntri, const int (*tri)[3],
+                                   int (**node)[6]);
+
 /* The node nearest to a point; the lower number wins a tie. */
 int corot_mesh_nearest(const corot_mesh *mesh, const double point[3]);
 

@@ -69,7 +69,7 @@ static const schema_key keys[] = {
   {"material.damping.mu",     NUMBER,          OPTIONAL, RANGE_OF(damping_mu), "Pa s",    "0.0", 0, "second viscosity"},
   {"material.damping.mass",   NUMBER,          OPTIONAL, RANGE_OF(damping_mass), "1/s",     "0.0", 0, "Rayleigh's: a force against the velocity, this times the mass"},
 
-  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "lumped", "lumped|consistent", "lumped: row sums at the nodes; consistent: the shape functions' own, without moving supports"},
+  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|lumped|consistent", "lumped: at the nodes; consistent: the shape functions' own, without moving supports; auto: lumped for four-node tets, consistent for ten-node ones"},
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
   {"hierarchy",               MAP,             OPTIONAL, ANY,          "",        0, 0, "with mesh.refine: a measure of its own for the unrefined mesh; strain is that of the refined one, in frames handed down"},
   {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "green", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh"},
@@ -77,7 +77,7 @@ static const schema_key keys[] = {
   {"hierarchy.frame_level",   INTEGER,         OPTIONAL, NOT_NEGATIVE, "",        "0", 0, "the level whose frames are handed down to finer ones, 0 (the unrefined mesh) to mesh.refine"},
   {"hierarchy.force",         CHOICE,          OPTIONAL, ANY,          "",        "conservative", "conservative|paper", "conservative: the gradient of the energy; paper: without the part by which the frames follow, which keeps momentum only"},
   {"dilatation",              SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "local", 0, "what lambda acts on; the name alone will do"},
-  {"dilatation.name",         CHOICE,          OPTIONAL, ANY,          "",        "local", "local|nodal", "local: each tet's own dilatation, which locks as nu nears 1/2; nodal: averages around the nodes, which do not"},
+  {"dilatation.name",         CHOICE,          OPTIONAL, ANY,          "",        "local", "local|nodal|element", "local: each tet's own dilatation, which locks as nu nears 1/2, four-node tets soon, ten-node ones late; nodal: averages around the nodes, which do not; element: the mean over each ten-node tet, which does not either"},
   {"dilatation.local",        NUMBER,          OPTIONAL, NOT_NEGATIVE, "mu",      "1.0", 0, "nodal: so much of lambda stays with each tet's own"},
   {"viscosity",               CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|corotated|objective", "strain rate of the damping: sym(R' dF/dt), the paper's, whose forces can set a body spinning, or dS/dt of F = R S, zero in any rigid motion (polar, hybrid); auto: objective with polar and hybrid unless there is a hierarchy, else corotated"},
   {"frames",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "the rotations of the elements, as part of the model"},
