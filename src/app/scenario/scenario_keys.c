@@ -46,16 +46,17 @@ static const schema_key keys[] = {
   {"mesh.box.origin",         VECTOR,          OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, "the corner with the smallest coordinates"},
   {"mesh.box.split",          CHOICE,          OPTIONAL, ANY,          "",        "symmetric", "symmetric|alternating|kuhn", "how the cells are cut into tets; symmetric: mirrored from cell to cell, and the middle one of an odd number in halves, so that nothing drifts sideways; alternating: mirrored only, which drifts a little where a number is odd; kuhn: all the same, which drifts by up to a third of the deflection"},
   {"mesh.refine",             INTEGER,         OPTIONAL, NOT_NEGATIVE, "",      "0", 0, "times that each tet is cut into eight; nodes keep their numbers, the middles of edges follow"},
+  {"mesh.order",              INTEGER,         OPTIONAL, POSITIVE,     "",      0, 0, "1: tets of four nodes, linear displacements; 2: of ten nodes, quadratic ones, whose edges stay as curved as the file has them; default: as the file, of a box 1. 2 adds the middles of straight edges, after mesh.refine, to tets of four nodes; 1 drops the nodes on edges, before mesh.refine, and the numbers of the corners close up"},
   {"mesh.diagonal",           CHOICE,          OPTIONAL, ANY,          "",        "shortest", "consistent|shortest", "which diagonal of the octahedron inside a tet is an edge of the eight: shortest makes better shapes on the average, consistent at most three of a tet, however often it is cut"},
 
-  {"groups",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "sets of nodes, in addition to the mesh's own groups; plane and box choose among those of the refined mesh"},
+  {"groups",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "sets of nodes, in addition to the mesh's own groups; plane and box choose among those of the refined mesh; of ten-node tets they choose corners, and a node on an edge belongs where both ends do"},
   {"groups.NAME.plane",       MAP,             ONE_OF,   ANY,          "",        0, 0, "the nodes on a plane across an axis"},
   {"groups.NAME.plane.axis",  CHOICE,          REQUIRED, ANY,          "",        0, "x|y|z", "the axis the plane is normal to"},
   {"groups.NAME.plane.at",    NUMBER,          REQUIRED, ANY,          "m",       0, 0, "where on the axis; within 1e-6 of the mesh's diagonal"},
   {"groups.NAME.box",         MAP,             ONE_OF,   ANY,          "",        0, 0, "the nodes in a box, its sides included"},
   {"groups.NAME.box.min",     VECTOR,          REQUIRED, ANY,          "m",       0, 0, "smallest coordinates"},
   {"groups.NAME.box.max",     VECTOR,          REQUIRED, ANY,          "m",       0, 0, "largest coordinates"},
-  {"groups.NAME.nodes",       SCHEMA_INTEGERS, ONE_OF,   NOT_NEGATIVE, "",        0, 0, "numbers of nodes before mesh.refine, the first is 0; what is cut passes the group on, edges, faces and tets"},
+  {"groups.NAME.nodes",       SCHEMA_INTEGERS, ONE_OF,   NOT_NEGATIVE, "",        0, 0, "numbers of nodes before mesh.refine and mesh.order, the first is 0; what is cut passes the group on, edges, faces and tets"},
 
   {"material",                SCHEMA_MAPS,     REQUIRED, ANY,          "",        0, 0, "one material, or a list of one for each group of tets"},
   {"material.group",          TEXT,            OPTIONAL, ANY,          "",        0, 0, "the tets it fills; without: all that no other entry names"},
@@ -174,7 +175,7 @@ static const schema_key keys[] = {
 
   {"probes",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "nodes whose motion is recorded; names are letters, digits, _ and -"},
   {"probes.NAME.point",       VECTOR,          ONE_OF,   ANY,          "m",       0, 0, "the node nearest to it at rest, of the refined mesh"},
-  {"probes.NAME.node",        INTEGER,         ONE_OF,   NOT_NEGATIVE, "",        0, 0, "the node of that number, the first is 0; unchanged by mesh.refine"},
+  {"probes.NAME.node",        INTEGER,         ONE_OF,   NOT_NEGATIVE, "",        0, 0, "the node of that number, the first is 0; unchanged by mesh.refine and mesh.order: 2"},
 
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},
