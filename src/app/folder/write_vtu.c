@@ -13,7 +13,7 @@
 #include "core/element/element.h"
 #include "folder.h"
 
-enum { HEADER = 4096, VTK_TET10 = 24 };
+enum { HEADER = 4096 };
 
 typedef enum section { FIELD, POINT, CELL, POINTS, CELLS } section;
 
@@ -112,7 +112,9 @@ void vtu_destroy(vtu *w) {
 
 static size_t padded(size_t size) { return (size + 7) / 8 * 8; }
 
-static int nodes_of_tet(const corot_mesh *mesh) { return corot_mesh_order(mesh) == 2 ? 10 : 4; }
+static const element_kind *kind_of(const corot_mesh *mesh) {
+  return &element_kinds[corot_mesh_order(mesh) == 2 ? TET10 : TET4];
+}
 
 static bool is_there(int i, const corot_mesh *mesh) {
   return !layout[i].order_2 || corot_mesh_order(mesh) == 2;
@@ -120,7 +122,7 @@ static bool is_there(int i, const corot_mesh *mesh) {
 
 static size_t array_bytes(int i, const corot_mesh *mesh) {
   const struct layout *a = &layout[i];
-  int values = i == NODES ? nodes_of_tet(mesh) : a->values;
+  int values = i == NODES ? kind_of(mesh)->nnode : a->values;
   size_t tuples = a->section == FIELD                           ? 1
                   : a->section == POINT || a->section == POINTS ? (size_t)mesh->nnode
                                                                 : (size_t)mesh->ntet;
@@ -171,7 +173,7 @@ static void make_header(const corot_mesh *mesh, char text[HEADER]) {
 }
 
 static void put_mesh(vtu *w, const corot_mesh *mesh, const int *material) {
-  int n = nodes_of_tet(mesh);
+  int n = kind_of(mesh)->nnode;
   int32_t *nodes = (void *)w->array[NODES], *offsets = (void *)w->array[OFFSETS];
   int32_t *number = (void *)w->array[MATERIAL];
   memcpy(w->array[REST], mesh->x, array_bytes(REST, mesh));
@@ -180,7 +182,7 @@ static void put_mesh(vtu *w, const corot_mesh *mesh, const int *material) {
     offsets[e] = n * (e + 1);
     number[e] = material[e];
   }
-  memset(w->array[TYPES], n == 10 ? VTK_TET10 : element_kinds[TET4].vtk, (size_t)mesh->ntet);
+  memset(w->array[TYPES], kind_of(mesh)->vtk, (size_t)mesh->ntet);
 }
 
 /* Lays out the image: everything that stays the same from frame to frame is put in place. */
@@ -243,7 +245,7 @@ static corot_status open_files(vtu *w, const char *dir) {
 }
 
 corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out) {
-  if (mesh->ntet > INT32_MAX / nodes_of_tet(mesh))
+  if (mesh->ntet > INT32_MAX / kind_of(mesh)->nnode)
     return corot_fail(COROT_EINVAL, "%d tets are too many for the fields' 32-bit indices",
                       mesh->ntet);
   vtu *w = calloc(1, sizeof *w);
