@@ -75,7 +75,7 @@ static void cut_tets(const corot_mesh *mesh, const corot_edges *edges, corot_dia
     int middle[4][4], k = bey(v);
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++)
-        middle[i][j] = i == j ? v[i] : mesh->nnode + edges->tet[e][edge[i][j]];
+        middle[i][j] = i == j ? v[i] : corot_edge_middle(edges, edges->tet[e][edge[i][j]]);
     if (diagonal == COROT_DIAGONAL_SHORTEST)
       k = shortest((const double(*)[3])fine->x, v, (const int(*)[4])middle);
     cut_tet((const int(*)[4])middle, k, &fine->tet[8 * e]);
@@ -127,7 +127,7 @@ static corot_status make_level(refiner *r, const corot_edges *edges, corot_mesh 
     return corot_fail(status, "at refinement %d, %s", r->level + 1, corot_error());
   COROT_TRY(status);
   COROT_TRY(corot_refine_groups(r->mesh, edges, r->nskin, old, fine));
-  COROT_TRY(corot_refine_triangles(r->mesh, edges, r->nskin, old, skin));
+  COROT_TRY(corot_refine_triangles(edges, r->nskin, old, skin));
   return append_level(r, fine, edges);
 }
 
