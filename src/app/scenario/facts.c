@@ -7,19 +7,15 @@
 
 #include "app/config/config.h"
 #include "app/text/json_text.h"
+#include "core/mesh/mesh.h"
 #include "words.h"
 
 /* --- Finding --- */
 
 static double tet_volume(const corot_mesh *mesh, int e) {
-  const double *o = mesh->x[mesh->tet[e][0]];
-  double d[3][3];
-  for (int i = 0; i < 3; i++)
-    for (int k = 0; k < 3; k++) d[i][k] = mesh->x[mesh->tet[e][i + 1]][k] - o[k];
-  return (d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) +
-          d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
-          d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0])) /
-         6;
+  const double(*x)[3] = (const double(*)[3])mesh->x;
+  return mesh->mid ? corot_curved_volume(x, mesh->tet[e], mesh->mid[e])
+                   : corot_tet_volume(x, mesh->tet[e]);
 }
 
 static double group_volume(const corot_mesh *mesh, const corot_group *group) {
