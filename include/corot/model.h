@@ -65,9 +65,9 @@ typedef struct corot_amplitude {
   double offset;
 } corot_amplitude;
 
-/* LUMPED: row sums at the nodes (the paper's). CONSISTENT: the linear shape functions' own, which
-   couples neighbours; not with moving supports, whose sudden starts and stops it would hand on to
-   them as impulses. */
+/* LUMPED: row sums at the nodes (the paper's). CONSISTENT: the shape functions' own, which couples
+   neighbours. It would hand the sudden start of a moving support on to them as an impulse: elements
+   with a node on a moving support are lumped. */
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
 
 /* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda

@@ -3,7 +3,12 @@
 
    The shares of an element's nodes and pairs of nodes are those of its kind: of a tet of mass m,
    with linear shape functions, m/10 on the diagonal and m/20 beside it, the same in each component;
-   a row sums to m/4, and that is what lumping puts on the diagonal. */
+   a row sums to m/4, and that is what lumping puts on the diagonal.
+
+   A consistent mass would hand every acceleration of a moving support on to its neighbours, and
+   every sudden start as an impulse. So the elements with a node on one are lumped: then nothing
+   couples a free node to a moving one, and the rows of the free nodes still sum to what a uniform
+   acceleration of the whole body takes. */
 #include <stdlib.h>
 
 #include "model.h"
@@ -48,8 +53,23 @@ static corot_status lump(const corot_model_def *def, corot_model *m) {
   return status;
 }
 
-/* The pairs of a consistent mass. */
-static corot_status couple(corot_model *m) {
+/* [nnode] whether a motion has the node; NULL: no memory. */
+static bool *mark_moving(const corot_model *m) {
+  bool *moving = calloc(m->mesh->nnode, sizeof *moving);
+  for (int k = 0; moving && k < m->nmotion; k++)
+    for (int i = 0; i < m->motion[k].nnode; i++) moving[m->motion[k].node[i]] = true;
+  return moving;
+}
+
+/* Whether the element in lane l of block b has a node on a moving support. */
+static bool lumped_at(const element_set *t, int b, int l, const bool *moving) {
+  for (int a = 0; a < t->kind->nnode; a++)
+    if (moving[nodes_at(t, b, a)[l]]) return true;
+  return false;
+}
+
+/* The pairs of a consistent mass, lumped beside nodes that move. */
+static corot_status couple(corot_model *m, const bool *moving) {
   const pattern *p = &solid_of(m)->pattern;
   m->mass_pair = calloc(p->nblock, sizeof *m->mass_pair);
   if (m->mass_damped) m->damping_pair = calloc(p->nblock, sizeof *m->damping_pair);
@@ -59,21 +79,30 @@ static corot_status couple(corot_model *m) {
   int npair = t->kind->npair;
   for (int b = 0; b < t->nblock; b++) {
     const material *mat = &m->material[t->block[b].material];
-    for (int l = 0; l < t->block[b].n; l++)
+    for (int l = 0; l < t->block[b].n; l++) {
+      bool lumped = lumped_at(t, b, l, moving);
       for (int k = 0; k < npair + t->kind->nnode; k++) {
         int i = k < npair ? pair_row[k] : k - npair, j = k < npair ? pair_col[k] : i;
-        double part = mat->density * volume_at(t, b, l) * t->kind->mass[i][j] / t->kind->mass_over;
+        int share = lumped ? (i == j) * t->kind->lumped[i] : t->kind->mass[i][j];
+        int over = lumped ? t->kind->lumped_over : t->kind->mass_over;
+        double part = mat->density * volume_at(t, b, l) * share / over;
         int at = k < npair ? p->place[b * npair + k][l] : p->colptr[nodes_at(t, b, i)[l]];
         m->mass_pair[at] += part;
         if (m->mass_damped) m->damping_pair[at] += part * mat->damping_mass;
       }
+    }
   }
   return COROT_OK;
 }
 
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m) {
   COROT_TRY(lump(def, m));
-  return def->mass == COROT_MASS_LUMPED ? COROT_OK : couple(m);
+  if (def->mass == COROT_MASS_LUMPED) return COROT_OK;
+  bool *moving = mark_moving(m);
+  if (!moving) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", m->mesh->nnode);
+  corot_status status = couple(m, moving);
+  free(moving);
+  return status;
 }
 
 corot_mass corot_model_mass_kind(const corot_model *m) {
