@@ -66,8 +66,10 @@ typedef struct corot_amplitude {
 } corot_amplitude;
 
 /* LUMPED: row sums at the nodes (the paper's). CONSISTENT: the shape functions' own, which couples
-   neighbours. It would hand the sudden start of a moving support on to them as an impulse: elements
-   with a node on a moving support are lumped. */
+   neighbours, those of moving supports too: these hand on their acceleration (corot/ode.h). A support
+   whose velocity may jump, which is of constant rate or follows a LINEAR amplitude, would hand that
+   on as an impulse: elements with a node on it are lumped. What that changes is of third order in
+   their size, unless the body moves relative to the support as little as in bending: then of fifth. */
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
 
 /* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda
@@ -288,7 +290,8 @@ corot_mass corot_model_mass_kind(const corot_model *model);
 
 /* The times strictly between t0 and t1 where a load or a motion has a kink or a load jumps, ascending,
    each once; at most `max` are written to `time` (which may be NULL if max is 0). Returns how many
-   there are. Sines and splines have none. */
+   there are. Sines and splines have none, but for the ends of a spline by which a support drags a
+   consistent mass: its acceleration jumps there. */
 int corot_model_kinks(const corot_model *model, double t0, double t1, int max, double *time);
 
 /* The latest time to which one step from t should go, so as not to pass over what a smooth amplitude

@@ -185,6 +185,7 @@ void corot_loads_force(const corot_model *m, const instant *now, const double (*
       for (int i = 0; i < 3; i++) add_force(m, f, l->tri[j][i], area, -factor * l->pressure / 3);
     }
   }
+  corot_drags_apply(m, now, f);
 }
 
 bool corot_loads_follow(const corot_model *m) {

@@ -5,10 +5,10 @@
    with linear shape functions, m/10 on the diagonal and m/20 beside it, the same in each component;
    a row sums to m/4, and that is what lumping puts on the diagonal.
 
-   A consistent mass would hand every acceleration of a moving support on to its neighbours, and
-   every sudden start as an impulse. So the elements with a node on one are lumped: then nothing
-   couples a free node to a moving one, and the rows of the free nodes still sum to what a uniform
-   acceleration of the whole body takes. */
+   A consistent mass hands the acceleration of a moving support on to its neighbours (drag.c), and
+   would hand on a sudden start as an impulse. So the elements with a node on a support whose
+   velocity jumps are lumped: then nothing couples a free node to one of its nodes, and the rows of
+   the free nodes still sum to what a uniform acceleration of the whole body takes. */
 #include <stdlib.h>
 
 #include "model.h"
@@ -53,23 +53,24 @@ static corot_status lump(const corot_model_def *def, corot_model *m) {
   return status;
 }
 
-/* [nnode] whether a motion has the node; NULL: no memory. */
-static bool *mark_moving(const corot_model *m) {
-  bool *moving = calloc(m->mesh->nnode, sizeof *moving);
-  for (int k = 0; moving && k < m->nmotion; k++)
-    for (int i = 0; i < m->motion[k].nnode; i++) moving[m->motion[k].node[i]] = true;
-  return moving;
+/* [nnode] whether the velocity of the node jumps; NULL: no memory. */
+static bool *mark_jolted(const corot_model *m) {
+  bool *jolted = calloc(m->mesh->nnode, sizeof *jolted);
+  for (int k = 0; jolted && k < m->nmotion; k++)
+    for (int i = 0; i < m->motion[k].nnode; i++)
+      jolted[m->motion[k].node[i]] = corot_motion_jolts(&m->motion[k]);
+  return jolted;
 }
 
-/* Whether the element in lane l of block b has a node on a moving support. */
-static bool lumped_at(const element_set *t, int b, int l, const bool *moving) {
+/* Whether the element in lane l of block b has a node whose velocity jumps. */
+static bool lumped_at(const element_set *t, int b, int l, const bool *jolted) {
   for (int a = 0; a < t->kind->nnode; a++)
-    if (moving[nodes_at(t, b, a)[l]]) return true;
+    if (jolted[nodes_at(t, b, a)[l]]) return true;
   return false;
 }
 
-/* The pairs of a consistent mass, lumped beside nodes that move. */
-static corot_status couple(corot_model *m, const bool *moving) {
+/* The pairs of a consistent mass, lumped beside nodes whose velocity jumps. */
+static corot_status couple(corot_model *m, const bool *jolted) {
   const pattern *p = &solid_of(m)->pattern;
   m->mass_pair = calloc(p->nblock, sizeof *m->mass_pair);
   if (m->mass_damped) m->damping_pair = calloc(p->nblock, sizeof *m->damping_pair);
@@ -80,7 +81,7 @@ static corot_status couple(corot_model *m, const bool *moving) {
   for (int b = 0; b < t->nblock; b++) {
     const material *mat = &m->material[t->block[b].material];
     for (int l = 0; l < t->block[b].n; l++) {
-      bool lumped = lumped_at(t, b, l, moving);
+      bool lumped = lumped_at(t, b, l, jolted);
       for (int k = 0; k < npair + t->kind->nnode; k++) {
         int i = k < npair ? pair_row[k] : k - npair, j = k < npair ? pair_col[k] : i;
         int share = lumped ? (i == j) * t->kind->lumped[i] : t->kind->mass[i][j];
@@ -98,10 +99,10 @@ static corot_status couple(corot_model *m, const bool *moving) {
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m) {
   COROT_TRY(lump(def, m));
   if (def->mass == COROT_MASS_LUMPED) return COROT_OK;
-  bool *moving = mark_moving(m);
-  if (!moving) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", m->mesh->nnode);
-  corot_status status = couple(m, moving);
-  free(moving);
+  bool *jolted = mark_jolted(m);
+  if (!jolted) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", m->mesh->nnode);
+  corot_status status = couple(m, jolted);
+  free(jolted);
   return status;
 }
 
