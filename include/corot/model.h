@@ -67,11 +67,13 @@ typedef struct corot_amplitude {
 
 /* LUMPED: row sums at the nodes (the paper's); of ten-node tets, whose row sums at corners are
    negative, in proportion to the diagonal: 1/36 of a tet's mass at a corner, 4/27 on an edge (Hinton,
-   Rock & Zienkiewicz 1976). CONSISTENT: the shape functions' own, which couples neighbours. AUTO:
-   lumped for linear tets, consistent for ten-node ones, which need it for their order of accuracy:
-   lumped, the frequencies of torsion of a bar come out several per cent too low. CONSISTENT is not
-   possible with moving supports, whose sudden starts and stops it would hand on to
-   them as impulses. */
+   Rock & Zienkiewicz 1976). CONSISTENT: the shape functions' own, which couples neighbours, those of
+   moving supports too: these hand on their acceleration (corot/ode.h). A support whose velocity may
+   jump, which is of constant rate or follows a LINEAR amplitude, would hand that on as an impulse:
+   elements with a node on it are lumped. What that changes is of third order in their size, unless the
+   body moves relative to the support as little as in bending: then of fifth. AUTO: lumped for
+   four-node tets, consistent for ten-node ones, which need it for their order of accuracy: lumped, the
+   frequencies of torsion of a bar come out several per cent too low. */
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT, COROT_MASS_AUTO } corot_mass;
 
 /* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda
@@ -299,7 +301,8 @@ corot_mass corot_model_mass_kind(const corot_model *model);
 
 /* The times strictly between t0 and t1 where a load or a motion has a kink or a load jumps, ascending,
    each once; at most `max` are written to `time` (which may be NULL if max is 0). Returns how many
-   there are. Sines and splines have none. */
+   there are. Sines and splines have none, but for the ends of a spline by which a support drags a
+   consistent mass: its acceleration jumps there. */
 int corot_model_kinks(const corot_model *model, double t0, double t1, int max, double *time);
 
 /* The latest time to which one step from t should go, so as not to pass over what a smooth amplitude

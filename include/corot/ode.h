@@ -2,6 +2,9 @@
 
      du/dt = v,   M dv/dt = r(t, u, v; R),   r = f_ext(t) - f_int(u; R) - f_damp(u, v; R)
 
+   A consistent mass couples free nodes to those of moving supports, whose acceleration a_s and, with
+   mass damping, velocity v_s are then felt: - M_fs a_s - C_fs v_s is a part of f_ext.
+
    u displacement [m], v velocity [m/s], M mass, lumped or consistent, R one rotation ("frame") a
    tet.
    Arrays u, v, r are [n], ordered by corot_model_dof(), and owned by the caller.
@@ -152,7 +155,8 @@ corot_status corot_frames_spin(const corot_model *model, corot_state *state, dou
 
 /* Energies and powers of one instant; with COROT_COUPLING_ONE_WAY those of level 0. Of the kinetic
    energy and the momenta, the part of the free degrees of freedom; the work of a moving support is
-   that of the internal and viscous forces on its nodes. */
+   that of the internal and viscous forces on its nodes. What it does beside by way of a consistent
+   mass, - v' (M_fs a_s + C_fs v_s), counts among the loads'. */
 typedef struct corot_energies {
   double kinetic;          /* 1/2 v' M v [J] */
   double elastic;          /* of the strain energy whose gradient is f_int (warp: whose held-frame

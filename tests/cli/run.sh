@@ -28,6 +28,14 @@ json 'd["t_reached"] == 0.05 and d["statistics"]["nst"] == 13 and d["frames"]["u
 expect 4 run model.yaml -o c --set 'integrator={method: newmark, step: 0.004, newton: {iterations: 1}}'
 err "newmark: "; err "Newton has not converged in 1 iterations"
 
+# A consistent mass on a base that is shaken, or starts and stops at once: the books are balanced.
+for base in 'move: {direction: [0.01, 0, 0], amplitude: {sine: {frequency: 20}}}' \
+  'move: {direction: [0.01, 0, 0], amplitude: {smooth: [[0.01, 0], [0.03, 1]]}}' \
+  'translate: {velocity: [0.2, 0, 0], from: 0.01, to: 0.03}'; do
+  expect 0 run model.yaml -o c --json --set mass=consistent --set "boundary=[{group: base, $base}]"
+  json 'abs(d["energy"]["balance"]) < 5e-3 * d["energy"]["external_work"]'
+done
+
 expect 3 run none.yaml; no_out; err "none.yaml"
 expect 3 run model.yaml --set boundary.0.group=bse -o d; err "did you mean base?"; no_out
 expect 3 run model.yaml --set mesh.box=null --set mesh.file=none.msh -o c; err "none.msh"

@@ -144,6 +144,37 @@ static void a_spline_bends_without_a_kink(void **state) {
   corot_amplitude_clear(&a);
 }
 
+/* Of the second derivative: by differences of the slope. A spline has it from its first point to
+   its last, where it jumps, and the state knows which side is meant; a sine always; what is linear
+   between points never. */
+static void smooth_curves_have_a_second_derivative(void **state) {
+  (void)state;
+  const double time[] = {0, 1, 1.5, 3}, value[] = {0, 1, 0.5, 2};
+  amplitude linear = made((corot_amplitude){4, time, value}), spline = made(smooth(4, time, value));
+  amplitude sine =
+      made((corot_amplitude){.curve = COROT_CURVE_SINE, .frequency = 0.7, .phase = 1, .offset = 3});
+  const amplitude *both[] = {&spline, &sine};
+  for (double t = -0.55; t < 4; t += 0.1) {
+    double h = 1e-5; /* its error: some 100 h^2, and rounding over h */
+    for (int k = 0; k < 2; k++)
+      assert_close(
+          (corot_amplitude_rate(both[k], NAN, t + h) - corot_amplitude_rate(both[k], NAN, t - h)) /
+              (2 * h),
+          corot_amplitude_second(both[k], NAN, t), 0, 1e-8);
+    assert_true(corot_amplitude_second(&linear, NAN, t) == 0);
+  }
+  const double phase[] = {-1, 0, 2, 3}, at[] = {0, 0, 3, 3};
+  for (int k = 0; k < 4; k++) {
+    double inside = corot_amplitude_second(&spline, NAN, k < 2 ? 1e-9 : 3 - 1e-9);
+    double expected = k == 1 || k == 2 ? inside : 0;
+    assert_above(fabs(inside), 1);
+    assert_close(corot_amplitude_second(&spline, phase[k], at[k]), expected, 1e-7, 0);
+  }
+  assert_true(corot_amplitude_second(&spline, NAN, 0) != 0);
+  assert_true(corot_amplitude_second(&spline, NAN, 3) == 0);
+  corot_amplitude_clear(&linear), corot_amplitude_clear(&spline), corot_amplitude_clear(&sine);
+}
+
 static double error_of_spline(int n) {
   double *time = malloc(2 * (size_t)n * sizeof *time), *value = time + n, worst = 0;
   for (int i = 0; i < n; i++) time[i] = 2.0 * i / (n - 1), value[i] = cos(pi * time[i]);
@@ -271,6 +302,7 @@ int main(void) {
       cmocka_unit_test(a_sine_is_a_sine),
       cmocka_unit_test(few_points_make_smooth_steps),
       cmocka_unit_test(a_spline_bends_without_a_kink),
+      cmocka_unit_test(smooth_curves_have_a_second_derivative),
       cmocka_unit_test(splines_converge_with_the_fourth_power),
       cmocka_unit_test(no_step_passes_over_what_a_spline_does),
       cmocka_unit_test(refuses_what_makes_no_sense),

@@ -293,15 +293,12 @@ static void the_right_hand_side_needs_the_solver(void **state) {
 /* --- refusals ----------------------------------------------------------------------------------
  */
 
-static void moving_supports_and_unknown_kinds_are_refused(void **state) {
+static void unknown_kinds_are_refused(void **state) {
   (void)state;
   corot_mesh *mesh = crooked_box(1, 1, 2);
-  corot_motion motion = {COROT_TRANSLATE, "zmin", {0}, {0}, 0, {1, 0, 0}, 0, INFINITY};
   corot_model_def def = corot_model_defaults();
   def.mesh = mesh, def.nmaterial = 1, def.material = &soft;
-  def.mass = COROT_MASS_CONSISTENT, def.nmotion = 1, def.motion = &motion;
   corot_model *model;
-  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "'zmin' is a moving support");
   def.mass = 7;
   assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "number 7");
   def.mass = COROT_MASS_LUMPED;
@@ -453,7 +450,7 @@ int main(void) {
       cmocka_unit_test(the_solver_undoes_the_product),
       cmocka_unit_test(a_component_may_be_held_altogether),
       cmocka_unit_test(the_right_hand_side_needs_the_solver),
-      cmocka_unit_test(moving_supports_and_unknown_kinds_are_refused),
+      cmocka_unit_test(unknown_kinds_are_refused),
       cmocka_unit_test(failed_allocations_are_survived),
       cmocka_unit_test(every_method_integrates_with_either),
       cmocka_unit_test(a_free_body_keeps_its_momentum),

@@ -178,8 +178,6 @@ static void an_amplitude_that_cannot_move_is_refused(void **state) {
   assert_fails(
       corot_model_create(&def, &model), COROT_EINVAL,
       "motion 1: does not continue the other motion of zmin: it has to translate (motion 0)");
-  def.nmotion = 1, def.mass = COROT_MASS_CONSISTENT;
-  assert_fails(corot_model_create(&def, &model), COROT_EINVAL, "moving support");
   assert_null(model);
   corot_mesh_destroy(mesh);
 }

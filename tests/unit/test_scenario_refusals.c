@@ -262,11 +262,6 @@ static void rules_of_the_model(void **state) {
       {MESH TIME "material: {mu: 1.0e-320, nu: -0.9, density: 1.0e-320}\nviscosity: objective\n"
                  "strain: warp",
        "4:12: viscosity: the objective viscous law needs a polar frame, not strain warp"},
-      {MINIMAL "mass: consistent\nboundary:\n- {group: zmax, fix: [x]}\n"
-               "- {group: zmin, translate: {velocity: [0, 0, 1]}}",
-       "4:7: mass: group 'zmin' is a moving support, whose sudden start a consistent mass would "
-       "hand on to its neighbours as an impulse; a lumped mass has no such coupling; see "
-       "boundary[1]"},
       {MINIMAL "boundary:\n- {group: zmax, fix: [x]}\n"
                "- {group: zmin, translate: {velocity: [0, 0, 1], from: 2, to: 1}}",
        "6:63: boundary[1].translate.to: it goes from t = 2 to t = 1 s"},

@@ -70,7 +70,7 @@ static const schema_key keys[] = {
   {"material.damping.mu",     NUMBER,          OPTIONAL, RANGE_OF(damping_mu), "Pa s",    "0.0", 0, "second viscosity"},
   {"material.damping.mass",   NUMBER,          OPTIONAL, RANGE_OF(damping_mass), "1/s",     "0.0", 0, "Rayleigh's: a force against the velocity, this times the mass"},
 
-  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|lumped|consistent", "lumped: at the nodes; consistent: the shape functions' own, without moving supports; auto: lumped for four-node tets, consistent for ten-node ones"},
+  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|lumped|consistent", "lumped: at the nodes; consistent: the shape functions' own, lumped in elements at supports whose velocity may jump; auto: lumped for four-node tets, consistent for ten-node ones"},
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
   {"hierarchy",               MAP,             OPTIONAL, ANY,          "",        0, 0, "with mesh.refine: a measure of its own for the unrefined mesh; strain is that of the refined one, in frames handed down"},
   {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "green", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh"},

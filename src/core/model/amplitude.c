@@ -109,6 +109,13 @@ static double cubic_rate(const amplitude *a, int k, double s) {
          s * (1 - 3 * r) * a->slope[k + 1];
 }
 
+static double cubic_second(const amplitude *a, int k, double s) {
+  double d = a->time[k + 1] - a->time[k];
+  return (6 * (1 - 2 * s) * (a->value[k + 1] - a->value[k]) / d - (4 - 6 * s) * a->slope[k] -
+          (2 - 6 * s) * a->slope[k + 1]) /
+         d;
+}
+
 /* The fractions inside of piece k at which it turns round, ascending; returns how many: 0 to 2. Its
    derivative is A s^2 + B s + C. */
 static int turns(const amplitude *a, int k, double s[2]) {
@@ -273,6 +280,16 @@ double corot_amplitude_rate(const amplitude *a, double phase, double t) {
   double d = a->time[k] - a->time[k - 1];
   if (a->slope) return cubic_rate(a, k - 1, (t - a->time[k - 1]) / d);
   return (a->value[k] - a->value[k - 1]) / d;
+}
+
+double corot_amplitude_second(const amplitude *a, double phase, double t) {
+  double omega = TWO_PI * a->frequency;
+  if (a->curve == COROT_CURVE_SINE) return -omega * omega * sin(omega * t + a->phase);
+  if (isnan(phase)) phase = t;
+  if (!a->slope || phase < a->time[0] || phase >= a->time[a->n - 1]) return 0;
+  int k = points_until(a->n, a->time, t);
+  k = k == 0 ? 0 : k == a->n ? a->n - 2 : k - 1;
+  return cubic_second(a, k, (t - a->time[k]) / (a->time[k + 1] - a->time[k]));
 }
 
 double corot_amplitude_jump(const amplitude *a) {

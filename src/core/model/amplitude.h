@@ -37,6 +37,9 @@ double corot_amplitude_at(const amplitude *a, double phase, double t);
 /* Its derivative by time there [1/s]. */
 double corot_amplitude_rate(const amplitude *a, double phase, double t);
 
+/* Its second derivative there [1/s^2], which a spline has from its first point to its last. */
+double corot_amplitude_second(const amplitude *a, double phase, double t);
+
 /* The time of its first jump; NaN: it has none. */
 double corot_amplitude_jump(const amplitude *a);
 

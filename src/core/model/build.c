@@ -76,11 +76,19 @@ static void add_kinks(corot_model *m, const amplitude *a) {
   for (int i = 0; i < corot_amplitude_nkink(a); i++) m->kink[m->nkink++] = time[i];
 }
 
+/* Where a spline begins and ends its second derivative jumps, and with it the drag. */
+static void add_ends(corot_model *m, const amplitude *a) {
+  if (!a->slope) return;
+  m->kink[m->nkink++] = a->time[0];
+  m->kink[m->nkink++] = a->time[a->n - 1];
+}
+
 static size_t count_kinks(const corot_model *m) {
   size_t n = 0;
   for (int k = 0; k < m->nload; k++) n += corot_amplitude_nkink(&m->load[k].amplitude);
   for (int k = 0; k < m->nmotion; k++) {
     n += 2 * (size_t)m->motion[k].nspan;
+    n += 2 * (size_t)m->motion[k].nlaw;
     for (int i = 0; i < m->motion[k].nlaw; i++)
       n += corot_amplitude_nkink(&m->motion[k].law[i].amplitude);
   }
@@ -100,6 +108,7 @@ static corot_status list_kinks(corot_model *m) {
       if (isfinite(a->span[i].to)) m->kink[m->nkink++] = a->span[i].to;
     }
     for (int i = 0; i < a->nlaw; i++) add_kinks(m, &a->law[i].amplitude);
+    for (int i = 0; i < a->nlaw && a->ndrag > 0; i++) add_ends(m, &a->law[i].amplitude);
   }
   qsort(m->kink, m->nkink, sizeof *m->kink, by_time);
   int all = m->nkink;
@@ -203,6 +212,7 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   COROT_TRY(make_system(def, m));
   COROT_TRY(number_dofs(def, m));
   COROT_TRY(corot_mass_create(def, m));
+  COROT_TRY(corot_drags_create(m));
   COROT_TRY(corot_loads_create(def, m));
   COROT_TRY(list_kinks(m));
   find_scales(m);

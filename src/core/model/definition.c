@@ -52,13 +52,7 @@ static corot_status check_mass(const corot_model_def *def, bool one_way) {
     return corot_fail_at("model", 0, "mass",
                          "a consistent mass would couple the finer nodes of a one-way hierarchy to "
                          "level 0, which has a mass of its own");
-  if (def->nmotion == 0) return COROT_OK;
-  const char *group = def->motion[0].group;
-  return corot_fail_about(
-      &(corot_fault){.entry = "model", .field = "mass", .other = "motion"},
-      "group '%s' is a moving support, whose sudden start a consistent mass would hand on to its "
-      "neighbours as an impulse; a lumped mass has no such coupling",
-      group ? group : "");
+  return COROT_OK;
 }
 
 /* What the finest level's measure must be, and what else goes with it. */

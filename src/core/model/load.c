@@ -139,7 +139,7 @@ static corot_status add_constant(const corot_model_def *def, const corot_model *
   else if (from->kind == COROT_FORCE)
     status = add_point_force(m, from, number, f);
   else
-    corot_mass_sum_rows(m, f);
+    status = corot_mass_sum_rows(m, f);
   if (!status) status = corot_model_restrict(def, nnode, f);
   if (!status && from->kind == COROT_GRAVITY) weigh(nnode, from->value, f);
   for (int n = 0; !status && n < nnode; n++) add_force(m, to->force, n, f[n], 1);
@@ -232,6 +232,7 @@ void corot_loads_force(const corot_model *m, const instant *now, const double (*
           add_force(m, f, l->face[j][i], area, pressure_share(l, kind, q, i, factor));
       }
   }
+  corot_drags_apply(m, now, f);
 }
 
 bool corot_loads_follow(const corot_model *m) {

@@ -4,22 +4,23 @@
    The shares of an element's nodes and pairs of nodes are those of its kind: of a tet of mass m,
    with linear shape functions, m/10 on the diagonal and m/20 beside it, the same in each component;
    a row sums to m/4, and that is what lumping puts on the diagonal. Of ten-node tets the row sums
-   of corners are negative: these are lumped in proportion to the diagonal. */
+   of corners are negative: these are lumped in proportion to the diagonal.
+
+   A consistent mass hands the acceleration of a moving support on to its neighbours (drag.c), and
+   would hand on a sudden start as an impulse. So the elements with a node on a support whose
+   velocity jumps are lumped: then nothing couples a free node to one of its nodes, and the rows of
+   the free nodes still sum to what a uniform acceleration of the whole body takes. */
 #include <stdlib.h>
 
 #include "model.h"
 
-/* What the mass of an element puts on its nodes. */
-typedef void element_share(const corot_mesh *mesh, const element_set *e, int b, int lane,
-                           double density, double mass[KIND_NODES]);
-
-static void add_shares(const corot_model *m, element_share *share_of, double (*nodal)[3]) {
+void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
   const element_set *t = &solid_of(m)->elements;
   for (int b = 0; b < t->nblock; b++) {
     const material *mat = &m->material[t->block[b].material];
     for (int l = 0; l < t->block[b].n; l++) {
       double part[KIND_NODES];
-      share_of(m->mesh, t, b, l, mat->density, part);
+      corot_element_lumped(m->mesh, t, b, l, mat->density, part);
       for (int a = 0; a < t->kind->nnode; a++) {
         int n = nodes_at(t, b, a)[l];
         nodal[n][0] += part[a];
@@ -27,26 +28,6 @@ static void add_shares(const corot_model *m, element_share *share_of, double (*n
       }
     }
   }
-}
-
-void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
-  add_shares(m, corot_element_lumped, nodal);
-}
-
-static void row_sums(const corot_mesh *mesh, const element_set *e, int b, int lane, double density,
-                     double mass[KIND_NODES]) {
-  double matrix[KIND_NODES][KIND_NODES];
-  corot_element_mass(mesh, e, b, lane, density, matrix);
-  for (int i = 0; i < e->kind->nnode; i++) {
-    mass[i] = 0;
-    for (int j = 0; j < e->kind->nnode; j++) mass[i] += matrix[i][j];
-  }
-}
-
-/* Of linear tets they are the lumped mass. */
-void corot_mass_sum_rows(const corot_model *m, double (*nodal)[3]) {
-  bool differ = m->mass_pair && solid_of(m)->elements.kind->order > 1;
-  add_shares(m, differ ? row_sums : corot_element_lumped, nodal);
 }
 
 /* Of the held nodes too. */
@@ -74,8 +55,38 @@ static corot_status lump(const corot_model_def *def, corot_model *m) {
   return status;
 }
 
-/* The pairs of a consistent mass. */
-static corot_status couple(corot_model *m) {
+/* [nnode] whether the velocity of the node jumps; NULL: no memory. */
+static bool *mark_jolted(const corot_model *m) {
+  bool *jolted = calloc(m->mesh->nnode, sizeof *jolted);
+  for (int k = 0; jolted && k < m->nmotion; k++)
+    for (int i = 0; i < m->motion[k].nnode; i++)
+      jolted[m->motion[k].node[i]] = corot_motion_jolts(&m->motion[k]);
+  return jolted;
+}
+
+/* Whether the element in lane l of block b has a node whose velocity jumps. */
+static bool lumped_at(const element_set *t, int b, int l, const bool *jolted) {
+  for (int a = 0; a < t->kind->nnode; a++)
+    if (jolted[nodes_at(t, b, a)[l]]) return true;
+  return false;
+}
+
+/* The mass between the nodes of an element, lumped beside nodes whose velocity jumps. */
+static void share_mass(const corot_model *m, int b, int l, const bool *jolted,
+                       double mass[KIND_NODES][KIND_NODES]) {
+  const element_set *t = &solid_of(m)->elements;
+  double density = m->material[t->block[b].material].density, part[KIND_NODES];
+  if (!lumped_at(t, b, l, jolted)) {
+    corot_element_mass(m->mesh, t, b, l, density, mass);
+    return;
+  }
+  corot_element_lumped(m->mesh, t, b, l, density, part);
+  memset(mass, 0, KIND_NODES * sizeof *mass);
+  for (int i = 0; i < t->kind->nnode; i++) mass[i][i] = part[i];
+}
+
+/* The pairs of a consistent mass, lumped beside nodes whose velocity jumps. */
+static corot_status couple(corot_model *m, const bool *jolted) {
   const pattern *p = &solid_of(m)->pattern;
   m->mass_pair = calloc(p->nblock, sizeof *m->mass_pair);
   if (m->mass_damped) m->damping_pair = calloc(p->nblock, sizeof *m->damping_pair);
@@ -87,7 +98,7 @@ static corot_status couple(corot_model *m) {
     const material *mat = &m->material[t->block[b].material];
     for (int l = 0; l < t->block[b].n; l++) {
       double mass[KIND_NODES][KIND_NODES];
-      corot_element_mass(m->mesh, t, b, l, mat->density, mass);
+      share_mass(m, b, l, jolted, mass);
       for (int k = 0; k < npair + t->kind->nnode; k++) {
         int i = k < npair ? t->kind->pair[k][0] : k - npair;
         int j = k < npair ? t->kind->pair[k][1] : i;
@@ -103,7 +114,35 @@ static corot_status couple(corot_model *m) {
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m) {
   bool automatic = def->mass == COROT_MASS_AUTO && m->mesh->mid;
   COROT_TRY(lump(def, m));
-  return automatic || def->mass == COROT_MASS_CONSISTENT ? couple(m) : COROT_OK;
+  if (!automatic && def->mass != COROT_MASS_CONSISTENT) return COROT_OK;
+  bool *jolted = mark_jolted(m);
+  if (!jolted) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", m->mesh->nnode);
+  corot_status status = couple(m, jolted);
+  free(jolted);
+  return status;
+}
+
+static void add_row_sums(const corot_model *m, const bool *jolted, double (*nodal)[3]) {
+  const element_set *t = &solid_of(m)->elements;
+  for (int b = 0; b < t->nblock; b++)
+    for (int l = 0; l < t->block[b].n; l++) {
+      double mass[KIND_NODES][KIND_NODES];
+      share_mass(m, b, l, jolted, mass);
+      for (int i = 0; i < t->kind->nnode; i++)
+        for (int j = 0; j < t->kind->nnode; j++) nodal[nodes_at(t, b, i)[l]][0] += mass[i][j];
+    }
+}
+
+corot_status corot_mass_sum_rows(const corot_model *m, double (*nodal)[3]) {
+  if (!m->mass_pair || solid_of(m)->elements.kind->order == 1) {
+    corot_mass_lump(m, nodal);
+    return COROT_OK;
+  }
+  bool *jolted = mark_jolted(m);
+  if (!jolted) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", m->mesh->nnode);
+  add_row_sums(m, jolted, nodal);
+  free(jolted);
+  return COROT_OK;
 }
 
 corot_mass corot_model_mass_kind(const corot_model *m) {

@@ -89,7 +89,8 @@ size_t corot_model_bytes(const corot_model *m) {
   }
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
-    bytes += sizeof *a + a->nnode * sizeof *a->node + a->nspan * sizeof *a->span;
+    bytes += sizeof *a + a->nnode * sizeof *a->node + a->nspan * sizeof *a->span +
+             a->ndrag * sizeof *a->drag;
     for (int i = 0; i < a->nlaw; i++)
       bytes += sizeof *a->law + corot_amplitude_bytes(&a->law[i].amplitude);
   }

@@ -37,6 +37,13 @@ typedef struct motion_law {
   amplitude amplitude;
 } motion_law;
 
+/* What of a consistent mass and of its damping couples one free degree of freedom to the nodes of a
+   motion: times the two fields of which their velocities are made (motion.c), and summed. */
+typedef struct motion_drag {
+  int dof, component;
+  double mass[2], damping[2];
+} motion_drag;
+
 /* Nodes on a prescribed path: turning about one axis, or translating, span after span, and by the
    sum of its laws. */
 typedef struct motion {
@@ -50,6 +57,8 @@ typedef struct motion {
   motion_span *span; /* [nspan] */
   int nlaw;
   motion_law *law; /* [nlaw] */
+  int ndrag;
+  motion_drag *drag; /* [ndrag] ascending in dof */
 } motion;
 
 struct corot_model {
@@ -109,9 +118,9 @@ corot_status corot_mass_create(const corot_model_def *def, corot_model *m);
    included, and nothing. */
 void corot_mass_lump(const corot_model *m, double (*nodal)[3]);
 
-/* nodal [nnode] += the row sums of the mass in use, of every node: what a uniform acceleration
-   takes [kg], and the mass damping [kg/s], and nothing. */
-void corot_mass_sum_rows(const corot_model *m, double (*nodal)[3]);
+/* The first column of nodal [nnode] += the row sums of the mass in use, of every node: what a
+   uniform acceleration takes [kg]. Of linear tets they are the lumped mass. The rest is scratch. */
+corot_status corot_mass_sum_rows(const corot_model *m, double (*nodal)[3]);
 
 /* f -= C v for the matrix C of the mass damping; nothing if there is none. */
 void corot_mass_damp(const corot_model *m, const double *v, double *f);
@@ -123,7 +132,7 @@ void corot_mass_damping_matrix(const corot_model *m, double (*D)[9]);
 corot_status corot_loads_create(const corot_model_def *def, corot_model *m);
 void corot_loads_destroy(corot_model *m);
 
-/* f [ndof] = the external force, on the body displaced by u [nnode]. */
+/* f [ndof] = the external force, on the body displaced by u [nnode], with the drag of motions. */
 void corot_loads_force(const corot_model *m, const instant *now, const double (*u)[4], double *f);
 
 /* Whether that depends on u. */
@@ -136,6 +145,21 @@ void corot_loads_derivative(const corot_model *m, const instant *now, const doub
 /* m->motion from the definition; marks the nodes' components in `held`. */
 corot_status corot_motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]);
 void corot_motions_destroy(corot_model *m);
+
+/* Whether the velocity of a motion jumps. */
+bool corot_motion_jolts(const motion *a);
+
+/* The drag of each motion, once the mass is known: nothing where this is lumped. */
+corot_status corot_drags_create(corot_model *m);
+
+/* f [ndof] -= M_fs a_s + C_fs v_s: what the accelerations and velocities of moving nodes s take
+   from the free ones by way of a consistent mass and its damping. */
+void corot_drags_apply(const corot_model *m, const instant *now, double *f);
+
+/* The two fields at X, in component c, and their factors in velocity and acceleration. */
+void corot_motion_fields(const motion *a, const double X[3], int c, double field[2]);
+void corot_motion_factors(const motion *a, const instant *now, double velocity[3][2],
+                          double acceleration[3][2]);
 
 /* A rigid motion at a constant rate. */
 typedef struct rigid_motion {

@@ -205,6 +205,7 @@ void corot_motions_destroy(corot_model *m) {
     for (int i = 0; i < m->motion[k].nlaw; i++)
       corot_amplitude_clear(&m->motion[k].law[i].amplitude);
     free(m->motion[k].law);
+    free(m->motion[k].drag);
   }
   free(m->motion);
 }
@@ -212,6 +213,7 @@ void corot_motions_destroy(corot_model *m) {
 /* Where a motion stands at t, and how fast it goes, at an instant. */
 typedef struct progress {
   double angle, rate, shift[3], velocity[3];
+  double speeding, acceleration[3]; /* what rate and velocity change by [rad/s^2], [m/s^2] */
 } progress;
 
 static progress progress_at(const motion *a, const instant *now) {
@@ -235,11 +237,14 @@ static progress progress_at(const motion *a, const instant *now) {
     const motion_law *l = &a->law[k];
     double factor = corot_amplitude_at(&l->amplitude, phase, t);
     double change = corot_amplitude_rate(&l->amplitude, phase, t);
+    double second = corot_amplitude_second(&l->amplitude, phase, t);
     p.angle += factor * l->angle;
     p.rate += change * l->angle;
+    p.speeding += second * l->angle;
     for (int c = 0; c < 3; c++) {
       p.shift[c] += factor * l->direction[c];
       p.velocity[c] += change * l->direction[c];
+      p.acceleration[c] += second * l->direction[c];
     }
   }
   return p;
@@ -290,6 +295,33 @@ void corot_model_velocity(const corot_model *m, const instant *now, const double
         nodal[a->node[i] * stride + c] =
             a->turns ? p.rate * (cosine * w[c] + sine * d[c]) : p.velocity[c];
     }
+  }
+}
+
+bool corot_motion_jolts(const motion *a) {
+  bool any = a->nspan > 0;
+  for (int k = 0; k < a->nlaw; k++) any |= corot_amplitude_nkink(&a->law[k].amplitude) > 0;
+  return any;
+}
+
+/* Of a turn w and d of spin_arms, of a translation one and nothing. */
+void corot_motion_fields(const motion *a, const double X[3], int c, double field[2]) {
+  double w[3], d[3];
+  spin_arms(a, X, w, d);
+  field[0] = a->turns ? w[c] : 1;
+  field[1] = a->turns ? d[c] : 0;
+}
+
+/* From u = sin(angle) w + (1 - cos(angle)) d by differentiation. */
+void corot_motion_factors(const motion *a, const instant *now, double velocity[3][2],
+                          double acceleration[3][2]) {
+  progress p = progress_at(a, now);
+  double cosine = cos(p.angle), sine = sin(p.angle), square = p.rate * p.rate;
+  for (int c = 0; c < 3; c++) {
+    velocity[c][0] = a->turns ? p.rate * cosine : p.velocity[c];
+    velocity[c][1] = a->turns ? p.rate * sine : 0;
+    acceleration[c][0] = a->turns ? p.speeding * cosine - square * sine : p.acceleration[c];
+    acceleration[c][1] = a->turns ? p.speeding * sine + square * cosine : 0;
   }
 }
 
