@@ -236,7 +236,7 @@ typedef struct corot_refinement {
 
    `refinement` may be NULL. COROT_EINVAL: nlevel is negative, there is no such diagonal, there would
    be too many tets, or ones so flat, or so strongly curved, that they are none. COROT_ENOMEM. It needs
-   up to 50 bytes a tet of the result while it works, 200 at order 2. */
+   up to 50 bytes a tet of the result while it works, 250 at order 2. */
 corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel, corot_diagonal diagonal,
                                corot_mesh **fine, corot_refinement **refinement);
 
