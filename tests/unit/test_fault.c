@@ -50,7 +50,7 @@ static void no_frequency(void) {
   def.nload = 1, load[0].amplitude = (corot_amplitude){.curve = COROT_CURVE_SINE};
 }
 static void no_viscosity(void) { def.strain = "green", def.viscosity = COROT_OBJECTIVE; }
-static void heavy(void) { def.mass = COROT_MASS_CONSISTENT, def.nmotion = 1; }
+static void no_mass(void) { def.mass = (corot_mass)9; }
 static void no_local(void) { def.dilatation = COROT_DILATATION_NODAL, def.dilatation_local = -1; }
 static void no_level(void) { def.hierarchy = &hierarchy, hierarchy.frame_level = 3; }
 static void no_coupling(void) {
@@ -79,7 +79,7 @@ static void a_rule_names_entry_and_field(void **state) {
       {third, {"load", 1, "amplitude.time", 3}},
       {no_frequency, {"load", 0, "amplitude.frequency"}},
       {no_viscosity, {"model", 0, "viscosity"}},
-      {heavy, {"model", 0, "mass", 0, "motion", 0}},
+      {no_mass, {"model", 0, "mass"}},
       {no_local, {"model", 0, "dilatation_local"}},
       {no_level, {"hierarchy", 0, "frame_level"}},
       {no_coupling, {"hierarchy", 0, "coupling"}},

@@ -48,7 +48,6 @@ static const struct {
 };
 enum { NSUPPORT = sizeof supports / sizeof *supports };
 
-/* Whether k moves along with i, the motion of the same group that `adds_to` it in the tests. */
 static bool turns(int k) {
   corot_motion_kind kind = supports[k].motion.kind;
   return kind == COROT_ROTATE || kind == COROT_TURN;
@@ -326,6 +325,7 @@ static void every_method_closes_the_ledger(void **state) {
     for (int s = 0; s < NMEASURE; s++) {
       const corot_strain_kind *strain = corot_strain_traits(s);
       double best[3], end[3], size;
+      if (k % 3 != 0 && s != k % NMEASURE) continue; /* all with a jolted one and two others */
       imbalance(strain->name, "arkode", &supports[k].motion, best);
       size = norm_max(3, best);
       for (int i = 0; (method = corot_method_at(i)); i++) {
