@@ -29,6 +29,11 @@ extern const int corot_edge_of_mid[6];
 /* x [n] = the middles of the straight edges. */
 void corot_edges_place(const corot_mesh *mesh, const corot_edges *edges, double (*x)[3]);
 
+/* Moves the middles of the edges of `fine`, whose corners are the nodes of `mesh` of order 2, from
+   the straight edges to where the shape functions of `mesh` have them; x [nnode + their number]. */
+corot_status corot_edges_bend(const corot_mesh *mesh, const corot_mesh *fine,
+                              const corot_edges *fine_edges, double (*x)[3]);
+
 /* The edge between two nodes, which must be one. */
 int corot_edges_find(const corot_edges *edges, int a, int b);
 
