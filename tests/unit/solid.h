@@ -80,30 +80,50 @@ static inline int order_of_test(void) {
   return order ? atoi(order) : 1;
 }
 
-/* The mesh with the nodes on its edges moved by up to h, so that they are curved, if order 2 is
-   asked for; else the mesh itself. */
-static inline corot_mesh *bent_edges(corot_mesh *mesh, double h) {
+/* The mesh of the order that is asked for, with straight edges; takes the mesh. */
+static inline corot_mesh *of_order(corot_mesh *mesh) {
   corot_mesh *raised;
-  uint64_t seed = 11;
   if (order_of_test() == 1) return mesh;
-  int from = mesh->nnode;
-  assert_ok(corot_mesh_change_order(mesh, 2, &raised));
-  for (int n = from; n < raised->nnode; n++)
-    for (int c = 0; c < 3; c++) raised->x[n][c] += h * noise(&seed);
+  assert_ok(corot_mesh_change_order(mesh, order_of_test(), &raised));
   corot_mesh_destroy(mesh);
   return raised;
 }
 
-/* A unit-size box whose nodes are moved, so that no two tets are alike. */
-static inline corot_mesh *crooked_box(int nx, int ny, int nz) {
+static inline corot_mesh *box_of_order(const corot_box *box) {
+  corot_mesh *mesh;
+  assert_ok(corot_mesh_box(box, &mesh));
+  return of_order(mesh);
+}
+
+/* Moves the nodes on the edges, if there are any, by up to h. */
+static inline void bend_edges(corot_mesh *mesh, double h) {
+  uint64_t seed = 11;
+  char *corner = calloc(mesh->nnode, 1);
+  for (int k = 0; k < 4 * mesh->ntet; k++) corner[mesh->tet[k / 4][k % 4]] = 1;
+  for (int n = 0; n < mesh->nnode; n++)
+    for (int c = 0; c < 3 && !corner[n]; c++) mesh->x[n][c] += h * noise(&seed);
+  free(corner);
+}
+
+static inline double crookedness(int nx, int nz) { return 0.08 / (nx > nz ? nx : nz); }
+
+/* A unit-size box whose corners are moved, so that no two tets are alike, with straight edges. */
+static inline corot_mesh *straight_box(int nx, int ny, int nz) {
   corot_box box = {.size = {1.0, 0.9, 1.1}, .cells = {nx, ny, nz}, .origin = {-0.3, 0.2, 0.1}};
   corot_mesh *mesh;
   assert_ok(corot_mesh_box(&box, &mesh));
   uint64_t seed = 7;
-  double h = 0.08 / (nx > nz ? nx : nz);
+  double h = crookedness(nx, nz);
   for (int n = 0; n < mesh->nnode; n++)
     for (int c = 0; c < 3; c++) mesh->x[n][c] += h * noise(&seed);
-  return bent_edges(mesh, 0.3 * h);
+  return of_order(mesh);
+}
+
+/* The same with curved edges, where the order has any. */
+static inline corot_mesh *crooked_box(int nx, int ny, int nz) {
+  corot_mesh *mesh = straight_box(nx, ny, nz);
+  bend_edges(mesh, 0.3 * crookedness(nx, nz));
+  return mesh;
 }
 
 static const corot_material soft = {

@@ -189,12 +189,13 @@ static void columns_hold_the_same_symmetric_matrix(void **state) {
   solid s = make("hybrid", 0);
   int nblock = corot_model_nblock(s.model);
   double(*K)[9] = malloc(2 * nblock * sizeof *K), (*D)[9] = K + nblock;
-  double *x = s.du, *y = calloc(4 * s.n, sizeof *y), *z = y + s.n, *d = z + s.n, *k = d + s.n;
+  double *x = s.du, *y = calloc(5 * s.n, sizeof *y), *z = y + s.n, *d = z + s.n, *k = d + s.n,
+         *mass = k + s.n;
   assert_ok(corot_jacobian(s.model, s.state, 0, s.u, s.v, COROT_TANGENT_EXACT, K, D));
   corot_block_multiply(s.model, (const double(*)[9])K, x, k);
   corot_block_multiply(s.model, (const double(*)[9])D, x, d);
-  const double *mass = corot_model_mass(s.model);
-  for (int i = 0; i < s.n; i++) k[i] = 2 * mass[i] * x[i] + 3 * d[i] + 5 * k[i];
+  corot_mass_multiply(s.model, x, mass);
+  for (int i = 0; i < s.n; i++) k[i] = 2 * mass[i] + 3 * d[i] + 5 * k[i];
 
   for (corot_triangle triangle = COROT_FULL; triangle <= COROT_LOWER; triangle++) {
     corot_csc *csc;

@@ -34,16 +34,24 @@ static void fill(int n, double *x, uint64_t seed) {
   for (int i = 0; i < n; i++) x[i] = noise(&seed);
 }
 
+/* Of elements whose lumped mass is not the sum of a row, all rows together. */
 static void rows_sum_to_the_lumped_mass(void **state) {
   (void)state;
   for (corot_mass kind = COROT_MASS_LUMPED; kind <= COROT_MASS_CONSISTENT; kind++) {
     body b = crooked(kind, false);
     assert_int_equal(corot_model_mass_kind(b.model), kind);
     const double *lumped = corot_model_mass(b.model);
-    double *one = vectors(&b, 2), *sum = one + b.n;
+    double *one = vectors(&b, 2), *sum = one + b.n, total[3] = {0}, whole[3] = {0};
     for (int i = 0; i < b.n; i++) one[i] = 1;
     corot_mass_multiply(b.model, one, sum);
-    for (int i = 0; i < b.n; i++) assert_close(sum[i], lumped[i], 1e-14, 0);
+    for (int c = 0; c < 3 && order_of_test() > 1; c++)
+      for (int i = c; i < b.n; i += 3) {
+        assert_above(lumped[i], 0);
+        total[c] += sum[i] - lumped[i], whole[c] += lumped[i];
+      }
+    for (int c = 0; c < 3; c++) assert_close(total[c], 0, 0, 1e-13 * whole[c]);
+    for (int i = 0; i < b.n && (order_of_test() == 1 || kind == COROT_MASS_LUMPED); i++)
+      assert_close(sum[i], lumped[i], 1e-14, 0);
     free(one), drop_body(&b);
   }
 }

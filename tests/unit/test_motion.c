@@ -286,17 +286,17 @@ static void a_turned_boundary_makes_stress_in_cauchy_only(void **state) {
   rotation(all.axis, theta, Q);
   for (int m = 0; m < NMEASURE; m++) {
     corot_mesh *mesh = crooked_box(3, 3, 3);
-    int ntri, *node = malloc(mesh->nnode * sizeof *node), nnode = 0, (*tri)[3];
-    assert_ok(corot_mesh_boundary(mesh, &ntri, &tri));
+    int *node = malloc(mesh->nnode * sizeof *node), nnode = 0;
     char *seen = calloc(mesh->nnode, 1);
-    for (int k = 0; k < 3 * ntri; k++) seen[tri[k / 3][k % 3]] = 1;
+    for (int g = 0; g < 6; g++) /* the sides */
+      for (int k = 0; k < mesh->group[g].nnode; k++) seen[mesh->group[g].node[k]] = 1;
     for (int n = 0; n < mesh->nnode; n++)
       if (seen[n]) node[nnode++] = n;
     assert_ok(corot_mesh_group_nodes(mesh, "skin", nnode, node));
-    free(seen), free(node), free(tri);
+    free(seen), free(node);
 
     body b = moved_body(mesh, measures[m], 1, &all);
-    assert_int_equal(b.n, 3 * 8);
+    assert_int_equal(b.n, 3 * (order_of_test() == 1 ? 8 : 5 * 5 * 5));
     double *u = calloc(3 * b.n, sizeof *u), *v = u + b.n, *r = v + b.n;
     for (int n = 0; n < mesh->nnode; n++)
       for (int c = 0; c < 3; c++) {

@@ -102,7 +102,7 @@ static void frames_come_from_where_they_are_said_to(void **state) {
   (void)state;
   for (int k = 0; k < NMEASURE; k++) {
     sample s = make(measures[k]);
-    int nblock = s.solid->elements.nblock;
+    int npoint = points_of(&s.solid->elements);
     double(*own)[4] = corot_vector_calloc(s.nnode, sizeof *own);
     force_sum first = {.r = own[0], .sign = 1}, given = {.r = s.f[0], .sign = 1};
     assert_ok(force(&s, &first));
@@ -111,7 +111,7 @@ static void frames_come_from_where_they_are_said_to(void **state) {
     /* turned back by a spin about z, and on again */
     const double age = 0.25, rate = 1.5;
     vec3 back = {{vd_all(0), vd_all(0), vd_all(-rate)}};
-    for (int b = 0; b < nblock; b++) {
+    for (int b = 0; b < npoint; b++) {
       s.state->R[b] = rotate_by(back, age, s.state->new_R[b]);
       s.state->spin[b] = (vec3){{vd_all(0), vd_all(0), vd_all(rate)}};
     }

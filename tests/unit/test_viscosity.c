@@ -5,7 +5,7 @@ static body free_box(const char *strain, corot_viscosity viscosity) {
   corot_model_def def = corot_model_defaults();
   def.strain = strain, def.nmaterial = 1, def.material = &soft;
   def.viscosity = viscosity;
-  return make_body(crooked_box(1, 1, 2), def);
+  return make_body(straight_box(1, 1, 2), def);
 }
 
 /* y = A x at all nodes of a free body, and V x. */

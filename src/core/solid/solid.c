@@ -45,6 +45,7 @@ size_t corot_solid_bytes(const solid *body) {
       (size_t)t->nblock * t->kind->nnode * sizeof *t->node +
       (size_t)points_of(t) * (sizeof *t->weight + (t->kind->nnode - 1) * sizeof *t->slope);
   bytes += corot_dilatation_bytes(&body->dilatation, t);
+  if (t->role) bytes += (size_t)t->nblock * t->kind->nnode * sizeof *t->role;
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
   return bytes +
          (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) * sizeof(int) +
