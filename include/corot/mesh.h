@@ -7,6 +7,14 @@
    some tet; 3 nnode and 4 ntet fit an int. Nodes and tets are numbered from 0 in the order of the
    file. Lengths are in metres.
 
+   A mesh is of order 1, four-node tets, or all of it of order 2, ten-node tets: these have a node on
+   each edge, too, and are the image of a tet under their ten shape functions, so that edges may be
+   curved. There each edge has one node, which all its tets share, which is on no other edge and no
+   tet's corner, and which is off the middle by at most half the distance of the ends; the Jacobian
+   determinant of the map is above 6e-12 times the cube of the longest edge at the ten nodes and at
+   the four points with barycentric coordinates (5 + 3 sqrt 5) / 20 and (5 - sqrt 5) / 20; 10 ntet
+   fits an int. Everything else that is said of tets, their faces and edges, is said of the corners.
+
    A complete program: tests/examples/mesh.c. */
 #ifndef COROT_MESH_H
 #define COROT_MESH_H
@@ -34,7 +42,7 @@ typedef struct corot_mesh {
   double (*x)[3]; /* [nnode] rest positions [m] */
   int ntet;
   int (*tet)[4]; /* [ntet] node numbers of the corners */
-  int (*mid)[6]; /* [ntet] ten-node tets: the nodes on the edges 01 12 02 03 13 23; NULL: linear ones */
+  int (*mid)[6]; /* [ntet] order 2: the nodes on the edges 01 12 02 03 13 23; NULL: order 1 */
   int ngroup;
   corot_group *group; /* [ngroup] distinct names */
 } corot_mesh;
@@ -43,6 +51,24 @@ typedef struct corot_mesh {
    COROT_EINVAL names the first node or tet that is not sound. COROT_ENOMEM. */
 corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const int (*tet)[4],
                                corot_mesh **mesh);
+
+/* The same of order 2: a tet has its corners, then the nodes on its edges 01 12 02 03 13 23, as in
+   VTK and Abaqus; gmsh's last two are the other way round. COROT_EINVAL and COROT_ENOMEM as above. */
+corot_status corot_mesh_create_order_2(int nnode, const double (*x)[3], int ntet,
+                                       const int (*tet)[10], corot_mesh **mesh);
+
+/* 1: four-node tets; 2: ten-node tets. */
+int corot_mesh_order(const corot_mesh *mesh);
+
+/* A copy of that order, with the same tets in all groups.
+
+   2 of 1: the middles of the edges follow the nodes, in ascending order of their two ends, as one
+   octasection would number and place them; a group takes those that it would take there.
+   1 of 2: the nodes on the edges are dropped, and the corners close up, so that curved edges become
+   straight; a group that had no others is dropped. The one undoes the other.
+
+   COROT_EINVAL: `order` is neither 1 nor 2, or the mesh is too large for order 2. COROT_ENOMEM. */
+corot_status corot_mesh_change_order(const corot_mesh *mesh, int order, corot_mesh **out);
 
 /* A copy with all groups. COROT_ENOMEM. */
 corot_status corot_mesh_copy(const corot_mesh *mesh, corot_mesh **copy);

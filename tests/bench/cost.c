@@ -5,7 +5,7 @@
 #include "core/ode/state.h"
 #include "core/solid/kernel.h"
 
-/* Operations of the pieces, each on one tet. */
+/* Operations of the pieces, each on one point of a tet. */
 enum {
   MUL = 27 + 18, /* product of two matrices */
   APPLY = 9 + 6, /* matrix times vector */
@@ -18,14 +18,32 @@ enum {
   COFACTOR = 9 * 3,
   DET = 5,                 /* with the cofactors at hand */
   DET_ALONE = 3 * 3 + DET, /* with one row of them */
-  GRADIENT = 9 + 27 + 18,  /* differences along three edges, times their gradients */
-  DEFORMATION = GRADIENT + 3,
   POLAR_STEP = COFACTOR + DET + DOT + 6 /* tests */ + 2 /* factor */ + 27 /* mean */,
   GRAM_SCHMIDT = 5 + 6 + 2 * (5 + 1 + 3) + 9,
   WARP_FRAME = MUL + GRAM_SCHMIDT + MUL + DET_ALONE,
-  NODAL_FORCES = 3 + 9 * 5 + 9, /* scale of the coefficients, three nodes, the fourth */
-  COLLECT = 12,                 /* sums at the nodes */
 };
+
+static const element_kind *kind_of(const specimen *s) { return solid_of(s->model)->elements.kind; }
+
+/* Of a field: differences to node 0, once, and at each point their sum times the gradients. */
+static double gradient_flops(const specimen *s) {
+  const element_kind *k = kind_of(s);
+  int others = k->nnode - 1;
+  return 3.0 * others + k->npoint * (9 * (2.0 * others - 1));
+}
+
+static double deformation_flops(const specimen *s) {
+  return gradient_flops(s) + 3 * kind_of(s)->npoint;
+}
+
+/* Scale of the coefficients, all nodes but the first, their sums over the points; then the first,
+   and the sums at the nodes of the mesh. */
+static double nodal_flops(const specimen *s) {
+  const element_kind *k = kind_of(s);
+  int others = k->nnode - 1;
+  return k->npoint * (3 + 15.0 * others) + (k->npoint - 1) * 3.0 * others + 3 * others +
+         3.0 * k->nnode;
+}
 
 static const strain_measure *measure(const specimen *s) {
   return &strain_measures[solid_of(s->model)->strain];
@@ -64,7 +82,7 @@ static double blocks(const specimen *s) {
   return e->nblock * block + points_of(e) * point;
 }
 static double frames(const specimen *s) {
-  return solid_of(s->model)->elements.nblock * (double)sizeof(mat3);
+  return points_of(&solid_of(s->model)->elements) * (double)sizeof(mat3);
 }
 static double dofs(const specimen *s) { return 12.0 * solid_of(s->model)->pattern.nnode; }
 
@@ -83,8 +101,10 @@ static double frame_bytes(const specimen *s, bool held) {
 
 cost cost_force(const specimen *s, bool held, double steps) {
   bool damped = solid_of(s->model)->damped;
-  double flops = DEFORMATION + frame_flops(measure(s), held, steps) + stress_flops(measure(s)) +
-                 (damped ? GRADIENT + viscous_flops() + ADD : 0) + NODAL_FORCES + COLLECT;
+  double point = frame_flops(measure(s), held, steps) + stress_flops(measure(s)) +
+                 (damped ? viscous_flops() + ADD : 0);
+  double flops = deformation_flops(s) + (damped ? gradient_flops(s) : 0) +
+                 kind_of(s)->npoint * point + nodal_flops(s);
   return (cost){
       .bytes = blocks(s) + frame_bytes(s, held) + slots(s) + dofs(s) + (damped ? 3 : 2) * vector(s),
       .flops = flops * s->ntet};
@@ -104,18 +124,20 @@ cost cost_jacobian(const specimen *s, bool exact, double steps) {
   double terms = 4 + dilatation_flops(m) + 1; /* coefficients, pressure */
   if (m->shear == BY_GRADIENT) terms += GRAM + strain_flops(BY_GRADIENT) + 2 * SCALE_SYMMETRIC;
   if (exact_polar) terms += MUL + 2 + COFACTOR + DET + SCALE + SCALE + 3 + 2 * MUL;
-  double vectors = 3 * APPLY * (m->pressure == m->shear ? 1 : 2) + 3 * 9;
+  const element_kind *kind = kind_of(s);
+  int others = kind->nnode - 1;
+  double vectors = others * APPLY * (m->pressure == m->shear ? 1 : 2) + 9 * (others - 1) + 9;
   double bases = 3 + 3 + 1 + SCALE_SYMMETRIC + 9 * 4; /* constant_bases */
   double pair = 5 + bases + 9;                        /* g_a . g_b, the block, its addition */
   if (m->pressure == BY_GRADIENT) pair += APPLY + 5 + 3;
   if (exact_polar) pair += 27 + 9 * 4;
   if (damped) pair += bases + 9;
-  double tet = DEFORMATION + frame_flops(m, false, steps) + terms + vectors +
-               element_kinds[TET4].npair * pair;
+  double tet = deformation_flops(s) +
+               kind->npoint * (frame_flops(m, false, steps) + terms + vectors + kind->npair * pair);
   double diagonal = (p->nblock - p->nnode) * 18.0 * (damped ? 2 : 1);
   return (cost){.bytes = blocks(s) + frame_bytes(s, false) +
-                         24.0 * W * solid_of(s->model)->elements.nblock + 4.0 * p->nblock +
-                         dofs(s) + vector(s) + (damped ? 2 : 1) * matrix(s),
+                         4.0 * kind->npair * W * solid_of(s->model)->elements.nblock +
+                         4.0 * p->nblock + dofs(s) + vector(s) + (damped ? 2 : 1) * matrix(s),
                 .flops = tet * s->ntet + diagonal};
 }
 
@@ -127,24 +149,29 @@ cost cost_jvp(const specimen *s, double steps) {
   double by_frame = m->shear == BY_FRAME ? 1 : 0;
   double elastic = viscous_flops() + strain_flops(m->shear) + dilatation_flops(m) + 1 + MUL + 27 +
                    ADD + by_frame * (DOT + 1 + SCALE + ADD + SYM_TMUL + MUL + SCALE + ADD);
-  double viscous = 2 * GRADIENT + viscous_flops() + 2 * (DOT + 1) + 27 + ADD + 2 * SYM_TMUL +
-                   2 * MUL + 2 * ADD + SCALE;
-  double tet = DEFORMATION + GRADIENT + frame_flops(m, false, steps) + frame + elastic +
-               (solid_of(s->model)->damped ? viscous + ADD : 0) + NODAL_FORCES + COLLECT;
+  double viscous =
+      viscous_flops() + 2 * (DOT + 1) + 27 + ADD + 2 * SYM_TMUL + 2 * MUL + 2 * ADD + SCALE;
+  bool damped = solid_of(s->model)->damped;
+  double point = frame_flops(m, false, steps) + frame + elastic + (damped ? viscous + ADD : 0);
+  double tet = deformation_flops(s) + (damped ? 3 : 1) * gradient_flops(s) +
+               kind_of(s)->npoint * point + nodal_flops(s);
   return (cost){.bytes = blocks(s) + frame_bytes(s, false) + slots(s) + dofs(s) + 5 * vector(s),
                 .flops = tet * s->ntet};
 }
 
 cost cost_frames(const specimen *s, double steps) {
-  return (cost){.bytes = blocks(s) + dofs(s) + vector(s) + frames(s) + frame_bytes(s, false),
-                .flops = (DEFORMATION + frame_flops(measure(s), false, steps)) * s->ntet};
+  return (cost){
+      .bytes = blocks(s) + dofs(s) + vector(s) + frames(s) + frame_bytes(s, false),
+      .flops = (deformation_flops(s) + kind_of(s)->npoint * frame_flops(measure(s), false, steps)) *
+               s->ntet};
 }
 
 cost cost_energy(const specimen *s, double steps) {
   const strain_measure *m = measure(s);
-  double tet = DEFORMATION + frame_flops(m, false, steps) + strain_flops(m->shear) +
-               dilatation_flops(m) + DOT + 7;
-  if (solid_of(s->model)->damped) tet += GRADIENT + viscous_flops() + DOT + 2;
+  bool damped = solid_of(s->model)->damped;
+  double point = frame_flops(m, false, steps) + strain_flops(m->shear) + dilatation_flops(m) + DOT +
+                 7 + (damped ? viscous_flops() + DOT + 2 : 0);
+  double tet = deformation_flops(s) + (damped ? gradient_flops(s) : 0) + kind_of(s)->npoint * point;
   return (cost){.bytes = blocks(s) + frame_bytes(s, false) + dofs(s) + 3 * vector(s) +
                          24.0 * solid_of(s->model)->pattern.nnode,
                 .flops = tet * s->ntet + 5.0 * s->n};
@@ -155,13 +182,12 @@ cost cost_combine(const specimen *s, const corot_csc *csc) {
                 .flops = 3.0 * csc->nnz + 2.0 * csc->n};
 }
 
-double cost_polar_steps(const specimen *s) {
-  const element_set *t = &solid_of(s->model)->elements;
-  corot_element_fields none = {0};
-  if (corot_elements(s->model, s->state, 0, s->u, &none) != COROT_OK) return 0; /* sets state->u */
+COROT_INLINE double polar_steps(const element_kind *kind, const element_set *t, nodal_field u) {
   double sum = 0;
-  for (int b = 0; b < t->nblock; b++) {
-    mat3 X = deformation(point_of(solid_of(s->model), b, 0), (nodal_field)s->state->u);
+  for (int at = 0; at < points_of(t); at++) {
+    int b = at / kind->npoint;
+    differences of_u = differences_of(point_at(kind, t, b, 0), u);
+    mat3 X = deformation(point_at(kind, t, b, at % kind->npoint), &of_u);
     for (int k = 0;; k++) { /* as in core/lanes/polar.h, strains this small being left unscaled */
       mat3 C = mat3_cofactor(X);
       vi rough = ~(mat3_dot(X, X) - 3 < 1e-8);
@@ -170,7 +196,14 @@ double cost_polar_steps(const specimen *s) {
       if (k > 0 && !vi_any(rough)) break;
     }
   }
-  return sum / t->nblock;
+  return sum / points_of(t);
+}
+
+double cost_polar_steps(const specimen *s) {
+  const element_set *t = &solid_of(s->model)->elements;
+  corot_element_fields none = {0};
+  if (corot_elements(s->model, s->state, 0, s->u, &none) != COROT_OK) return 0; /* sets state->u */
+  return OF_KIND(t, polar_steps, t, (nodal_field)s->state->u);
 }
 
 corot_status cost_direct(const corot_csc *full, bool cholesky, solver_cost *out) {

@@ -17,8 +17,8 @@ typedef struct cost {
   double data;         /* bytes of the data, where it is swept more than once; else 0 */
 } cost;
 
-/* Newton steps that the polar iteration takes for the solid, mean over all blocks of tets, each of
-   which waits for its slowest. */
+/* Newton steps that the polar iteration takes for the solid, mean over the points of all blocks,
+   each of which waits for its slowest. */
 double cost_polar_steps(const specimen *s);
 
 /* `steps` as above; looked at only where polar factors are found. */

@@ -37,55 +37,108 @@ static void ascending(const int tet[4], int node[4]) {
   }
 }
 
+/* The edge between two corners, as the mesh numbers its middles. */
+static const int edge_between[4][4] = {{0, 0, 2, 3}, {0, 0, 1, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}};
+
+void corot_tets_nodes(const corot_mesh *mesh, int tet, int node[KIND_NODES]) {
+  static const int end[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+  const int *corner = mesh->tet[tet];
+  ascending(corner, node);
+  if (!mesh->mid) return;
+  int at[4] = {0}; /* where the mesh has the corners */
+  for (int a = 0; a < 4; a++)
+    while (corner[at[a]] != node[a]) at[a]++;
+  for (int k = 0; k < 6; k++)
+    node[4 + k] = mesh->mid[tet][edge_between[at[end[k][0]]][at[end[k][1]]]];
+}
+
+/* Nodes of the lanes of a block by their roles. */
+typedef struct lane_nodes {
+  int node[KIND_NODES][W];
+} lane_nodes;
+
 /* The Jacobian of the map from the reference element at a point: J = sum_a (x_a - x_0) slope_a'. */
-static mat3 jacobian_at(const corot_mesh *mesh, const element_set *e, int b, int q) {
+static mat3 jacobian_at(const corot_mesh *mesh, const element_kind *kind, const lane_nodes *n,
+                        int q) {
   mat3 J;
   for (int l = 0; l < W; l++) {
-    const double *x0 = mesh->x[nodes_at(e, b, 0)[l]];
+    const double *x0 = mesh->x[n->node[0][l]];
     EACH_IJ {
       double sum = 0;
-      for (int a = 1; a < e->kind->nnode; a++)
-        sum += (mesh->x[nodes_at(e, b, a)[l]][i] - x0[i]) * e->kind->slope[q][a - 1][j];
+      for (int a = 1; a < kind->nnode; a++)
+        sum += (mesh->x[n->node[a][l]][i] - x0[i]) * kind->slope[q][a - 1][j];
       J.m[i][j][l] = sum;
     }
   }
   return J;
 }
 
-/* Rest gradients J^-T slope_a and weights: parts of |det J| / 6, the volume of a tet. */
-static void fill_point(const corot_mesh *mesh, int b, int q, element_set *e) {
+/* The gradients J^-T slope_a of a point by roles. */
+static void gradients_at(const element_kind *kind, int q, mat3 inverse, vd (*gradient)[3]) {
+  for (int c = 0; c < 3; c++) {
+    gradient[0][c] = vd_all(0);
+    for (int a = 1; a < kind->nnode; a++) {
+      vd sum = vd_all(0);
+      for (int k = 0; k < 3; k++) sum += inverse.m[k][c] * kind->slope[q][a - 1][k];
+      gradient[a][c] = sum;
+      gradient[0][c] -= sum;
+    }
+  }
+}
+
+/* Rest gradients and weights: parts of |det J| / 6, the volume of a tet. */
+static void fill_point(const corot_mesh *mesh, const lane_nodes *n, int b, int q, element_set *e) {
   const element_kind *kind = e->kind;
   int at = b * kind->npoint + q;
-  mat3 J = jacobian_at(mesh, e, b, q), C = mat3_cofactor(J);
-  vd det = mat3_det(J, C);
-  mat3 inverse = mat3_scale(1.0 / det, mat3_transpose(C));
+  mat3 J = jacobian_at(mesh, kind, n, q), C = mat3_cofactor(J);
+  vd det = mat3_det(J, C), gradient[KIND_NODES][3];
+  gradients_at(kind, q, mat3_scale(1.0 / det, mat3_transpose(C)), gradient);
   block_vd(*slope)[3] = e->slope + (size_t)at * (kind->nnode - 1);
-  for (int a = 1; a < kind->nnode; a++)
-    for (int c = 0; c < 3; c++)
-      for (int k = 0; k < 3; k++) slope[a - 1][c] += inverse.m[k][c] * kind->slope[q][a - 1][k];
-  for (int l = 0; l < W; l++)
+  for (int l = 0; l < W; l++) {
+    for (int a = 1; a < kind->nnode; a++)
+      for (int c = 0; c < 3; c++) slope[a - 1][c][l] = gradient[role_at(e, b, a, l)][c][l];
     e->weight[at][l] = l < e->block[b].n ? kind->part[q] * fabs(det[l]) / 6 : 0;
+  }
+}
+
+/* The roles of an element's nodes, which are sorted by their numbers; `node` is by roles. */
+static void sort_roles(int nnode, const int *node, int role[KIND_NODES]) {
+  for (int a = 0; a < nnode; a++) {
+    int at = a;
+    for (; at > 0 && node[role[at - 1]] > node[a]; at--) role[at] = role[at - 1];
+    role[at] = a;
+  }
 }
 
 static void fill_block(const corot_mesh *mesh, int b, element_set *e) {
+  int nnode = e->kind->nnode;
+  lane_nodes n;
   for (int l = 0; l < W; l++) {
-    int node[KIND_NODES];
-    ascending(mesh->tet[e->number[b * W + l]], node);
-    for (int a = 0; a < e->kind->nnode; a++) e->node[b * e->kind->nnode + a][l] = node[a];
+    int node[KIND_NODES], role[KIND_NODES];
+    corot_tets_nodes(mesh, e->number[b * W + l], node);
+    sort_roles(nnode, node, role);
+    for (int a = 0; a < nnode; a++) {
+      n.node[a][l] = node[a];
+      e->node[b * nnode + a][l] = node[role[a]];
+      if (e->role) e->role[b * nnode + a][l] = (unsigned char)role[a];
+    }
   }
-  for (int q = 0; q < e->kind->npoint; q++) fill_point(mesh, b, q, e);
+  for (int q = 0; q < e->kind->npoint; q++) fill_point(mesh, &n, b, q, e);
 }
 
 static corot_status allocate(int with_rest_basis, element_set *e) {
   size_t nblock = e->nblock, npoint = nblock * e->kind->npoint;
   e->block = calloc(nblock, sizeof *e->block);
   e->node = malloc(nblock * e->kind->nnode * sizeof *e->node);
+  bool roles = e->kind->order > 1;
+  if (roles) e->role = malloc(nblock * e->kind->nnode * sizeof *e->role);
   e->slope = corot_vector_calloc(npoint * (e->kind->nnode - 1), sizeof *e->slope);
   e->weight = corot_vector_calloc(npoint, sizeof *e->weight);
   e->number = malloc(nblock * W * sizeof *e->number);
   if (with_rest_basis) e->rest_basis = corot_vector_calloc(nblock, sizeof *e->rest_basis);
   bool all = e->block && e->node && e->slope && e->weight && e->number;
-  return all && (!with_rest_basis || e->rest_basis) ? COROT_OK : COROT_ENOMEM;
+  all = all && (e->role || !roles) && (e->rest_basis || !with_rest_basis);
+  return all ? COROT_OK : COROT_ENOMEM;
 }
 
 mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number) {
@@ -110,8 +163,8 @@ static void find_lowest(const corot_mesh *mesh, int together, int *lowest) {
 
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
                                int together, int with_rest_basis, element_set *out) {
-  element_set e = {.kind = &element_kinds[TET4]};
-  if (mesh->ntet > INT_MAX / (4 * 3) - W * nmaterial) /* slots in the force buffer */
+  element_set e = {.kind = &element_kinds[mesh->mid ? TET10 : TET4]};
+  if (mesh->ntet > INT_MAX / (e.kind->nnode * 3) - W * nmaterial) /* slots in the force buffer */
     return corot_fail(COROT_EINVAL, "%d tets exceed 32-bit counts", mesh->ntet);
   int ntet = mesh->ntet, nkey = mesh->nnode > nmaterial ? mesh->nnode : nmaterial;
   int *lowest = calloc(ntet, sizeof *lowest), *count = malloc((nkey + 1) * sizeof *count);
@@ -149,6 +202,7 @@ no_memory:
 void corot_tets_clear(element_set *e) {
   free(e->block);
   free(e->node);
+  free(e->role);
   free(e->slope);
   free(e->weight);
   free(e->number);

@@ -15,23 +15,32 @@ typedef struct element_block {
 
 /* The nodes of an element are in ascending order here, whatever the mesh says: then local node a >
    b means global node a > b, and the lower triangle of an element matrix is part of the lower
-   triangle of the whole. Lanes beyond a material's last element repeat it with weights of zero. */
+   triangle of the whole. The points of integration belong to the corners in ascending order: where
+   there are four, point q is the one near corner q. Lanes beyond a material's last element repeat
+   it with weights of zero. */
 typedef struct element_set {
   const element_kind *kind;
   int nblock;
-  element_block *block;   /* [nblock] */
-  int (*node)[W];         /* [nblock][kind->nnode] */
-  block_vd (*slope)[3];   /* [nblock][kind->npoint][kind->nnode - 1] rest gradients of the shape
-                             functions of nodes 1, 2, ... [1/m]; that of node 0 is minus their sum */
-  block_vd *weight;       /* [nblock][kind->npoint] rest volume that a point stands for [m^3] */
-  int *number;            /* [nblock * W] the number in the mesh; repeated in padding lanes */
-  block_mat3 *rest_basis; /* [nblock] Gram-Schmidt of the rest edges 0-1 and 0-2 in the mesh's own
-                             node order, on request; else NULL */
+  element_block *block;     /* [nblock] */
+  int (*node)[W];           /* [nblock][kind->nnode] */
+  unsigned char (*role)[W]; /* [nblock][kind->nnode] which of the kind's nodes each is, the corners
+                               ascending; NULL: node a is the kind's node a */
+  block_vd (*slope)[3];     /* [nblock][kind->npoint][kind->nnode - 1] rest gradients of the shape
+                               functions of nodes 1, 2, ... [1/m]; that of node 0 is minus their sum */
+  block_vd *weight;         /* [nblock][kind->npoint] rest volume that a point stands for [m^3] */
+  int *number;              /* [nblock * W] the number in the mesh; repeated in padding lanes */
+  block_mat3 *rest_basis;   /* [nblock] Gram-Schmidt of the rest edges 0-1 and 0-2 in the mesh's own
+                               node order, on request; else NULL */
 } element_set;
 
 /* The lanes' node a of block b. */
 static inline const int *nodes_at(const element_set *e, int b, int a) {
   return e->node[b * e->kind->nnode + a];
+}
+
+/* Which of the kind's nodes that is in a lane. */
+static inline int role_at(const element_set *e, int b, int a, int lane) {
+  return e->role ? e->role[b * e->kind->nnode + a][lane] : a;
 }
 
 /* How many points there are, of blocks. */
@@ -84,6 +93,17 @@ COROT_INLINE void gather_node(point_lanes p, int a, const double (*x)[4], vd out
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
                                int together, int with_rest_basis, element_set *out);
 void corot_tets_clear(element_set *e);
+
+/* The nodes of a tet of the mesh by their roles: its corners ascending, then, if it has any, the
+   middles of their edges. */
+void corot_tets_nodes(const corot_mesh *mesh, int tet, int node[KIND_NODES]);
+
+/* The mass of one element of block b, of that density [kg/m^3]: between each two of its nodes, the
+   same in each component, and lumped. Curved elements are integrated numerically. */
+void corot_element_mass(const corot_mesh *mesh, const element_set *e, int b, int lane,
+                        double density, double mass[KIND_NODES][KIND_NODES]);
+void corot_element_lumped(const corot_mesh *mesh, const element_set *e, int b, int lane,
+                          double density, double mass[KIND_NODES]);
 
 /* The rest basis of one block. */
 block_mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number);

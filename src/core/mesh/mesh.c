@@ -14,15 +14,11 @@ static corot_status copy_arrays(corot_mesh *mesh, int nnode, const double (*x)[3
   return COROT_OK;
 }
 
-corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const int (*tet)[4],
-                               corot_mesh **mesh) {
+/* Hands out `m` if `status` is COROT_OK and it is sound, and destroys it otherwise. */
+static corot_status finish(corot_status status, corot_mesh *m, corot_mesh **mesh) {
   const corot_mesh_names names = {.tet = "tet"};
   corot_mesh_place place;
   corot_face *face = NULL;
-  corot_mesh *m;
-  COROT_TRY(corot_mesh_check_counts(nnode, ntet));
-  COROT_TRY(COROT_ALLOC(m, 1));
-  corot_status status = copy_arrays(m, nnode, x, ntet, tet);
   if (!status) status = corot_mesh_check(m, &names, &place, &face);
   free(face);
   if (status)
@@ -30,6 +26,37 @@ corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const 
   else
     *mesh = m;
   return status;
+}
+
+corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const int (*tet)[4],
+                               corot_mesh **mesh) {
+  corot_mesh *m;
+  COROT_TRY(corot_mesh_check_counts(nnode, ntet));
+  COROT_TRY(COROT_ALLOC(m, 1));
+  return finish(copy_arrays(m, nnode, x, ntet, tet), m, mesh);
+}
+
+static corot_status copy_arrays_2(corot_mesh *mesh, int nnode, const double (*x)[3], int ntet,
+                                  const int (*tet)[10]) {
+  mesh->nnode = nnode;
+  mesh->ntet = ntet;
+  COROT_TRY(COROT_ALLOC(mesh->x, nnode));
+  COROT_TRY(COROT_ALLOC(mesh->tet, ntet));
+  COROT_TRY(COROT_ALLOC(mesh->mid, ntet));
+  memcpy(mesh->x, x, (size_t)nnode * sizeof *x);
+  for (int e = 0; e < ntet; e++) {
+    memcpy(mesh->tet[e], tet[e], sizeof *mesh->tet);
+    memcpy(mesh->mid[e], tet[e] + 4, sizeof *mesh->mid);
+  }
+  return COROT_OK;
+}
+
+corot_status corot_mesh_create_order_2(int nnode, const double (*x)[3], int ntet,
+                                       const int (*tet)[10], corot_mesh **mesh) {
+  corot_mesh *m;
+  COROT_TRY(corot_mesh_check_counts(nnode, ntet));
+  COROT_TRY(COROT_ALLOC(m, 1));
+  return finish(copy_arrays_2(m, nnode, x, ntet, tet), m, mesh);
 }
 
 void corot_group_clear(corot_group *group) {

@@ -16,6 +16,9 @@
 /* Local nodes of the face opposite to node k, winding outward. */
 extern const int corot_tet_face[4][3];
 
+/* The ends of the edges, in the order of corot_mesh.mid. */
+extern const int corot_tet_edge[6][2];
+
 /* A face of a tet. */
 typedef struct corot_face {
   int v[3]; /* nodes, ascending */
@@ -66,7 +69,7 @@ corot_status corot_mesh_check_counts(int nnode, int ntet);
 corot_status corot_mesh_check(const corot_mesh *mesh, const corot_mesh_names *names,
                               corot_mesh_place *place, corot_face **face);
 
-/* Whether all tets have a positive volume and are not flat. */
+/* Whether all tets have a positive volume and are not flat, nor turned inside out. */
 corot_status corot_mesh_check_volumes(const corot_mesh *mesh);
 
 /* Whether a group may be called so: 1 to 127 bytes, no double quotes, no control characters. */
@@ -78,6 +81,12 @@ corot_status corot_mesh_group_marked(corot_mesh *mesh, const char *name, const c
                                      const int (*boundary)[3]);
 
 void corot_group_clear(corot_group *group);
+
+/* The Jacobian determinant, at barycentric coordinates `at`, of the map by the ten shape functions
+   from the tet with corners 0, e_x, e_y, e_z; and the volume, which is that of the image. */
+double corot_curved_determinant(const double (*x)[3], const int v[4], const int mid[6],
+                                const double at[4]);
+double corot_curved_volume(const double (*x)[3], const int v[4], const int mid[6]);
 
 /* The box that holds all nodes. */
 void corot_mesh_bounds(const corot_mesh *mesh, double min[3], double max[3]);

@@ -1,37 +1,11 @@
 /* Whether a mesh is sound, and if not, what exactly is wrong with it. */
-#include "mesh.h"
+#include "mesh_check.h"
 
 #include <limits.h>
 #include <math.h>
 #include <string.h>
 
 #define COORDINATE_MAX 1e100 /* so that the cube of an edge is finite */
-#define FLAT 1e-12           /* a volume up to this times the longest edge cubed is none */
-
-typedef struct check {
-  const corot_mesh *mesh;
-  const corot_mesh_names *names;
-  corot_mesh_place *place;
-} check;
-
-static long long node_name(const check *c, int i) {
-  return c->names->node_tag ? c->names->node_tag[i] : i;
-}
-
-static long long tet_name(const check *c, int e) {
-  return c->names->tet_tag ? c->names->tet_tag[e] : e;
-}
-
-/* Remembers where the fault is; the value is what is being checked, for messages. */
-static const char *at_node(const check *c, int i) {
-  *c->place = (corot_mesh_place){PLACE_NODE, i};
-  return "node";
-}
-
-static const char *at_tet(const check *c, int e) {
-  *c->place = (corot_mesh_place){PLACE_TET, e};
-  return c->names->tet;
-}
 
 corot_status corot_mesh_check_counts(int nnode, int ntet) {
   if (nnode < 0 || ntet < 0)
@@ -88,7 +62,7 @@ static corot_status check_volume(const check *c, int e) {
   if (!(volume > least))
     return corot_fail(COROT_EINVAL, "%s %lld is flat: its volume is %g, its longest edge %g",
                       at_tet(c, e), tet_name(c, e), volume, edge);
-  return COROT_OK;
+  return c->mesh->mid ? corot_check_map(c, e, edge) : COROT_OK;
 }
 
 corot_status corot_mesh_check_volumes(const corot_mesh *mesh) {
@@ -104,6 +78,8 @@ static corot_status check_use(const check *c) {
   COROT_TRY(COROT_ALLOC(used, c->mesh->nnode));
   for (int e = 0; e < c->mesh->ntet; e++)
     for (int k = 0; k < 4; k++) used[c->mesh->tet[e][k]] = 1;
+  for (int e = 0; c->mesh->mid && e < c->mesh->ntet; e++)
+    for (int k = 0; k < 6; k++) used[c->mesh->mid[e][k]] = 1;
   const char *unused = memchr(used, 0, (size_t)c->mesh->nnode);
   int i = unused ? (int)(unused - used) : -1;
   free(used);
@@ -163,9 +139,15 @@ corot_status corot_mesh_check(const corot_mesh *mesh, const corot_mesh_names *na
   *place = (corot_mesh_place){PLACE_MESH, 0};
   COROT_TRY(corot_mesh_check_counts(mesh->nnode, mesh->ntet));
   COROT_TRY(check_coordinates(&c));
-  for (int e = 0; e < mesh->ntet; e++) {
-    COROT_TRY(check_corners(&c, e));
-    COROT_TRY(check_volume(&c, e));
+  if (mesh->mid) {
+    for (int e = 0; e < mesh->ntet; e++) COROT_TRY(check_corners(&c, e));
+    COROT_TRY(corot_check_middles(&c));
+    for (int e = 0; e < mesh->ntet; e++) COROT_TRY(check_volume(&c, e));
+  } else {
+    for (int e = 0; e < mesh->ntet; e++) {
+      COROT_TRY(check_corners(&c, e));
+      COROT_TRY(check_volume(&c, e));
+    }
   }
   COROT_TRY(check_use(&c));
   COROT_TRY(corot_faces_sort(mesh->nnode, mesh->ntet, (const int(*)[4])mesh->tet, &f));

@@ -118,7 +118,7 @@ static double body_length(const corot_model *m) {
       double whole = volume_at(t, b, l);
       volume += whole;
       for (int a = 0; a < t->kind->nnode; a++) {
-        double part = whole * t->kind->lumped[a] / t->kind->lumped_over;
+        double part = whole * t->kind->lumped[role_at(t, b, a, l)] / t->kind->lumped_over;
         for (int c = 0; c < 3; c++) moment[c] += part * x[nodes_at(t, b, a)[l]][c];
       }
     }

@@ -3,7 +3,8 @@
 
    The shares of an element's nodes and pairs of nodes are those of its kind: of a tet of mass m,
    with linear shape functions, m/10 on the diagonal and m/20 beside it, the same in each component;
-   a row sums to m/4, and that is what lumping puts on the diagonal. */
+   a row sums to m/4, and that is what lumping puts on the diagonal. Of ten-node tets the row sums
+   of corners are negative: these are lumped in proportion to the diagonal. */
 #include <stdlib.h>
 
 #include "model.h"
@@ -12,14 +13,15 @@ void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
   const element_set *t = &solid_of(m)->elements;
   for (int b = 0; b < t->nblock; b++) {
     const material *mat = &m->material[t->block[b].material];
-    for (int l = 0; l < t->block[b].n; l++)
+    for (int l = 0; l < t->block[b].n; l++) {
+      double part[KIND_NODES];
+      corot_element_lumped(m->mesh, t, b, l, mat->density, part);
       for (int a = 0; a < t->kind->nnode; a++) {
-        double whole = mat->density * volume_at(t, b, l);
-        double part = whole * t->kind->lumped[a] / t->kind->lumped_over;
         int n = nodes_at(t, b, a)[l];
-        nodal[n][0] += part;
-        nodal[n][1] += part * mat->damping_mass;
+        nodal[n][0] += part[a];
+        nodal[n][1] += part[a] * mat->damping_mass;
       }
+    }
   }
 }
 
@@ -59,14 +61,17 @@ static corot_status couple(corot_model *m) {
   int npair = t->kind->npair;
   for (int b = 0; b < t->nblock; b++) {
     const material *mat = &m->material[t->block[b].material];
-    for (int l = 0; l < t->block[b].n; l++)
+    for (int l = 0; l < t->block[b].n; l++) {
+      double mass[KIND_NODES][KIND_NODES];
+      corot_element_mass(m->mesh, t, b, l, mat->density, mass);
       for (int k = 0; k < npair + t->kind->nnode; k++) {
-        int i = k < npair ? pair_row[k] : k - npair, j = k < npair ? pair_col[k] : i;
-        double part = mat->density * volume_at(t, b, l) * t->kind->mass[i][j] / t->kind->mass_over;
+        int i = k < npair ? t->kind->pair[k][0] : k - npair;
+        int j = k < npair ? t->kind->pair[k][1] : i;
         int at = k < npair ? p->place[b * npair + k][l] : p->colptr[nodes_at(t, b, i)[l]];
-        m->mass_pair[at] += part;
-        if (m->mass_damped) m->damping_pair[at] += part * mat->damping_mass;
+        m->mass_pair[at] += mass[i][j];
+        if (m->mass_damped) m->damping_pair[at] += mass[i][j] * mat->damping_mass;
       }
+    }
   }
   return COROT_OK;
 }

@@ -33,9 +33,10 @@ COROT_INLINE void note_turns(point_lanes at, mat3 F, vi upright, double limit,
   }
 }
 
-COROT_INLINE void note_determinants(point_lanes at, vd det, corot_deformation *d) {
+/* `inverted`: at some point so far. */
+COROT_INLINE void note_determinants(point_lanes at, vd det, vi *inverted, corot_deformation *d) {
+  *inverted |= ~(det > vd_all(0));
   for (int l = 0; l < at.set->block[at.block].n; l++) {
-    d->ninverted += !(det[l] > 0);
     if (!(det[l] >= d->det_min)) d->det_min = det[l], d->det_tet = at.set->number[at.block * W + l];
   }
 }
@@ -44,22 +45,31 @@ COROT_INLINE void note_determinants(point_lanes at, vd det, corot_deformation *d
    smallest of those, so most tets need no eigenvalues. A turn by `angle` alone takes F from the
    identity by |F - I| = 2 sqrt(2) sin(angle/2), which is far enough above the angle that the small
    strains, to which turns are of interest, do not hide one. */
-static COROT_CLONES void deformation_loop(const solid *body, nodal_field u, double strain_limit,
-                                          double turn_limit, corot_deformation *d) {
+COROT_INLINE void deformation_loop(const element_kind *kind, const solid *body, nodal_field u,
+                                   double strain_limit, double turn_limit, corot_deformation *d) {
   double least = strain_limit - 0.5 * strain_limit * strain_limit;
-  for (int b = 0; b < body->elements.nblock; b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
-      mat3 F = deformation(at, u), C = mat3_gram(F);
+  for (int b = 0; b < body->elements.nblock; b++) {
+    differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
+    vi inverted = {0};
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
+      mat3 F = deformation(at, &of_u), C = mat3_gram(F);
       vd det = mat3_det(F, mat3_cofactor(F));
       mat3 twice_e = mat3_add_identity(C, vd_all(-1)), H = mat3_add_identity(F, vd_all(-1));
       vi upright = det > vd_all(0);
       vi strained = upright & (mat3_dot(twice_e, twice_e) > vd_all(4 * least * least));
       vi turned = upright & (mat3_dot(H, H) > vd_all(turn_limit * turn_limit));
-      note_determinants(at, det, d);
+      note_determinants(at, det, &inverted, d);
       if (vi_any(strained)) note_stretches(at, C, strained, strain_limit, d);
       if (vi_any(turned)) note_turns(at, F, turned, turn_limit, d);
     }
+    for (int l = 0; l < body->elements.block[b].n; l++) d->ninverted += inverted[l] != 0;
+  }
+}
+
+static COROT_CLONES void measure_deformation(const solid *body, nodal_field u, double strain_limit,
+                                             double turn_limit, corot_deformation *d) {
+  OF_KIND(&body->elements, deformation_loop, body, u, strain_limit, turn_limit, d);
 }
 
 void corot_deformation_measure(const corot_model *m, corot_state *s, double t, const double *u,
@@ -67,7 +77,7 @@ void corot_deformation_measure(const corot_model *m, corot_state *s, double t, c
   corot_deformation d = {.stretch_min = 1, .stretch_max = 1, .det_min = INFINITY, .det_tet = -1};
   const instant now = corot_state_at(s, t);
   const solid *body = solid_of(m);
-  deformation_loop(body, corot_state_displace(m, s, &now, u), strain_limit, turn_limit, &d);
+  measure_deformation(body, corot_state_displace(m, s, &now, u), strain_limit, turn_limit, &d);
   double volume = 0;
   for (int b = 0; b < body->elements.nblock; b++)
     for (int l = 0; l < body->elements.block[b].n; l++) volume += volume_at(&body->elements, b, l);

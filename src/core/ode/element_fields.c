@@ -20,43 +20,74 @@ COROT_INLINE vd von_mises_of(mat3 A) {
   return square;
 }
 
-COROT_INLINE void store_lane(const corot_element_fields *f, int tet, int l, mat3 R, mat3 e,
-                             vd mises, vd det) {
-  static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
-  if (f->frame) mat3_store(R, l, f->frame[tet]);
-  if (f->strain)
-    for (int k = 0; k < 6; k++) f->strain[tet][k] = e.m[ij[k][0]][ij[k][1]][l];
-  if (f->von_mises) f->von_mises[tet] = mises[l];
-  if (f->det) f->det[tet] = det[l];
+/* What is shown of a point, and of the elements after it. */
+typedef struct shown {
+  mat3 R, e;
+  vd mises, det;
+} shown;
+
+/* Means over the points so far, weighted by their volumes; the frame is the first one's, and the
+   determinant the least. */
+COROT_INLINE shown mean_of(shown all, shown point, vd before, vd weight) {
+  vd part = weight / (before + weight);
+  all.e = mat3_sum(1 - part, all.e, part, point.e);
+  all.mises = (1 - part) * all.mises + part * point.mises;
+  all.det = vd_select(point.det < all.det, point.det, all.det);
+  return all;
 }
 
-/* At the first point of each element. Unlike the loops in kernel.h it goes on after an inversion:
- * the other tets are still worth seeing. */
-static COROT_CLONES int elements_loop(const solid *body, const solid_state *s, nodal_field u,
-                                      const corot_element_fields *fields) {
+COROT_INLINE void store_lane(const corot_element_fields *f, int tet, int l, const shown *s) {
+  static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
+  if (f->frame) mat3_store(s->R, l, f->frame[tet]);
+  if (f->strain)
+    for (int k = 0; k < 6; k++) f->strain[tet][k] = s->e.m[ij[k][0]][ij[k][1]][l];
+  if (f->von_mises) f->von_mises[tet] = s->mises[l];
+  if (f->det) f->det[tet] = s->det[l];
+}
+
+COROT_INLINE shown show_point(const solid *body, const solid_state *s, point_lanes at,
+                              const differences *of_u, vi *inverted) {
   const strain_measure *measure = &strain_measures[body->strain];
-  bool linear = strain_is_linear(measure);
+  const material *mat = &body->material[material_of(at)];
+  mat3 F = deformation(at, of_u);
+  mat3 R = frame_in_use(measure, &s->frames, at, F, inverted);
+  vd lambda = vd_all(mat->lambda), mu = vd_all(mat->mu);
+  mat3 P = body->dilatation.npool
+               ? stress_at_pressure(measure, lambda * s->dilatation[index_of(at)], mu, F, R)
+               : stress(measure, lambda, mu, F, R);
+  /* from P to the stress on the deformed body */
+  vd det = mat3_det(F, mat3_cofactor(F));
+  mat3 cauchy =
+      strain_is_linear(measure) ? P : mat3_scale(1.0 / det, mat3_mul(P, mat3_transpose(F)));
+  return (shown){R, strain_of(measure->shear, F, R), von_mises_of(cauchy), det};
+}
+
+/* Unlike the loops in kernel.h it goes on after an inversion: the other tets are still worth
+   seeing. */
+COROT_INLINE int elements_loop(const element_kind *kind, const solid *body, const solid_state *s,
+                               nodal_field u, const corot_element_fields *fields) {
   int first = -1;
   for (int b = 0; b < body->elements.nblock; b++) {
-    point_lanes at = point_of(body, b, 0);
-    const material *mat = &body->material[material_of(at)];
+    differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
     vi inverted = {0};
-    mat3 F = deformation(at, u);
-    mat3 R = frame_in_use(measure, &s->frames, at, F, &inverted);
-    vd lambda = vd_all(mat->lambda), mu = vd_all(mat->mu);
-    mat3 P = body->dilatation.npool
-                 ? stress_at_pressure(measure, lambda * s->dilatation[index_of(at)], mu, F, R)
-                 : stress(measure, lambda, mu, F, R);
-    /* from P to the stress on the deformed body */
-    vd det = mat3_det(F, mat3_cofactor(F));
-    mat3 cauchy = linear ? P : mat3_scale(1.0 / det, mat3_mul(P, mat3_transpose(F)));
-    vd mises = von_mises_of(cauchy);
-    mat3 e = strain_of(measure->shear, F, R);
+    vd volume = vd_all(0);
+    shown all;
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
+      shown point = show_point(body, s, at, &of_u, &inverted);
+      all = q == 0 ? point : mean_of(all, point, volume, weight_of(at));
+      volume += weight_of(at);
+    }
     for (int l = 0; l < body->elements.block[b].n; l++)
-      store_lane(fields, body->elements.number[b * W + l], l, R, e, mises, det);
+      store_lane(fields, body->elements.number[b * W + l], l, &all);
     if (first < 0) first = first_inverted(body, b, inverted);
   }
   return first;
+}
+
+static COROT_CLONES int show_elements(const solid *body, const solid_state *s, nodal_field u,
+                                      const corot_element_fields *fields) {
+  return OF_KIND(&body->elements, elements_loop, body, s, u, fields);
 }
 
 corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
@@ -68,6 +99,6 @@ corot_status corot_elements(const corot_model *m, corot_state *s, double t, cons
   corot_status above = corot_system_settle(&m->system, &s->system, age_of(s, t), all_u);
   if (above && above != COROT_RETRY) return above;
   corot_kernel_dilatation(body, of, all_u);
-  corot_status status = corot_solid_check(of, elements_loop(body, of, all_u, fields));
+  corot_status status = corot_solid_check(of, show_elements(body, of, all_u, fields));
   return status ? corot_system_told(&m->system, &s->system, 0, status) : above;
 }

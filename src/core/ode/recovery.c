@@ -7,8 +7,9 @@
      S : C^-1 : T = (S : T - nu/(1 + nu) tr S tr T) / (2 mu),  nu/(1 + nu) = lambda/(3 lambda + 2
    mu)
 
-   and the recovered stress is linear in a tet, S* = sum_a N_a S_a, so that the integral of
-   |S* - S|^2 is V/20 (|sum_a d_a|^2 + sum_a |d_a|^2), d_a = S_a - S. */
+   and the recovered stress is linear in a tet, S* = sum_a L_a S_a. So is S, constant in a linear
+   tet, so that the integral of |S* - S|^2 is V/20 (|sum_a d_a|^2 + sum_a |d_a|^2), d_a = S_a - S at
+   corner a. */
 #include <float.h>
 #include <stdlib.h>
 
@@ -66,20 +67,49 @@ static double energy_of(const material *mat, const stress6 *a) {
   return 0.5 * (square - pressure) / mat->mu;
 }
 
-/* Adds the stresses of a material's tets to their nodes. */
+/* Of each lane of a block the stresses at the corners, in the order of corot_tets_nodes: those of
+   its point or, where there is one near each corner, of the linear field through all four. */
+COROT_INLINE void stresses_of(const element_kind *kind, const recovery *r, int b,
+                              stress6 (*corner)[4]) {
+  const element_set *t = &r->body->elements;
+  differences of_u = differences_of(point_at(kind, t, b, 0), r->u);
+  for (int q = 0; q < kind->npoint; q++) {
+    mat3 F = deformation(point_at(kind, t, b, q), &of_u);
+    for (int l = 0; l < t->block[b].n; l++) corner[l][q] = stress_of(r, b, l, F);
+  }
+  for (int l = 0; l < t->block[b].n; l++) {
+    stress6 *s = corner[l], sum = {{0}};
+    if (kind->npoint == 1) {
+      s[1] = s[2] = s[3] = s[0];
+      continue;
+    }
+    for (int k = 0; k < 6; k++) {
+      for (int q = 0; q < 4; q++) sum.s[k] += s[q].s[k];
+      for (int q = 0; q < 4; q++)
+        s[q].s[k] = (s[q].s[k] - TET10_B * sum.s[k]) / (TET10_A - TET10_B);
+    }
+  }
+}
+
+static void find_stresses(const recovery *r, int b, stress6 (*corner)[4]) {
+  OF_KIND(&r->body->elements, stresses_of, r, b, corner);
+}
+
+/* Adds the stresses of a material's tets to their corners. */
 static void gather(const recovery *r, int which) {
   const element_set *t = &r->body->elements;
   for (int n = 0; n < r->body->mesh->nnode; n++) r->sum[n] = (stress6){{0}}, r->volume[n] = 0;
   for (int b = 0; b < t->nblock; b++) {
     if (t->block[b].material != which) continue;
-    mat3 F = deformation(point_of(r->body, b, 0), r->u);
+    stress6 corner[W][4];
+    find_stresses(r, b, corner);
     for (int l = 0; l < t->block[b].n; l++) {
       double volume = volume_at(t, b, l);
-      stress6 s = stress_of(r, b, l, F);
-      for (int a = 0; a < t->kind->nnode; a++) {
-        int n = nodes_at(t, b, a)[l];
-        for (int k = 0; k < 6; k++) r->sum[n].s[k] += volume * s.s[k];
-        r->volume[n] += volume;
+      int node[KIND_NODES];
+      corot_tets_nodes(r->body->mesh, t->number[b * W + l], node);
+      for (int a = 0; a < 4; a++) {
+        for (int k = 0; k < 6; k++) r->sum[node[a]].s[k] += volume * corner[l][a].s[k];
+        r->volume[node[a]] += volume;
       }
     }
   }
@@ -89,12 +119,23 @@ static void gather(const recovery *r, int which) {
    double precision leaves of either. */
 COROT_INLINE double rounding_of(const recovery *r, int b, int l) {
   const element_set *t = &r->body->elements;
-  point_lanes at = point_of(r->body, b, 0);
+  point_lanes at = point_at(t->kind, t, b, 0);
   double square = 0;
   for (int a = 1; a < t->kind->nnode; a++)
     for (int c = 0; c < 3; c++) square += slope_of(at, a, c)[l] * slope_of(at, a, c)[l];
   double e = 100 * DBL_EPSILON * (1 + r->moved * sqrt(square));
   return volume_at(t, b, l) * 2 * r->body->material[material_of(at)].mu * e * e;
+}
+
+/* The integral over a tet of the energy of a linear field, given at the corners. */
+static double energy_of_linear(const material *mat, double volume, const stress6 corner[4]) {
+  stress6 all = {{0}};
+  double each = 0;
+  for (int a = 0; a < 4; a++) {
+    for (int k = 0; k < 6; k++) all.s[k] += corner[a].s[k];
+    each += energy_of(mat, &corner[a]);
+  }
+  return volume / 20 * (energy_of(mat, &all) + each);
 }
 
 /* Adds what a material's tets differ by, and what their stresses amount to. */
@@ -103,22 +144,20 @@ static void compare(const recovery *r, int which, norms *sum) {
   const material *mat = &r->body->material[which];
   for (int b = 0; b < t->nblock; b++) {
     if (t->block[b].material != which) continue;
-    mat3 F = deformation(point_of(r->body, b, 0), r->u);
+    stress6 corner[W][4];
+    find_stresses(r, b, corner);
     for (int l = 0; l < t->block[b].n; l++) {
       double volume = volume_at(t, b, l);
-      stress6 s = stress_of(r, b, l, F), all = {{0}};
-      double each = 0;
-      for (int a = 0; a < t->kind->nnode; a++) {
-        int n = nodes_at(t, b, a)[l];
-        stress6 d;
-        for (int k = 0; k < 6; k++) {
-          d.s[k] = r->sum[n].s[k] / r->volume[n] - s.s[k];
-          all.s[k] += d.s[k];
-        }
-        each += energy_of(mat, &d);
-      }
-      sum->apart += volume / 20 * (energy_of(mat, &all) + each);
-      sum->whole += volume * energy_of(mat, &s);
+      const stress6 *s = corner[l];
+      stress6 apart[4];
+      int node[KIND_NODES];
+      corot_tets_nodes(r->body->mesh, t->number[b * W + l], node);
+      for (int a = 0; a < 4; a++)
+        for (int k = 0; k < 6; k++)
+          apart[a].s[k] = r->sum[node[a]].s[k] / r->volume[node[a]] - s[a].s[k];
+      sum->apart += energy_of_linear(mat, volume, apart);
+      sum->whole +=
+          t->kind->npoint == 1 ? volume * energy_of(mat, s) : energy_of_linear(mat, volume, s);
       sum->rounding += rounding_of(r, b, l);
     }
   }

@@ -1,33 +1,50 @@
-/* Which nodes share an average, and who contributes to it. */
+/* Which tets share an average, and who contributes to it. */
 #include "dilatation.h"
 
 #include <limits.h>
 #include <stdlib.h>
 
-/* Blocks of one material follow each other: a node's pool is new where its last one belongs to an
-   earlier material. */
-static corot_status number_pools(int nnode, const element_set *t, dilatation *d) {
-  int *material = malloc(nnode * sizeof *material), *last = malloc(nnode * sizeof *last);
-  int of_element = t->kind->nnode;
-  d->pool = malloc((size_t)t->nblock * of_element * sizeof *d->pool);
-  if (!material || !last || !d->pool) {
-    free(material), free(last);
-    return corot_fail(COROT_ENOMEM, "no memory for the averages of %d nodes", nnode);
-  }
-  for (int n = 0; n < nnode; n++) material[n] = -1;
+/* A pool for each element; lanes beyond the last repeat it. */
+static void number_elements(const element_set *t, dilatation *d) {
   for (int b = 0; b < t->nblock; b++) {
-    for (int a = 0; a < of_element; a++)
+    int n = t->block[b].n;
+    for (int l = 0; l < W; l++) d->pool[b][l] = d->npool + (l < n ? l : n - 1);
+    d->npool += n;
+  }
+}
+
+/* Blocks of one material follow each other: a node's pool is new where its last one belongs to an
+   earlier material. `material` and `last` [nnode] are scratch. */
+static void number_corners(const corot_mesh *mesh, const element_set *t, int *material, int *last,
+                           dilatation *d) {
+  for (int n = 0; n < mesh->nnode; n++) material[n] = -1;
+  for (int b = 0; b < t->nblock; b++) {
+    int node[W][KIND_NODES];
+    for (int l = 0; l < W; l++) corot_tets_nodes(mesh, t->number[b * W + l], node[l]);
+    for (int k = 0; k < d->per; k++)
       for (int l = 0; l < W; l++) {
-        int n = nodes_at(t, b, a)[l];
+        int n = node[l][k];
         if (material[n] != t->block[b].material) {
           material[n] = t->block[b].material;
           last[n] = d->npool++;
         }
-        d->pool[b * of_element + a][l] = last[n];
+        d->pool[b * d->per + k][l] = last[n];
       }
   }
+}
+
+static corot_status number_pools(const corot_mesh *mesh, const element_set *t, bool by_element,
+                                 dilatation *d) {
+  int nnode = mesh->nnode;
+  int *material = malloc(nnode * sizeof *material), *last = malloc(nnode * sizeof *last);
+  d->per = by_element ? 1 : 4;
+  d->pool = malloc((size_t)t->nblock * d->per * sizeof *d->pool);
+  bool room = material && last && d->pool;
+  if (room && by_element) number_elements(t, d);
+  if (room && !by_element) number_corners(mesh, t, material, last, d);
   free(material), free(last);
-  return COROT_OK;
+  return room ? COROT_OK
+              : corot_fail(COROT_ENOMEM, "no memory for the averages of %d nodes", nnode);
 }
 
 static corot_status weigh_pools(const element_set *t, const double *averaged, dilatation *d) {
@@ -36,9 +53,9 @@ static corot_status weigh_pools(const element_set *t, const double *averaged, di
   if (!d->volume || !d->lambda)
     return corot_fail(COROT_ENOMEM, "no memory for %d averages", d->npool);
   for (int b = 0; b < t->nblock; b++)
-    for (int a = 0; a < t->kind->nnode; a++)
+    for (int a = 0; a < d->per; a++)
       for (int l = 0; l < W; l++) {
-        int pool = pools_at(d, t, b, a)[l];
+        int pool = pools_at(d, b, a)[l];
         d->volume[pool] += volume_at(t, b, l);
         d->lambda[pool] = averaged[t->block[b].material];
       }
@@ -48,19 +65,19 @@ static corot_status weigh_pools(const element_set *t, const double *averaged, di
 /* Count, then fill: `next` is shifted by one while filling, in place after. */
 static corot_status list_tets(const element_set *t, dilatation *d) {
   size_t n = 0;
-  for (int b = 0; b < t->nblock; b++) n += (size_t)t->kind->nnode * t->block[b].n;
+  for (int b = 0; b < t->nblock; b++) n += (size_t)d->per * t->block[b].n;
   d->tet_first = calloc((size_t)d->npool + 2, sizeof *d->tet_first);
   d->tet = malloc(n * sizeof *d->tet);
   if (!d->tet_first || !d->tet)
     return corot_fail(COROT_ENOMEM, "no memory for %d averages", d->npool);
   int *next = d->tet_first + 1;
   for (int b = 0; b < t->nblock; b++)
-    for (int a = 0; a < t->kind->nnode; a++)
-      for (int l = 0; l < t->block[b].n; l++) next[pools_at(d, t, b, a)[l] + 1]++;
+    for (int a = 0; a < d->per; a++)
+      for (int l = 0; l < t->block[b].n; l++) next[pools_at(d, b, a)[l] + 1]++;
   for (int p = 0; p < d->npool; p++) next[p + 1] += next[p];
   for (int b = 0; b < t->nblock; b++)
-    for (int a = 0; a < t->kind->nnode; a++)
-      for (int l = 0; l < t->block[b].n; l++) d->tet[next[pools_at(d, t, b, a)[l]]++] = b * W + l;
+    for (int a = 0; a < d->per; a++)
+      for (int l = 0; l < t->block[b].n; l++) d->tet[next[pools_at(d, b, a)[l]]++] = b * W + l;
   return COROT_OK;
 }
 
@@ -109,13 +126,13 @@ no_memory:
   return corot_fail(COROT_ENOMEM, "no memory for the nodes of %d averages", d->npool);
 }
 
-corot_status corot_dilatation_create(int nnode, const element_set *t, const double *averaged,
-                                     dilatation *out) {
+corot_status corot_dilatation_create(const corot_mesh *mesh, const element_set *t, bool by_element,
+                                     const double *averaged, dilatation *out) {
   dilatation d = {0};
-  corot_status status = number_pools(nnode, t, &d);
+  corot_status status = number_pools(mesh, t, by_element, &d);
   if (!status) status = weigh_pools(t, averaged, &d);
   if (!status) status = list_tets(t, &d);
-  if (!status) status = list_rings(nnode, t, &d);
+  if (!status) status = list_rings(mesh->nnode, t, &d);
   if (status) {
     corot_dilatation_clear(&d);
     return status;
@@ -138,6 +155,6 @@ void corot_dilatation_clear(dilatation *d) {
 size_t corot_dilatation_bytes(const dilatation *d, const element_set *t) {
   if (!d->npool) return 0;
   size_t lists = 2 * ((size_t)d->npool + 1) + d->tet_first[d->npool] + d->ring_first[d->npool];
-  return (size_t)t->nblock * t->kind->nnode * sizeof *d->pool + d->npool * 2 * sizeof(double) +
+  return (size_t)t->nblock * d->per * sizeof *d->pool + d->npool * 2 * sizeof(double) +
          lists * sizeof(int);
 }

@@ -1,12 +1,14 @@
-/* Dilatation averaged at the nodes, against the locking of nearly incompressible tets.
+/* Dilatation averaged, against the locking of nearly incompressible tets.
 
    Where each tet's dilatation theta_e = tr(e_p) is its own, a mesh of tets has more constraints
    than unknowns as lambda grows. Averaged over the tets around a node,
 
      theta_a = sum_e V_e theta_e / sum_e V_e,      V_a = sum_e V_e / 4
 
-   there is one for three unknowns (Bonet & Burton 1998). Of a material's lambda the part `local`
-   stays with the tets, and the energy of the pressure term is
+   there is one for three unknowns (Bonet & Burton 1998). The nodes are the corners, of ten-node
+   tets too: then the pressure is as that of Taylor and Hood. Averaged over the points of each such
+   tet instead, there is one for a tet, which is stable for quadratic displacements. Of a material's
+   lambda the part `local` stays with the tets, and the energy of the pressure term is
 
      sum_e V_e local/2 theta_e^2 + sum_a V_a (lambda - local)/2 theta_a^2
        = sum_e V_e lambda/2 theta_e thetabar_e
@@ -17,28 +19,31 @@
 #ifndef COROT_CORE_SOLID_DILATATION_H
 #define COROT_CORE_SOLID_DILATATION_H
 
+#include <stdbool.h>
+
 #include "core/element/tets.h"
 
-/* A pool is what is averaged: the tets of one material around a node. */
+/* A pool is what is averaged: the tets of one material around a corner, or one tet. */
 typedef struct dilatation {
   int npool;       /* 0: every dilatation is its tet's own */
-  int (*pool)[W];  /* [elements.nblock][kind->nnode] the pools of each element's nodes */
+  int per;         /* pools that an element is in: 4 or 1 */
+  int (*pool)[W];  /* [elements.nblock][per] */
   double *volume;  /* [npool] of its tets [m^3] */
   double *lambda;  /* [npool] what is averaged of it [Pa] */
   int *tet_first;  /* [npool + 1] each pool's part of `tet` */
-  int *tet;        /* [kind->nnode ntet] W times block plus lane, ascending */
+  int *tet;        /* [per ntet] W times block plus lane, ascending */
   int *ring_first; /* [npool + 1] each pool's part of `ring` */
   int *ring;       /* the nodes of its tets, ascending; none where lambda is zero */
 } dilatation;
 
-/* The pools of the lanes' node a of block b. */
-static inline const int *pools_at(const dilatation *d, const element_set *e, int b, int a) {
-  return d->pool[b * e->kind->nnode + a];
+/* The pools of the lanes' corner k of block b, or of the lanes' elements. */
+static inline const int *pools_at(const dilatation *d, int b, int k) {
+  return d->pool[b * d->per + k];
 }
 
-/* averaged [material]: lambda - local [Pa]. */
-corot_status corot_dilatation_create(int nnode, const element_set *t, const double *averaged,
-                                     dilatation *out);
+/* averaged [material]: lambda - local [Pa]; at the corners or, `by_element`, over each element. */
+corot_status corot_dilatation_create(const corot_mesh *mesh, const element_set *t, bool by_element,
+                                     const double *averaged, dilatation *out);
 void corot_dilatation_clear(dilatation *d);
 size_t corot_dilatation_bytes(const dilatation *d, const element_set *t);
 

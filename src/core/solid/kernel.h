@@ -59,37 +59,42 @@ COROT_INLINE int chunk_end(const solid *body, int chunk) {
                                                : body->elements.nblock * PARTS;
 }
 
-/* The kind of the body's elements, known where a loop is compiled. */
-COROT_INLINE const element_kind *kind_of(const solid *body) {
-  (void)body;
-  _Static_assert(NKIND == 1, "each kernel chooses among loops of the kinds");
-  return &element_kinds[TET4];
-}
+/* A loop over the elements of `set`, with their kind as a constant where it is compiled. */
+#define OF_KIND(set, loop, ...)                                            \
+  ((set)->kind->number == TET10 ? loop(&element_kinds[TET10], __VA_ARGS__) \
+                                : loop(&element_kinds[TET4], __VA_ARGS__))
+_Static_assert(NKIND == 2, "each kind has its loops");
 
-#define EACH_POINT(body, q) for (int q = 0; q < kind_of(body)->npoint; q++)
+#define EACH_POINT(kind, q) for (int q = 0; q < (kind)->npoint; q++)
 
-/* Point q of part b. */
-COROT_INLINE point_lanes point_of(const solid *body, int b, int q) {
-  return point_at(kind_of(body), &body->elements, b, q);
-}
+/* What a nodal field has at the nodes of LANES elements beyond their node 0. */
+typedef struct differences {
+  vd of[KIND_NODES][3]; /* [node]; 0: nothing */
+} differences;
 
-/* Gradient of a nodal field. */
-COROT_INLINE mat3 gradient(point_lanes at, nodal_field x) {
-  mat3 G;
+COROT_INLINE differences differences_of(point_lanes at, nodal_field x) {
+  differences d;
   vd x0[3], xa[3];
   gather_node(at, 0, x, x0);
   for (int a = 1; a < at.kind->nnode; a++) {
     gather_node(at, a, x, xa);
-    EACH_IJ {
-      vd part = (xa[i] - x0[i]) * slope_of(at, a, j);
+    for (int i = 0; i < 3; i++) d.of[a][i] = xa[i] - x0[i];
+  }
+  return d;
+}
+
+/* Gradient of a nodal field at a point. */
+COROT_INLINE mat3 gradient(point_lanes at, const differences *x) {
+  mat3 G;
+  for (int a = 1; a < at.kind->nnode; a++) EACH_IJ {
+      vd part = x->of[a][i] * slope_of(at, a, j);
       G.m[i][j] = a == 1 ? part : G.m[i][j] + part;
     }
-  }
   return G;
 }
 
 /* F = I + grad u. */
-COROT_INLINE mat3 deformation(point_lanes at, nodal_field u) {
+COROT_INLINE mat3 deformation(point_lanes at, const differences *u) {
   return mat3_add_identity(gradient(at, u), vd_all(1));
 }
 
@@ -127,7 +132,7 @@ typedef struct element {
 } element;
 
 COROT_INLINE element element_at(const strain_measure *s, const solid *body,
-                                const frame_source *from, nodal_field u, point_lanes at) {
+                                const frame_source *from, const differences *u, point_lanes at) {
   element e = {.at = at};
   e.mat = &body->material[material_of(at)];
   e.F = deformation(at, u);
@@ -135,22 +140,32 @@ COROT_INLINE element element_at(const strain_measure *s, const solid *body,
   return e;
 }
 
-COROT_INLINE void add_force(block_vd *to, point_lanes at, vd f) {
-  vd_put(to, at.part, at.q == 0 ? f : vd_at(to, at.part) + f);
+/* Forces on the nodes of LANES elements, [node]; that on node 0 is minus their sum. */
+typedef struct node_forces {
+  vd on[KIND_NODES][3];
+} node_forces;
+
+/* A g_a of a point, to those of the points before it; A is -w P. */
+COROT_INLINE void add_forces(point_lanes at, mat3 A, node_forces *f) {
+  for (int i = 0; i < 3; i++)
+    for (int a = 1; a < at.kind->nnode; a++) {
+      vd part = A.m[i][0] * slope_of(at, a, 0) + A.m[i][1] * slope_of(at, a, 1) +
+                A.m[i][2] * slope_of(at, a, 2);
+      f->on[a][i] = at.q == 0 ? part : f->on[a][i] + part;
+    }
 }
 
-/* Nodal forces A g_a of a point into the buffer, to those of the points before it; A is -w P. */
-COROT_INLINE void store_forces(const solid *body, solid_state *state, point_lanes at, mat3 A) {
+/* Into the buffer. */
+COROT_INLINE void store_forces(const solid *body, solid_state *state, point_lanes at,
+                               const node_forces *f) {
   block_vd(*force)[3] = state->force + at.block % body->pattern.window * at.kind->nnode;
   for (int i = 0; i < 3; i++) {
     vd rest = vd_all(0);
     for (int a = 1; a < at.kind->nnode; a++) {
-      vd f = A.m[i][0] * slope_of(at, a, 0) + A.m[i][1] * slope_of(at, a, 1) +
-             A.m[i][2] * slope_of(at, a, 2);
-      add_force(&force[a][i], at, f);
-      rest -= f;
+      vd_put(&force[a][i], at.part, f->on[a][i]);
+      rest -= f->on[a][i];
     }
-    add_force(&force[0][i], at, rest);
+    vd_put(&force[0][i], at.part, rest);
   }
 }
 

@@ -1,20 +1,20 @@
 /* Averages of the dilatation: see dilatation.h. All sums are in the order of the tets. */
 #include "kernel.h"
 
-/* theta [nblock] of the tets becomes the mean that stands in for it. */
+/* theta [points] becomes the mean that stands in for it. */
 static void average(const solid *body, double *pool, vd *theta) {
   const dilatation *d = &body->dilatation;
   const element_set *e = &body->elements;
-  int nnode = kind_of(body)->nnode;
+  const element_kind *kind = e->kind;
 
   /* means over the pools */
   memset(pool, 0, d->npool * sizeof *pool);
   for (int b = 0; b < e->nblock; b++)
-    EACH_POINT (body, q) {
-      int at = index_of(point_of(body, b, q));
+    EACH_POINT (kind, q) {
+      int at = index_of(point_at(kind, e, b, q));
       vd part = e->weight[at] * theta[at];
-      for (int a = 0; a < nnode; a++)
-        for (int l = 0; l < W; l++) pool[pools_at(d, e, b, a)[l]] += part[l];
+      for (int a = 0; a < d->per; a++)
+        for (int l = 0; l < W; l++) pool[pools_at(d, b, a)[l]] += part[l];
     }
   for (int p = 0; p < d->npool; p++) pool[p] /= d->volume[p];
 
@@ -22,27 +22,34 @@ static void average(const solid *body, double *pool, vd *theta) {
   for (int b = 0; b < e->nblock; b++) {
     double own = body->material[e->block[b].material].own_share;
     vd sum = vd_all(0);
-    for (int a = 0; a < nnode; a++)
-      for (int l = 0; l < W; l++) sum[l] += pool[pools_at(d, e, b, a)[l]];
-    EACH_POINT (body, q) {
-      int at = index_of(point_of(body, b, q));
-      theta[at] = own * theta[at] + (1 - own) / nnode * sum;
+    for (int a = 0; a < d->per; a++)
+      for (int l = 0; l < W; l++) sum[l] += pool[pools_at(d, b, a)[l]];
+    EACH_POINT (kind, q) {
+      int at = index_of(point_at(kind, e, b, q));
+      theta[at] = own * theta[at] + (1 - own) / d->per * sum;
     }
   }
 }
 
 /* An inverted tet is left to the loop that comes after. */
-COROT_CLONES static void own_dilatation(const solid *body, const solid_state *state, nodal_field u,
-                                        vd *theta) {
+COROT_INLINE void own_loop(const element_kind *kind, const solid *body, const solid_state *state,
+                           nodal_field u, vd *theta) {
   const strain_measure *s = &strain_measures[body->strain];
-  for (int b = 0; b < body->elements.nblock; b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
-      mat3 F = deformation(at, u), R = F;
+  for (int b = 0; b < body->elements.nblock; b++) {
+    differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
+      mat3 F = deformation(at, &of_u), R = F;
       vi inverted = {0};
       if (s->pressure == BY_FRAME) R = frame_in_use(s, &state->frames, at, F, &inverted);
       theta[index_of(at)] = dilatation_of(s->pressure, F, R);
     }
+  }
+}
+
+COROT_CLONES static void own_dilatation(const solid *body, const solid_state *state, nodal_field u,
+                                        vd *theta) {
+  OF_KIND(&body->elements, own_loop, body, state, u, theta);
 }
 
 void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field u) {
@@ -51,19 +58,26 @@ void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field 
   average(body, state->pool, state->dilatation);
 }
 
-COROT_CLONES static void internal_dilatation(const solid *body, nodal_field u,
-                                             const strain_measure *s, vd *theta) {
-  for (int b = 0; b < body->elements.nblock; b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
-      mat3 F = deformation(at, u), R = F;
-      mat3 Q0 = mat3_identity();
+COROT_INLINE void internal_loop(const element_kind *kind, const solid *body, nodal_field u,
+                                const strain_measure *s, vd *theta) {
+  for (int b = 0; b < body->elements.nblock; b++) {
+    differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
+    mat3 Q0 = mat3_identity();
+    if (s->frame == FRAME_WARP)
+      Q0 = corot_tets_rest_basis(body->mesh, body->elements.number + b * W);
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
+      mat3 F = deformation(at, &of_u), R = F;
       vi inverted = {0};
-      if (s->frame == FRAME_WARP)
-        Q0 = corot_tets_rest_basis(body->mesh, body->elements.number + b * W);
       if (s->pressure == BY_FRAME) R = frame_of(s->frame, F, &Q0, &inverted);
       theta[index_of(at)] = dilatation_of(s->pressure, F, R);
     }
+  }
+}
+
+COROT_CLONES static void internal_dilatation(const solid *body, nodal_field u,
+                                             const strain_measure *s, vd *theta) {
+  OF_KIND(&body->elements, internal_loop, body, u, s, theta);
 }
 
 void corot_kernel_internal_dilatation(const solid *body, solid_state *state, nodal_field u,
@@ -73,14 +87,15 @@ void corot_kernel_internal_dilatation(const solid *body, solid_state *state, nod
   average(body, state->pool, state->dilatation);
 }
 
-COROT_CLONES static void change_of_dilatation(const solid *body, const solid_state *state,
-                                              nodal_field u, nodal_field du, bool exact,
-                                              vd *change) {
+COROT_INLINE void change_loop(const element_kind *kind, const solid *body, const solid_state *state,
+                              nodal_field u, nodal_field du, bool exact, vd *change) {
   const strain_measure *s = &strain_measures[body->strain];
-  for (int b = 0; b < body->elements.nblock; b++)
-    EACH_POINT (body, q) {
-      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
-      mat3 dF = gradient(e.at, du);
+  for (int b = 0; b < body->elements.nblock; b++) {
+    point_lanes here = point_at(kind, &body->elements, b, 0);
+    differences of_u = differences_of(here, u), of_du = differences_of(here, du);
+    EACH_POINT (kind, q) {
+      element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
+      mat3 dF = gradient(e.at, &of_du);
       mat3 dR = mat3_scale(vd_all(0), e.R);
       if (exact && s->frame != FRAME_IDENTITY) {
         mat3 room;
@@ -89,6 +104,13 @@ COROT_CLONES static void change_of_dilatation(const solid *body, const solid_sta
       }
       change[index_of(e.at)] = dilatation_derivative(s->pressure, e.F, e.R, dF, dR);
     }
+  }
+}
+
+COROT_CLONES static void change_of_dilatation(const solid *body, const solid_state *state,
+                                              nodal_field u, nodal_field du, bool exact,
+                                              vd *change) {
+  OF_KIND(&body->elements, change_loop, body, state, u, du, exact, change);
 }
 
 void corot_kernel_dilatation_change(const solid *body, solid_state *state, nodal_field u,
@@ -101,12 +123,12 @@ void corot_kernel_dilatation_change(const solid *body, solid_state *state, nodal
 /* state->gathered = sum over a pool's tets of V d tr(e_p) / du. */
 static void gather_slopes(const solid *body, solid_state *state, int pool) {
   const dilatation *d = &body->dilatation;
+  const element_kind *kind = body->elements.kind;
   for (int k = d->tet_first[pool]; k < d->tet_first[pool + 1]; k++) {
     int b = d->tet[k] / W, l = d->tet[k] % W;
-    EACH_POINT (body, q)
-      for (int a = 0; a < kind_of(body)->nnode; a++) {
-        const block_vd *slope =
-            state->slope[(b * kind_of(body)->npoint + q) * kind_of(body)->nnode + a];
+    EACH_POINT (kind, q)
+      for (int a = 0; a < kind->nnode; a++) {
+        const block_vd *slope = state->slope[(b * kind->npoint + q) * kind->nnode + a];
         double *sum = state->gathered[nodes_at(&body->elements, b, a)[l]];
         for (int c = 0; c < 3; c++) sum[c] += slope[c][l];
       }
@@ -122,7 +144,7 @@ void corot_kernel_dilatation_tangent(const solid *body, solid_state *state, doub
     int n = d->ring_first[pool + 1] - d->ring_first[pool];
     if (!n) continue;
     gather_slopes(body, state, pool);
-    double factor = d->lambda[pool] / (kind_of(body)->nnode * d->volume[pool]);
+    double factor = d->lambda[pool] / (d->per * d->volume[pool]);
     for (int j = 0; j < n; j++) {
       double *qj = q[ring[j]];
       for (int i = j, at = p->colptr[ring[j]]; i < n; i++, at++) {

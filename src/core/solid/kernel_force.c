@@ -11,23 +11,30 @@ COROT_INLINE mat3 viscous_stress(const strain_measure *s, bool objective, const 
   return stress_viscous(s, lambda, mu, F, R, V);
 }
 
-COROT_INLINE int force_loop(const strain_measure *s, const solid *body, solid_state *state,
-                            nodal_field u, nodal_field v, bool averaged, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
-    EACH_POINT (body, q) {
-      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+COROT_INLINE int force_loop(const element_kind *kind, const strain_measure *s, const solid *body,
+                            solid_state *state, nodal_field u, nodal_field v, bool averaged,
+                            int chunk) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    point_lanes here = point_at(kind, &body->elements, b, 0);
+    differences of_u = differences_of(here, u), of_v;
+    if (v) of_v = differences_of(here, v);
+    node_forces f;
+    EACH_POINT (kind, q) {
+      element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
       vd minus = -weight_of(e.at);
       vd lambda = minus * e.mat->lambda, mu = minus * e.mat->mu;
       mat3 A = averaged ? stress_at_pressure(s, lambda * vd_at(state->dilatation, index_of(e.at)),
                                              mu, e.F, e.R)
                         : stress(s, lambda, mu, e.F, e.R);
       if (v) {
-        mat3 V = gradient(e.at, v);
+        mat3 V = gradient(e.at, &of_v);
         A = mat3_add(A, viscous_stress(s, body->objective, e.mat, minus, e.F, e.R, V));
       }
-      store_forces(body, state, e.at, A);
+      add_forces(e.at, A, &f);
       if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
     }
+    store_forces(body, state, here, &f);
+  }
   return -1;
 }
 
@@ -36,31 +43,38 @@ COROT_INLINE int force_loop(const strain_measure *s, const solid *body, solid_st
 int corot_kernel_force(const solid *body, solid_state *state, nodal_field u, nodal_field v,
                        int chunk) {
   if (body->dilatation.npool)
-    return force_loop(&strain_measures[body->strain], body, state, u, v, true, chunk);
-#define FORCE_OF(index, ...) \
-  case index:                \
-    return force_loop(&strain_measures[index], body, state, u, v, false, chunk);
+    return OF_KIND(&body->elements, force_loop, &strain_measures[body->strain], body, state, u, v,
+                   true, chunk);
+#define FORCE_OF(index, ...)                                                                       \
+  case index:                                                                                      \
+    return OF_KIND(&body->elements, force_loop, &strain_measures[index], body, state, u, v, false, \
+                   chunk);
   switch (body->strain) { STRAIN_MEASURES(FORCE_OF) }
 #undef FORCE_OF
   abort(); /* no model has another */
 }
 
-COROT_INLINE int energy_loop(const strain_measure *s, const solid *body, const solid_state *state,
-                             nodal_field u, nodal_field v, double *elastic, double *power) {
+COROT_INLINE int energy_loop(const element_kind *kind, const strain_measure *s, const solid *body,
+                             const solid_state *state, nodal_field u, nodal_field v,
+                             double *elastic, double *power) {
   double sum_elastic = 0, sum_power = 0;
-  for (int b = 0; b < body->elements.nblock * PARTS; b++)
-    EACH_POINT (body, q) {
-      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+  for (int b = 0; b < body->elements.nblock * PARTS; b++) {
+    point_lanes here = point_at(kind, &body->elements, b, 0);
+    differences of_u = differences_of(here, u), of_v;
+    if (v) of_v = differences_of(here, v);
+    EACH_POINT (kind, q) {
+      element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
       if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
       vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
       const vd *average =
           body->dilatation.npool ? (const vd *)state->dilatation + index_of(e.at) : NULL;
       sum_elastic += vd_sum(weight_of(e.at) * strain_energy(s, lambda, mu, e.F, e.R, average));
       if (!v) continue;
-      mat3 V = gradient(e.at, v);
+      mat3 V = gradient(e.at, &of_v);
       mat3 P = viscous_stress(s, body->objective, e.mat, vd_all(1), e.F, e.R, V);
       sum_power += vd_sum(weight_of(e.at) * mat3_dot(P, V));
     }
+  }
   *elastic = sum_elastic;
   *power = sum_power;
   return -1;
@@ -68,49 +82,55 @@ COROT_INLINE int energy_loop(const strain_measure *s, const solid *body, const s
 
 int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field u, nodal_field v,
                         double *elastic, double *power) {
-  return energy_loop(&strain_measures[body->strain], body, state, u, v, elastic, power);
+  return OF_KIND(&body->elements, energy_loop, &strain_measures[body->strain], body, state, u, v,
+                 elastic, power);
 }
 
-COROT_INLINE int frames_loop(const strain_measure *s, const solid *body, nodal_field u,
-                             block_mat3 *R) {
-  for (int b = 0; b < body->elements.nblock * PARTS; b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
+COROT_INLINE int frames_loop(const element_kind *kind, const strain_measure *s, const solid *body,
+                             nodal_field u, block_mat3 *R) {
+  for (int b = 0; b < body->elements.nblock * PARTS; b++) {
+    differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
       vi inverted = {0};
-      mat3 F = deformation(at, u);
+      mat3 F = deformation(at, &of_u);
       mat3 room;
       const mat3 *Q0 = rest_basis_of(s->frame, at, &room);
       mat3_put(R, index_of(at), frame_of(s->frame, F, Q0, &inverted));
       if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
     }
+  }
   return -1;
 }
 
 int corot_kernel_frames(const solid *body, nodal_field u, block_mat3 *R) {
-  return frames_loop(&strain_measures[body->strain], body, u, R);
+  return OF_KIND(&body->elements, frames_loop, &strain_measures[body->strain], body, u, R);
 }
 
-COROT_INLINE int spin_loop(const strain_measure *s, const solid *body, nodal_field u, nodal_field v,
-                           block_vec3 *spin) {
-  for (int b = 0; b < body->elements.nblock * PARTS; b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
+COROT_INLINE int spin_loop(const element_kind *kind, const strain_measure *s, const solid *body,
+                           nodal_field u, nodal_field v, block_vec3 *spin) {
+  for (int b = 0; b < body->elements.nblock * PARTS; b++) {
+    point_lanes here = point_at(kind, &body->elements, b, 0);
+    differences of_u = differences_of(here, u), of_v = differences_of(here, v);
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
       mat3 room;
       const mat3 *Q0 = rest_basis_of(s->frame, at, &room);
       vi inverted = {0};
-      mat3 F = deformation(at, u);
-      mat3 V = gradient(at, v);
+      mat3 F = deformation(at, &of_u);
+      mat3 V = gradient(at, &of_v);
       mat3 R = frame_of(s->frame, F, Q0, &inverted);
       if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
       mat3 dR = frame_derivative(s->frame, F, Q0, R, V);
       vec3_put(spin, index_of(at),
                mat3_vee(mat3_scale(vd_all(0.5), mat3_mul(dR, mat3_transpose(R)))));
     }
+  }
   return -1;
 }
 
 int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, block_vec3 *spin) {
-  return spin_loop(&strain_measures[body->strain], body, u, v, spin);
+  return OF_KIND(&body->elements, spin_loop, &strain_measures[body->strain], body, u, v, spin);
 }
 
 /* The rest basis of part b, where the model keeps none. */
@@ -119,16 +139,20 @@ COROT_INLINE mat3 rest_basis_anew(const solid *body, int b) {
   return mat3_at(&whole, b % PARTS);
 }
 
-COROT_INLINE int internal_loop(const strain_measure *s, const solid *body, solid_state *state,
-                               nodal_field u, double lambda_part, double mu_part, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
+COROT_INLINE int internal_loop(const element_kind *kind, const strain_measure *s, const solid *body,
+                               solid_state *state, nodal_field u, double lambda_part,
+                               double mu_part, int chunk) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    point_lanes here = point_at(kind, &body->elements, b, 0);
+    differences of_u = differences_of(here, u);
+    node_forces f;
+    mat3 Q0 = mat3_identity();
+    if (s->frame == FRAME_WARP) Q0 = rest_basis_anew(body, b);
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
       const material *mat = &body->material[material_of(at)];
-      mat3 Q0 = mat3_identity();
-      if (s->frame == FRAME_WARP) Q0 = rest_basis_anew(body, b);
       vi inverted = {0};
-      mat3 F = deformation(at, u);
+      mat3 F = deformation(at, &of_u);
       mat3 R = frame_of(s->frame, F, &Q0, &inverted);
       if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(body, b, inverted);
       vd lambda = -weight_of(at) * (lambda_part * mat->lambda),
@@ -137,12 +161,15 @@ COROT_INLINE int internal_loop(const strain_measure *s, const solid *body, solid
           body->dilatation.npool
               ? stress_at_pressure(s, lambda * vd_at(state->dilatation, index_of(at)), mu, F, R)
               : stress(s, lambda, mu, F, R);
-      store_forces(body, state, at, A);
+      add_forces(at, A, &f);
     }
+    store_forces(body, state, here, &f);
+  }
   return -1;
 }
 
 int corot_kernel_internal(const solid *body, solid_state *state, nodal_field u, int strain,
                           double lambda_part, double mu_part, int chunk) {
-  return internal_loop(&strain_measures[strain], body, state, u, lambda_part, mu_part, chunk);
+  return OF_KIND(&body->elements, internal_loop, &strain_measures[strain], body, state, u,
+                 lambda_part, mu_part, chunk);
 }

@@ -117,15 +117,32 @@ COROT_INLINE void complete_columns(const pattern *p, int first, int last, double
   }
 }
 
-COROT_INLINE int tangent_loop(const strain_measure *s, const solid *body, solid_state *state,
-                              nodal_field u, corot_tangent tangent, int chunk, double (*K)[9],
-                              double (*D)[9]) {
+/* The blocks of an element's pairs, summed over its points. */
+typedef struct pair_sums {
+  mat3 of[KIND_PAIRS];
+} pair_sums;
+
+/* Adds a point's block to those of the points before it; of the last one, all to the matrix. */
+COROT_INLINE void add_block(point_lanes at, mat3 block, mat3 *sum, double (*A)[9],
+                            const int place[LANES]) {
+  if (at.q > 0) block = mat3_add(*sum, block);
+  if (at.q < at.kind->npoint - 1)
+    *sum = block;
+  else
+    scatter(A, place, block);
+}
+
+COROT_INLINE int tangent_loop(const element_kind *kind, const strain_measure *s, const solid *body,
+                              solid_state *state, nodal_field u, corot_tangent tangent, int chunk,
+                              double (*K)[9], double (*D)[9]) {
   bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
-    EACH_POINT (body, q) {
-      int npair = kind_of(body)->npair, lane = b % PARTS * LANES; /* the first in the block */
-      const int(*place)[W] = (const int(*)[W])body->pattern.place + b / PARTS * npair;
-      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+  pair_sums of_K, of_D;
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
+    int npair = kind->npair, lane = b % PARTS * LANES; /* the first in the block */
+    const int(*place)[W] = (const int(*)[W])body->pattern.place + b / PARTS * npair;
+    EACH_POINT (kind, q) {
+      element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
       if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
       vd lambda = weight_of(e.at) * e.mat->lambda, mu = weight_of(e.at) * e.mat->mu;
@@ -142,21 +159,22 @@ COROT_INLINE int tangent_loop(const strain_measure *s, const solid *body, solid_
       node_rates rates;
       if (objective) rates = node_rates_of(e.at, e.F, e.R);
       for (int k = 0; k < npair; k++) {
-        int a = pair_row[k], c = pair_col[k];
+        int a = kind->pair[k][0], c = kind->pair[k][1];
         vd gg = vec3_dot(n.g[a], n.g[c]);
         mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
         if (s->pressure == BY_GRADIENT)
           A = mat3_add_identity(A, vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
         if (turning) A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
-        if (K) scatter(K, place[k] + lane, A);
+        if (K) add_block(e.at, A, &of_K.of[k], K, place[k] + lane);
         if (objective)
-          scatter(D, place[k] + lane,
-                  objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]));
+          add_block(e.at, objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]),
+                    &of_D.of[k], D, place[k] + lane);
         else if (D)
-          scatter(D, place[k] + lane,
-                  constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]));
+          add_block(e.at, constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]),
+                    &of_D.of[k], D, place[k] + lane);
       }
     }
+  }
   const pattern *p = &body->pattern;
   if (K) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], K);
   if (D) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], D);
@@ -167,20 +185,26 @@ int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,
                          corot_tangent tangent, int chunk, double (*K)[9], double (*D)[9]) {
   const strain_measure *s = &strain_measures[body->strain];
   if (tangent == COROT_TANGENT_CLAMPED) /* compiled apart, so as not to burden the others */
-    return tangent_loop(s, body, state, u, COROT_TANGENT_CLAMPED, chunk, K, D);
-  return tangent_loop(s, body, state, u, tangent, chunk, K, D);
+    return OF_KIND(&body->elements, tangent_loop, s, body, state, u, COROT_TANGENT_CLAMPED, chunk,
+                   K, D);
+  return OF_KIND(&body->elements, tangent_loop, s, body, state, u, tangent, chunk, K, D);
 }
 
-COROT_INLINE int derivative_loop(const strain_measure *s, const solid *body, solid_state *state,
-                                 nodal_field u, nodal_field v, nodal_field du, nodal_field dv,
-                                 bool exact, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
-    EACH_POINT (body, q) {
-      element e = element_at(s, body, &state->frames, u, point_of(body, b, q));
+COROT_INLINE int derivative_loop(const element_kind *kind, const strain_measure *s,
+                                 const solid *body, solid_state *state, nodal_field u,
+                                 nodal_field v, nodal_field du, nodal_field dv, bool exact,
+                                 int chunk) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    point_lanes here = point_at(kind, &body->elements, b, 0);
+    differences of_u = differences_of(here, u), of_du = differences_of(here, du), of_v, of_dv;
+    if (v) of_v = differences_of(here, v), of_dv = differences_of(here, dv);
+    node_forces f;
+    EACH_POINT (kind, q) {
+      element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
       if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
 
       /* the change of the frame */
-      mat3 dF = gradient(e.at, du);
+      mat3 dF = gradient(e.at, &of_du);
       mat3 dR = mat3_scale(vd_all(0), e.R);
       if (exact && s->frame != FRAME_IDENTITY) {
         mat3 room;
@@ -197,19 +221,22 @@ COROT_INLINE int derivative_loop(const strain_measure *s, const solid *body, sol
       vd elastic = minus * e.mat->lambda, shear = minus * e.mat->mu;
       mat3 dA = stress_derivative(s, elastic * theta, elastic * change, shear, e.F, e.R, dF, dR);
       if (v) {
-        mat3 V = gradient(e.at, v);
-        mat3 dV = gradient(e.at, dv);
+        mat3 V = gradient(e.at, &of_v);
+        mat3 dV = gradient(e.at, &of_dv);
         vd lambda = minus * e.mat->damping_lambda, mu = minus * e.mat->damping_mu;
         dA = mat3_add(dA, body->objective && s->frame == FRAME_POLAR
                               ? stress_objective_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV)
                               : stress_viscous_derivative(s, lambda, mu, e.F, e.R, V, dF, dR, dV));
       }
-      store_forces(body, state, e.at, dA);
+      add_forces(e.at, dA, &f);
     }
+    store_forces(body, state, here, &f);
+  }
   return -1;
 }
 
 int corot_kernel_derivative(const solid *body, solid_state *state, nodal_field u, nodal_field v,
                             nodal_field du, nodal_field dv, bool exact, int chunk) {
-  return derivative_loop(&strain_measures[body->strain], body, state, u, v, du, dv, exact, chunk);
+  return OF_KIND(&body->elements, derivative_loop, &strain_measures[body->strain], body, state, u,
+                 v, du, dv, exact, chunk);
 }

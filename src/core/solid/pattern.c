@@ -50,10 +50,9 @@ static int column_rows(const element_set *t, const dilatation *d, const pattern 
   column c = {.j = j, .row = list, .mark = mark};
   for (int k = p->first[j]; k < p->first[j + 1]; k++) {
     int slot = p->slot[k], lane = slot % W, b = slot / block_slots(t);
-    for (int a = 0; a < t->kind->nnode; a++) {
-      add_row(&c, nodes_at(t, b, a)[lane]);
-      if (!d->npool) continue;
-      int pool = d->pool[b * t->kind->nnode + a][lane];
+    for (int a = 0; a < t->kind->nnode; a++) add_row(&c, nodes_at(t, b, a)[lane]);
+    for (int i = 0; d->npool && i < d->per; i++) {
+      int pool = pools_at(d, b, i)[lane];
       for (int r = d->ring_first[pool]; r < d->ring_first[pool + 1]; r++) add_row(&c, d->ring[r]);
     }
   }
@@ -113,8 +112,8 @@ static corot_status place_tets(const element_set *t, pattern *p) {
   for (int b = 0; b < t->nblock; b++)
     for (int k = 0; k < npair; k++)
       for (int l = 0; l < W; l++)
-        p->place[b * npair + k][l] =
-            corot_pattern_find(p, nodes_at(t, b, pair_row[k])[l], nodes_at(t, b, pair_col[k])[l]);
+        p->place[b * npair + k][l] = corot_pattern_find(p, nodes_at(t, b, t->kind->pair[k][0])[l],
+                                                        nodes_at(t, b, t->kind->pair[k][1])[l]);
   return COROT_OK;
 }
 

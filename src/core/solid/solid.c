@@ -14,8 +14,8 @@ static corot_status average(solid *body, int nmaterial) {
   }
   corot_status status = COROT_OK;
   if (any)
-    status =
-        corot_dilatation_create(body->mesh->nnode, &body->elements, averaged, &body->dilatation);
+    status = corot_dilatation_create(body->mesh, &body->elements, body->by_element, averaged,
+                                     &body->dilatation);
   free(averaged);
   return status;
 }

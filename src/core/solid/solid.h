@@ -26,6 +26,7 @@ typedef struct solid {
   int strain;               /* index into strain_measures */
   bool damped;              /* some viscous coefficient is not zero */
   bool objective;           /* viscous law on the stretch's own rate */
+  bool by_element;          /* averages are those of each element, not at corners */
   element_set elements;
   dilatation dilatation; /* averages, where some material has them */
   pattern pattern;

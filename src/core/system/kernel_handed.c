@@ -41,13 +41,18 @@ COROT_INLINE vi inverted_in(const solid *body, mat3 F) {
   return ~(mat3_det(F, mat3_cofactor(F)) > vd_all(0));
 }
 
-COROT_INLINE int handed_force_loop(const solid *body, solid_state *state, const from_leader *lead,
-                                   nodal_field u, nodal_field v, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
+COROT_INLINE int handed_force_loop(const element_kind *kind, const solid *body, solid_state *state,
+                                   const from_leader *lead, nodal_field u, nodal_field v,
+                                   int chunk) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    point_lanes here = point_at(kind, &body->elements, b, 0);
+    differences of_u = differences_of(here, u), of_v;
+    if (v) of_v = differences_of(here, v);
+    node_forces f;
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
       coefficients k = coefficients_of(body, at);
-      mat3 F = deformation(at, u);
+      mat3 F = deformation(at, &of_u);
       mat3 R = above_point(lead->above, lead->R, at);
       vi inverted = inverted_in(body, F);
       if (vi_any(inverted)) return first_inverted(body, b, inverted);
@@ -57,39 +62,46 @@ COROT_INLINE int handed_force_loop(const solid *body, solid_state *state, const 
       mat3 sigma = hooke(k.lambda, k.mu, e);
       add_up(lead->above, mat3_vee(mat3_mul(mat3_tmul(R, F), sigma)), at, lead->moment);
       if (v) {
-        mat3 V = gradient(at, v);
+        mat3 V = gradient(at, &of_v);
         mat3 rate = mat3_sym_tmul(R, V);
         sigma = mat3_add(sigma, hooke(k.damping_lambda, k.damping_mu, rate));
       }
-      store_forces(body, state, at, mat3_scale(vd_all(-1), mat3_mul(R, sigma)));
+      add_forces(at, mat3_scale(vd_all(-1), mat3_mul(R, sigma)), &f);
     }
+    store_forces(body, state, here, &f);
+  }
   return -1;
 }
 
 int corot_kernel_handed_force(const solid *body, solid_state *state, const from_leader *lead,
                               nodal_field u, nodal_field v, int chunk) {
-  return handed_force_loop(body, state, lead, u, v, chunk);
+  return OF_KIND(&body->elements, handed_force_loop, body, state, lead, u, v, chunk);
 }
 
 void corot_kernel_hand_down(const solid *body, const from_leader *lead, block_mat3 *R) {
+  const element_kind *kind = body->elements.kind;
   for (int b = 0; b < body->elements.nblock * PARTS; b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
       mat3_put(R, index_of(at), above_point(lead->above, lead->R, at));
     }
 }
 
 /* dR is zero where the frames do not follow. */
-COROT_INLINE int handed_derivative_loop(const solid *body, solid_state *state,
-                                        const from_leader *lead, nodal_field u, nodal_field v,
-                                        nodal_field du, nodal_field dv, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
-    EACH_POINT (body, q) {
-      point_lanes at = point_of(body, b, q);
+COROT_INLINE int handed_derivative_loop(const element_kind *kind, const solid *body,
+                                        solid_state *state, const from_leader *lead, nodal_field u,
+                                        nodal_field v, nodal_field du, nodal_field dv, int chunk) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
+    point_lanes here = point_at(kind, &body->elements, b, 0);
+    differences of_u = differences_of(here, u), of_du = differences_of(here, du), of_v, of_dv;
+    if (v) of_v = differences_of(here, v), of_dv = differences_of(here, dv);
+    node_forces f;
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &body->elements, b, q);
       coefficients k = coefficients_of(body, at);
-      mat3 F = deformation(at, u);
+      mat3 F = deformation(at, &of_u);
       mat3 R = above_point(lead->above, lead->R, at), dR = above_point(lead->above, lead->dR, at);
-      mat3 dF = gradient(at, du);
+      mat3 dF = gradient(at, &of_du);
       vi inverted = inverted_in(body, F);
       if (vi_any(inverted)) return first_inverted(body, b, inverted);
 
@@ -102,84 +114,102 @@ COROT_INLINE int handed_derivative_loop(const solid *body, solid_state *state,
       add_up(lead->above, mat3_vee(mat3_mul(A, sigma)), at, lead->moment);
       add_up(lead->above, dmoment, at, lead->dmoment);
       if (v) {
-        mat3 V = gradient(at, v);
-        mat3 dV = gradient(at, dv);
+        mat3 V = gradient(at, &of_v);
+        mat3 dV = gradient(at, &of_dv);
         mat3 rate = mat3_sym_tmul(R, V);
         mat3 drate = mat3_add(mat3_sym_tmul(dR, V), mat3_sym_tmul(R, dV));
         sigma = mat3_add(sigma, hooke(k.damping_lambda, k.damping_mu, rate));
         dsigma = mat3_add(dsigma, hooke(k.damping_lambda, k.damping_mu, drate));
       }
       mat3 dP = mat3_add(mat3_mul(dR, sigma), mat3_mul(R, dsigma));
-      store_forces(body, state, at, mat3_scale(vd_all(-1), dP));
+      add_forces(at, mat3_scale(vd_all(-1), dP), &f);
     }
+    store_forces(body, state, here, &f);
+  }
   return -1;
 }
 
 int corot_kernel_handed_derivative(const solid *body, solid_state *state, const from_leader *lead,
                                    nodal_field u, nodal_field v, nodal_field du, nodal_field dv,
                                    int chunk) {
-  return handed_derivative_loop(body, state, lead, u, v, du, dv, chunk);
+  return OF_KIND(&body->elements, handed_derivative_loop, body, state, lead, u, v, du, dv, chunk);
 }
 
 /* The frame's rotation for a unit of moment: z = G^-1 moment, the stress -V P = -R [z]x. */
-COROT_INLINE int turning_force_loop(const solid *leader, solid_state *state,
-                                    const from_leader *lead, nodal_field u, int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++)
-    EACH_POINT (leader, q) {
-      point_lanes at = point_of(leader, b, q);
-      mat3 F = deformation(at, u), R = mat3_at(lead->R, index_of(at));
+COROT_INLINE int turning_force_loop(const element_kind *kind, const solid *leader,
+                                    solid_state *state, const from_leader *lead, nodal_field u,
+                                    int chunk) {
+  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++) {
+    point_lanes here = point_at(kind, &leader->elements, b, 0);
+    differences of_u = differences_of(here, u);
+    node_forces f;
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &leader->elements, b, q);
+      mat3 F = deformation(at, &of_u), R = mat3_at(lead->R, index_of(at));
       vec3 z =
           mat3_apply(polar_inverse_g(mat3_sym_tmul(R, F)), vec3_at(lead->moment, index_of(at)));
-      store_forces(leader, state, at, mat3_scale(vd_all(-1), mat3_mul(R, mat3_skew(z))));
+      add_forces(at, mat3_scale(vd_all(-1), mat3_mul(R, mat3_skew(z))), &f);
     }
+    store_forces(leader, state, here, &f);
+  }
   return -1;
 }
 
 int corot_kernel_turning_force(const solid *leader, solid_state *state, const from_leader *lead,
                                nodal_field u, int chunk) {
-  return turning_force_loop(leader, state, lead, u, chunk);
+  return OF_KIND(&leader->elements, turning_force_loop, leader, state, lead, u, chunk);
 }
 
 /* G dz = dmoment - dG z */
-COROT_INLINE int turning_derivative_loop(const solid *leader, solid_state *state,
-                                         const from_leader *lead, nodal_field u, nodal_field du,
-                                         int chunk) {
-  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++)
-    EACH_POINT (leader, q) {
-      point_lanes at = point_of(leader, b, q);
-      mat3 F = deformation(at, u), R = mat3_at(lead->R, index_of(at));
-      mat3 dF = gradient(at, du), dR = mat3_at(lead->dR, index_of(at));
+COROT_INLINE int turning_derivative_loop(const element_kind *kind, const solid *leader,
+                                         solid_state *state, const from_leader *lead, nodal_field u,
+                                         nodal_field du, int chunk) {
+  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++) {
+    point_lanes here = point_at(kind, &leader->elements, b, 0);
+    differences of_u = differences_of(here, u), of_du = differences_of(here, du);
+    node_forces f;
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &leader->elements, b, q);
+      mat3 F = deformation(at, &of_u), R = mat3_at(lead->R, index_of(at));
+      mat3 dF = gradient(at, &of_du), dR = mat3_at(lead->dR, index_of(at));
       mat3 dS = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
       mat3 Ginv = polar_inverse_g(mat3_sym_tmul(R, F));
       vec3 z = mat3_apply(Ginv, vec3_at(lead->moment, index_of(at)));
       vec3 dz =
           mat3_apply(Ginv, vec3_less(vec3_at(lead->dmoment, index_of(at)), apply_g_change(dS, z)));
       mat3 dP = mat3_add(mat3_mul(dR, mat3_skew(z)), mat3_mul(R, mat3_skew(dz)));
-      store_forces(leader, state, at, mat3_scale(vd_all(-1), dP));
+      add_forces(at, mat3_scale(vd_all(-1), dP), &f);
     }
+    store_forces(leader, state, here, &f);
+  }
   return -1;
 }
 
 int corot_kernel_turning_derivative(const solid *leader, solid_state *state,
                                     const from_leader *lead, nodal_field u, nodal_field du,
                                     int chunk) {
-  return turning_derivative_loop(leader, state, lead, u, du, chunk);
+  return OF_KIND(&leader->elements, turning_derivative_loop, leader, state, lead, u, du, chunk);
 }
 
-COROT_INLINE void frames_change_loop(frame_rule rule, const solid *leader, const block_mat3 *R,
-                                     nodal_field u, nodal_field du, block_mat3 *dR) {
-  for (int b = 0; b < leader->elements.nblock * PARTS; b++)
-    EACH_POINT (leader, q) {
-      point_lanes at = point_of(leader, b, q);
+COROT_INLINE void frames_change_loop(const element_kind *kind, frame_rule rule, const solid *leader,
+                                     const block_mat3 *R, nodal_field u, nodal_field du,
+                                     block_mat3 *dR) {
+  for (int b = 0; b < leader->elements.nblock * PARTS; b++) {
+    point_lanes here = point_at(kind, &leader->elements, b, 0);
+    differences of_u = differences_of(here, u), of_du = differences_of(here, du);
+    EACH_POINT (kind, q) {
+      point_lanes at = point_at(kind, &leader->elements, b, q);
       mat3 room;
       const mat3 *Q0 = rest_basis_of(rule, at, &room);
-      mat3 F = deformation(at, u);
-      mat3 dF = gradient(at, du);
+      mat3 F = deformation(at, &of_u);
+      mat3 dF = gradient(at, &of_du);
       mat3_put(dR, index_of(at), frame_derivative(rule, F, Q0, mat3_at(R, index_of(at)), dF));
     }
+  }
 }
 
 void corot_kernel_frames_change(const solid *leader, const block_mat3 *R, nodal_field u,
                                 nodal_field du, block_mat3 *dR) {
-  frames_change_loop(strain_measures[leader->strain].frame, leader, R, u, du, dR);
+  OF_KIND(&leader->elements, frames_change_loop, strain_measures[leader->strain].frame, leader, R,
+          u, du, dR);
 }

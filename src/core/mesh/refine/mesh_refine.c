@@ -90,10 +90,7 @@ static corot_status cut(const corot_mesh *mesh, const corot_edges *edges, corot_
   fine->nnode = mesh->nnode + edges->n;
   fine->ntet = 8 * mesh->ntet;
   memcpy(fine->x, mesh->x, (size_t)mesh->nnode * sizeof *fine->x);
-  for (int i = 0; i < edges->n; i++) {
-    const double *a = mesh->x[edges->end[i][0]], *b = mesh->x[edges->end[i][1]];
-    for (int c = 0; c < 3; c++) fine->x[mesh->nnode + i][c] = (a[c] + b[c]) / 2;
-  }
+  corot_edges_place(mesh, edges, fine->x + mesh->nnode);
   cut_tets(mesh, edges, diagonal, fine);
   return corot_mesh_check_volumes(fine);
 }

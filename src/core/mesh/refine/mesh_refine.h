@@ -15,6 +15,12 @@ typedef struct corot_edges {
 corot_status corot_edges_list(const corot_mesh *mesh, corot_edges *edges);
 void corot_edges_clear(corot_edges *edges);
 
+/* Where the edges in the order of corot_mesh.mid are among those of corot_edges.tet. */
+extern const int corot_edge_of_mid[6];
+
+/* x [n] = the middles of the straight edges. */
+void corot_edges_place(const corot_mesh *mesh, const corot_edges *edges, double (*x)[3]);
+
 /* The edge between two nodes, which must be one. */
 int corot_edges_find(const corot_edges *edges, int a, int b);
 
@@ -31,5 +37,13 @@ corot_status corot_refine_triangles(const corot_mesh *mesh, const corot_edges *e
    boundary of `mesh`. */
 corot_status corot_refine_groups(const corot_mesh *mesh, const corot_edges *edges, int nskin,
                                  const int (*skin)[3], corot_mesh *fine);
+
+/* The same for `fine` with the tets and triangles of `mesh`, but order 2. */
+corot_status corot_raise_groups(const corot_mesh *mesh, const corot_edges *edges, int nskin,
+                                const int (*skin)[3], corot_mesh *fine);
+
+/* Makes the zeroed `to` a mesh of order 2 without groups, of the tets of `mesh` with the middles of
+   their edges. */
+corot_status corot_raise(const corot_mesh *mesh, const corot_edges *edges, corot_mesh *to);
 
 #endif

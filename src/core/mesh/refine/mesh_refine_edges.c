@@ -3,6 +3,8 @@
 
 #include "mesh_refine.h"
 
+const int corot_edge_of_mid[6] = {0, 3, 1, 2, 4, 5};
+
 /* An edge as a tet has it. */
 typedef struct side {
   int v[2]; /* ascending */
@@ -65,6 +67,13 @@ void corot_edges_clear(corot_edges *edges) {
   free(edges->end);
   free(edges->tet);
   memset(edges, 0, sizeof *edges);
+}
+
+void corot_edges_place(const corot_mesh *mesh, const corot_edges *edges, double (*x)[3]) {
+  for (int i = 0; i < edges->n; i++) {
+    const double *a = mesh->x[edges->end[i][0]], *b = mesh->x[edges->end[i][1]];
+    for (int c = 0; c < 3; c++) x[i][c] = (a[c] + b[c]) / 2;
+  }
 }
 
 static int compare_ends(const void *a, const void *b) {

@@ -80,11 +80,9 @@ corot_status corot_refine_triangles(const corot_mesh *mesh, const corot_edges *e
   return COROT_OK;
 }
 
-static corot_status refine_group(const corot_mesh *mesh, const corot_group *from,
-                                 const corot_edges *edges, marks *m, corot_group *to) {
-  COROT_TRY(COROT_ALLOC(to->name, strlen(from->name) + 1));
-  strcpy(to->name, from->name);
-  COROT_TRY(refine_nodes(mesh, from, edges, m, to));
+/* Triangles and tets of a group of the refined mesh. */
+static corot_status refine_parts(const corot_mesh *mesh, const corot_group *from,
+                                 const corot_edges *edges, corot_group *to) {
   COROT_TRY(corot_refine_triangles(mesh, edges, from->ntri, (const int(*)[3])from->tri, &to->tri));
   to->ntri = 4 * from->ntri;
   COROT_TRY(COROT_ALLOC(to->tet, 8 * (size_t)from->ntet));
@@ -93,8 +91,35 @@ static corot_status refine_group(const corot_mesh *mesh, const corot_group *from
   return COROT_OK;
 }
 
-corot_status corot_refine_groups(const corot_mesh *mesh, const corot_edges *edges, int nskin,
-                                 const int (*skin)[3], corot_mesh *fine) {
+/* The same of a mesh with the same tets. */
+static corot_status copy_parts(const corot_mesh *mesh, const corot_group *from,
+                               const corot_edges *edges, corot_group *to) {
+  (void)mesh;
+  (void)edges;
+  COROT_TRY(COROT_ALLOC(to->tri, from->ntri));
+  COROT_TRY(COROT_ALLOC(to->tet, from->ntet));
+  to->ntri = from->ntri;
+  to->ntet = from->ntet;
+  for (int i = 0; i < to->ntri; i++) memcpy(to->tri[i], from->tri[i], sizeof *to->tri);
+  for (int i = 0; i < to->ntet; i++) to->tet[i] = from->tet[i];
+  return COROT_OK;
+}
+
+/* Who fills in the triangles and tets. */
+typedef corot_status make_parts(const corot_mesh *mesh, const corot_group *from,
+                                const corot_edges *edges, corot_group *to);
+
+static corot_status inherit_group(const corot_mesh *mesh, const corot_group *from,
+                                  const corot_edges *edges, make_parts *parts, marks *m,
+                                  corot_group *to) {
+  COROT_TRY(COROT_ALLOC(to->name, strlen(from->name) + 1));
+  strcpy(to->name, from->name);
+  COROT_TRY(refine_nodes(mesh, from, edges, m, to));
+  return parts(mesh, from, edges, to);
+}
+
+static corot_status inherit(const corot_mesh *mesh, const corot_edges *edges, int nskin,
+                            const int (*skin)[3], make_parts *parts, corot_mesh *fine) {
   marks m = {0};
   corot_status status = COROT_ALLOC(m.node, mesh->nnode);
   if (!status) status = COROT_ALLOC(m.edge, edges->n);
@@ -102,9 +127,19 @@ corot_status corot_refine_groups(const corot_mesh *mesh, const corot_edges *edge
   if (!status) mark_triangles(nskin, skin, edges, SKIN, &m);
   while (!status && fine->ngroup < mesh->ngroup) {
     const corot_group *from = &mesh->group[fine->ngroup];
-    status = refine_group(mesh, from, edges, &m, &fine->group[fine->ngroup++]);
+    status = inherit_group(mesh, from, edges, parts, &m, &fine->group[fine->ngroup++]);
   }
   free(m.node);
   free(m.edge);
   return status;
+}
+
+corot_status corot_refine_groups(const corot_mesh *mesh, const corot_edges *edges, int nskin,
+                                 const int (*skin)[3], corot_mesh *fine) {
+  return inherit(mesh, edges, nskin, skin, refine_parts, fine);
+}
+
+corot_status corot_raise_groups(const corot_mesh *mesh, const corot_edges *edges, int nskin,
+                                const int (*skin)[3], corot_mesh *fine) {
+  return inherit(mesh, edges, nskin, skin, copy_parts, fine);
 }

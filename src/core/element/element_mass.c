@@ -1,0 +1,119 @@
+/* The mass of an element, between its nodes and lumped.
+
+   Where edges are straight the determinant of the Jacobian is constant, and the mass matrix is the
+   kind's own times the mass. On a curved ten-node tet the integrand N_i N_j det J has degree 7. It
+   is integrated by Gauss's rule of five points in each direction of the cube that collapses to the
+   tet, L_1 = r, L_2 = (1 - r) s, L_3 = (1 - r)(1 - s) t, whose Jacobian (1 - r)^2 (1 - s) adds two
+   to the degree: five points are exact for nine. */
+#include <stdbool.h>
+
+#include "tets.h"
+
+enum { GAUSS = 5 };
+
+/* Gauss's points in [0, 1] and their weights (Abramowitz & Stegun, table 25.4). */
+static const double gauss_point[GAUSS] = {0.046910077030668004, 0.23076534494715845, 0.5,
+                                          0.76923465505284155, 0.953089922969332};
+static const double gauss_weight[GAUSS] = {0.11846344252809454, 0.23931433524968324,
+                                           0.28444444444444444, 0.23931433524968324,
+                                           0.11846344252809454};
+
+/* The ends of the edges of the ten-node tet's nodes 4, 5, ... */
+static const int edge_end[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
+/* Whether the middles are where straight edges have them, but for rounding. */
+static bool is_straight(const corot_mesh *mesh, const int node[KIND_NODES]) {
+  for (int k = 0; k < 6; k++) {
+    const double *a = mesh->x[node[edge_end[k][0]]], *b = mesh->x[node[edge_end[k][1]]];
+    const double *middle = mesh->x[node[4 + k]];
+    double off = 0, edge = 0;
+    for (int c = 0; c < 3; c++) {
+      off = fmax(off, fabs(middle[c] - 0.5 * (a[c] + b[c])));
+      edge = fmax(edge, fabs(a[c]) + fabs(b[c]));
+    }
+    if (off > 1e-14 * edge) return false;
+  }
+  return true;
+}
+
+/* The ten shape functions, and their gradients in the reference element. */
+static void shape_at(const double L[4], double N[10], double slope[10][3]) {
+  static const double dL[4][3] = {{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int i = 0; i < 4; i++) {
+    N[i] = L[i] * (2 * L[i] - 1);
+    for (int c = 0; c < 3; c++) slope[i][c] = (4 * L[i] - 1) * dL[i][c];
+  }
+  for (int k = 0; k < 6; k++) {
+    int i = edge_end[k][0], j = edge_end[k][1];
+    N[4 + k] = 4 * L[i] * L[j];
+    for (int c = 0; c < 3; c++) slope[4 + k][c] = 4 * (L[i] * dL[j][c] + L[j] * dL[i][c]);
+  }
+}
+
+static double determinant_at(const corot_mesh *mesh, const int node[KIND_NODES],
+                             double slope[10][3]) {
+  double J[3][3] = {{0}};
+  for (int a = 0; a < 10; a++)
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) J[i][j] += mesh->x[node[a]][i] * slope[a][j];
+  return J[0][0] * (J[1][1] * J[2][2] - J[1][2] * J[2][1]) -
+         J[0][1] * (J[1][0] * J[2][2] - J[1][2] * J[2][0]) +
+         J[0][2] * (J[1][0] * J[2][1] - J[1][1] * J[2][0]);
+}
+
+/* mass[i][j] = density times the integral of N_i N_j, by roles. */
+static void integrate(const corot_mesh *mesh, const int node[KIND_NODES], double density,
+                      double mass[KIND_NODES][KIND_NODES]) {
+  memset(mass, 0, KIND_NODES * sizeof *mass);
+  for (int p = 0; p < GAUSS * GAUSS * GAUSS; p++) {
+    int i = p % GAUSS, j = p / GAUSS % GAUSS, k = p / GAUSS / GAUSS;
+    double r = gauss_point[i], s = gauss_point[j], t = gauss_point[k];
+    double L[4] = {0, r, (1 - r) * s, (1 - r) * (1 - s) * t}, N[10], slope[10][3];
+    L[0] = 1 - L[1] - L[2] - L[3];
+    shape_at(L, N, slope);
+    double w = gauss_weight[i] * gauss_weight[j] * gauss_weight[k] * (1 - r) * (1 - r) * (1 - s);
+    w *= density * fabs(determinant_at(mesh, node, slope));
+    for (int a = 0; a < 10; a++)
+      for (int b = 0; b < 10; b++) mass[a][b] += w * N[a] * N[b];
+  }
+}
+
+/* By roles: true where the kind's own shares do not hold. */
+static bool integrate_if_curved(const corot_mesh *mesh, const element_set *e, int number,
+                                double density, double mass[KIND_NODES][KIND_NODES]) {
+  int node[KIND_NODES];
+  if (e->kind->number != TET10) return false;
+  corot_tets_nodes(mesh, number, node);
+  if (is_straight(mesh, node)) return false;
+  integrate(mesh, node, density, mass);
+  return true;
+}
+
+void corot_element_mass(const corot_mesh *mesh, const element_set *e, int b, int lane,
+                        double density, double mass[KIND_NODES][KIND_NODES]) {
+  const element_kind *kind = e->kind;
+  double curved[KIND_NODES][KIND_NODES], whole = density * volume_at(e, b, lane);
+  bool is_curved = integrate_if_curved(mesh, e, e->number[b * W + lane], density, curved);
+  for (int i = 0; i < kind->nnode; i++)
+    for (int j = 0; j < kind->nnode; j++) {
+      int r = role_at(e, b, i, lane), s = role_at(e, b, j, lane);
+      mass[i][j] = is_curved ? curved[r][s] : whole * kind->mass[r][s] / kind->mass_over;
+    }
+}
+
+void corot_element_lumped(const corot_mesh *mesh, const element_set *e, int b, int lane,
+                          double density, double mass[KIND_NODES]) {
+  const element_kind *kind = e->kind;
+  double curved[KIND_NODES][KIND_NODES], whole = density * volume_at(e, b, lane), trace = 0;
+  bool is_curved = integrate_if_curved(mesh, e, e->number[b * W + lane], density, curved);
+  if (is_curved) whole = 0;
+  for (int i = 0; is_curved && i < kind->nnode; i++) {
+    trace += curved[i][i];
+    for (int j = 0; j < kind->nnode; j++) whole += curved[i][j];
+  }
+  for (int i = 0; i < kind->nnode; i++) {
+    int r = role_at(e, b, i, lane);
+    mass[i] =
+        is_curved ? whole * curved[r][r] / trace : whole * kind->lumped[r] / kind->lumped_over;
+  }
+}

@@ -1,0 +1,124 @@
+/* Four-node tets made ten-node ones, and the other way. */
+#include <limits.h>
+#include <string.h>
+
+#include "mesh_refine.h"
+
+int corot_mesh_order(const corot_mesh *mesh) { return mesh->mid ? 2 : 1; }
+
+/* Room for nodes and tets of order 2, the tets those of `mesh`, and the positions of its nodes. */
+static corot_status begin_raised(const corot_mesh *mesh, const corot_edges *edges, corot_mesh *to) {
+  if (edges->n > INT_MAX / 3 - mesh->nnode)
+    return corot_fail(COROT_EINVAL, "%d nodes on the edges of a mesh of %d are too many", edges->n,
+                      mesh->nnode);
+  COROT_TRY(COROT_ALLOC(to->x, mesh->nnode + edges->n));
+  COROT_TRY(COROT_ALLOC(to->tet, mesh->ntet));
+  COROT_TRY(COROT_ALLOC(to->mid, mesh->ntet));
+  to->nnode = mesh->nnode + edges->n;
+  to->ntet = mesh->ntet;
+  memcpy(to->x, mesh->x, (size_t)mesh->nnode * sizeof *to->x);
+  memcpy(to->tet, mesh->tet, (size_t)mesh->ntet * sizeof *to->tet);
+  return COROT_OK;
+}
+
+corot_status corot_raise(const corot_mesh *mesh, const corot_edges *edges, corot_mesh *to) {
+  COROT_TRY(begin_raised(mesh, edges, to));
+  corot_edges_place(mesh, edges, to->x + mesh->nnode);
+  for (int e = 0; e < mesh->ntet; e++)
+    for (int k = 0; k < 6; k++) to->mid[e][k] = mesh->nnode + edges->tet[e][corot_edge_of_mid[k]];
+  return COROT_OK;
+}
+
+/* Fills a zeroed mesh. */
+static corot_status raise_all(const corot_mesh *mesh, corot_mesh *to) {
+  corot_edges edges = {0};
+  int nskin, (*skin)[3] = NULL;
+  if (mesh->ntet > INT_MAX / 10)
+    return corot_fail(COROT_EINVAL, "%d ten-node tets are too many: at most %d", mesh->ntet,
+                      INT_MAX / 10);
+  corot_status status = corot_edges_list(mesh, &edges);
+  if (!status) status = corot_raise(mesh, &edges, to);
+  if (!status) status = corot_mesh_check_volumes(to);
+  if (!status) status = corot_mesh_boundary(mesh, &nskin, &skin);
+  if (!status) status = corot_raise_groups(mesh, &edges, nskin, (const int(*)[3])skin, to);
+  free(skin);
+  corot_edges_clear(&edges);
+  return status;
+}
+
+/* place[i] = the number of corner i among the corners, -1 for other nodes; the value is how many.
+ */
+static int number_corners(const corot_mesh *mesh, int *place) {
+  int n = 0;
+  for (int i = 0; i < mesh->nnode; i++) place[i] = -1;
+  for (int e = 0; e < mesh->ntet; e++)
+    for (int k = 0; k < 4; k++) place[mesh->tet[e][k]] = 0;
+  for (int i = 0; i < mesh->nnode; i++)
+    if (place[i] == 0) place[i] = n++;
+  return n;
+}
+
+static corot_status lower_group(const corot_group *from, const int *place, corot_group *to) {
+  COROT_TRY(COROT_ALLOC(to->name, strlen(from->name) + 1));
+  strcpy(to->name, from->name);
+  COROT_TRY(COROT_ALLOC(to->node, from->nnode));
+  COROT_TRY(COROT_ALLOC(to->tri, from->ntri));
+  COROT_TRY(COROT_ALLOC(to->tet, from->ntet));
+  for (int i = 0; i < from->nnode; i++)
+    if (place[from->node[i]] >= 0) to->node[to->nnode++] = place[from->node[i]];
+  to->ntri = from->ntri;
+  for (int t = 0; t < to->ntri; t++)
+    for (int k = 0; k < 3; k++) to->tri[t][k] = place[from->tri[t][k]];
+  to->ntet = from->ntet;
+  for (int i = 0; i < to->ntet; i++) to->tet[i] = from->tet[i];
+  return COROT_OK;
+}
+
+static corot_status lower_groups(const corot_mesh *mesh, const int *place, corot_mesh *to) {
+  COROT_TRY(COROT_ALLOC(to->group, mesh->ngroup));
+  for (int g = 0; g < mesh->ngroup; g++) {
+    corot_group *group = &to->group[to->ngroup++];
+    COROT_TRY(lower_group(&mesh->group[g], place, group));
+    if (group->nnode == 0) {
+      corot_group_clear(group);
+      to->ngroup--;
+    }
+  }
+  return COROT_OK;
+}
+
+/* Fills a zeroed mesh; `place` [nnode] is scratch. */
+static corot_status lower(const corot_mesh *mesh, int *place, corot_mesh *to) {
+  int n = number_corners(mesh, place);
+  COROT_TRY(COROT_ALLOC(to->x, n));
+  COROT_TRY(COROT_ALLOC(to->tet, mesh->ntet));
+  to->nnode = n;
+  to->ntet = mesh->ntet;
+  for (int i = 0; i < mesh->nnode; i++)
+    if (place[i] >= 0) memcpy(to->x[place[i]], mesh->x[i], sizeof *to->x);
+  for (int e = 0; e < mesh->ntet; e++)
+    for (int k = 0; k < 4; k++) to->tet[e][k] = place[mesh->tet[e][k]];
+  return lower_groups(mesh, place, to);
+}
+
+static corot_status lower_all(const corot_mesh *mesh, corot_mesh *to) {
+  int *place;
+  COROT_TRY(COROT_ALLOC(place, mesh->nnode));
+  corot_status status = lower(mesh, place, to);
+  free(place);
+  return status;
+}
+
+corot_status corot_mesh_change_order(const corot_mesh *mesh, int order, corot_mesh **out) {
+  corot_mesh *m;
+  if (order != 1 && order != 2)
+    return corot_fail(COROT_EINVAL, "a mesh of order %d: only 1 and 2 are there", order);
+  if (order == corot_mesh_order(mesh)) return corot_mesh_copy(mesh, out);
+  COROT_TRY(COROT_ALLOC(m, 1));
+  corot_status status = order == 2 ? raise_all(mesh, m) : lower_all(mesh, m);
+  if (status)
+    corot_mesh_destroy(m);
+  else
+    *out = m;
+  return status;
+}
