@@ -311,7 +311,7 @@ static corot_status run(const arguments *a) {
   bar_source four = bar_source_default("green"), ten, graded = four;
   four.mesh = a->mesh, four.order = 1;
   ten = four, ten.order = 2;
-  graded.order = 2, graded.box.cells[2] = 8, graded.grading = 1.5;
+  graded.order = 2, graded.box.cells[2] = 8, graded.grading = 1.75;
   graded.box.split = COROT_BOX_SYMMETRIC;
   const body bodies[] = {{"four-node", four, 0},
                          {"four-node, refined", four, 1},
