@@ -80,19 +80,23 @@ void corot_mesh_destroy(corot_mesh *mesh);
      gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order;
      TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1.
 
-   gmsh: 4-node tets become tets; an element that formats 1 and 2.2 repeat for each of its physical
-   groups becomes one. Physical groups of points, 2-node lines, 3-node triangles and tets become
-   groups, those of one name a single one, in the order of $PhysicalNames. Nameless ones follow and
+   gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
+   1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
+   2 or 3 nodes, triangles of 3 or 6 and tets, all of one order, become groups with all nodes, those of one name a single one, in the order of $PhysicalNames. Nameless ones follow and
    are called by their number, as "7"; where nameless groups of several dimensions have the same
    number, as "point-7", "line-7", "surface-7", "volume-7". A name without elements makes no group.
    A group's triangles must be faces of tets; those inside the mesh keep the file's winding
    (reversed by a negative physical number in format 4.1). Other lines and surfaces are ignored
-   outside physical groups and refused inside; other solids, quadratic tets among them, and
-   partitioned meshes are refused. Sections that are not needed are skipped.
+   outside physical groups and refused inside; other solids, tets of both orders in one file, and
+   partitioned meshes are refused. So are tets that list the nodes on their edges in another order
+   than gmsh, which shows in where these are. Sections that are not needed are skipped.
 
    TetGen: region attributes (the last, if there are several) and node boundary markers other than 0
    become groups "region-N" and "marker-N". TetGen 1.5 winds tets as we do; a file whose tets are
-   all left-handed is turned round, since the format does not say.
+   all left-handed is turned round, since the format does not say. Nor does it say in which order
+   ten-node tets (TetGen's -o2) list the nodes on their edges, and versions differ: the order is
+   found from where the nodes are, and has to be the same in all tets. Nodes on edges have no markers
+   and are in the groups of both ends, as after octasection.
 
    Fails with COROT_EIO (cannot be read), COROT_EFORMAT with "FILE:LINE: ..." (text) or
    "FILE: byte N: ..." (binary); an unsound element is named by its number in the file.
@@ -133,7 +137,8 @@ corot_box corot_box_defaults(void);
    them flat. COROT_ENOMEM. */
 corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
 
-/* Writes gmsh 2.2 ASCII, with all groups as physical groups of points, triangles and tets: reading
+/* Writes gmsh 2.2 ASCII, with all groups as physical groups of points, triangles and tets, of 6 and
+   10 nodes at order 2: reading
    it gives the same mesh to the last bit. Written beside `path` first, so that a failed write
    (COROT_EIO, COROT_ENOMEM) leaves what was there. */
 corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
@@ -141,13 +146,15 @@ corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
 /* NULL where there is none of that name. */
 const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *name);
 
-/* Add a group by its nodes. The boundary faces and the tets whose nodes are all in the group
-   belong to it. COROT_EINVAL: the name is taken, empty, longer than 127 bytes or has quotes or
+/* Add a group by its nodes. The boundary faces and the tets whose corners are all in the group
+   belong to it. At order 2 the nodes on edges that octasection would add (below) belong to it, too,
+   beside those that are listed: those of which both ends do, but for edges through the inside that
+   join parts of a surface. COROT_EINVAL: the name is taken, empty, longer than 127 bytes or has quotes or
    control characters; a node is out of range; no node is selected. COROT_ENOMEM. The mesh is as it
    was then; this holds for the next two, too. */
 corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnode, const int *node);
 
-/* The nodes with |x[axis] - at| <= tol; tol = 0 stands for 1e-6 of the mesh's diagonal.
+/* The nodes with |x[axis] - at| <= tol, at order 2 the corners, and nodes on edges as above; tol = 0 stands for 1e-6 of the mesh's diagonal.
    COROT_EINVAL, COROT_ENOMEM as above; COROT_EINVAL, too, if axis is not 0, 1 or 2, if `at` is not a
    number, or if tol is negative or none. */
 corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name, int axis, double at,
@@ -162,15 +169,21 @@ corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const doub
    COROT_ENOMEM. */
 corot_status corot_mesh_boundary(const corot_mesh *mesh, int *ntri, int (**tri)[3]);
 
+/* Of a mesh of order 2 all nodes of triangles that are faces of its tets: the corners, then the nodes
+   on the edges 01 12 20. *node [ntri] is the caller's to free. COROT_EINVAL: the mesh is of order 1.
+   COROT_ENOMEM. */
+corot_status corot_mesh_face_nodes(const corot_mesh *mesh, int ntri, const int (*tri)[3],
+                                   int (**node)[6]);
+
 /* The node nearest to a point; the lower number wins a tie. */
 int corot_mesh_nearest(const corot_mesh *mesh, const double point[3]);
 
 /* Size and shape of a mesh. */
 typedef struct corot_mesh_quality {
   double min[3], max[3];          /* bounding box [m] */
-  double volume;                  /* sum [m^3] */
+  double volume;                  /* sum [m^3]; of the curved tets at order 2 */
   double volume_min, volume_max;  /* of a tet [m^3] */
-  double edge_min, edge_max;      /* [m] */
+  double edge_min, edge_max;      /* [m], here and below of the corners */
   double dihedral_min, dihedral_max; /* [degree] */
   double shape_min, shape_mean;   /* 3 inradius / circumradius: 1 regular, 0 flat */
   int shape_worst;                /* the tet with shape_min */
@@ -178,7 +191,7 @@ typedef struct corot_mesh_quality {
 
 corot_mesh_quality corot_mesh_measure(const corot_mesh *mesh);
 
-/* Octasection: every tet is cut into eight of equal volume. The middles of its edges cut off four
+/* Octasection: every tet is cut into eight, of equal volume unless it is curved. The middles of its edges cut off four
    corners; what remains is an octahedron, cut into four along one of its three diagonals. */
 typedef enum corot_diagonal {
   /* Bey's (1995): inherited, so that a tet has descendants of at most three shapes, however often
@@ -195,17 +208,23 @@ typedef enum corot_diagonal {
 typedef struct corot_refinement {
   int nlevel;
   int *nnode; /* [nlevel + 1] the nodes of level l are those below nnode[l], of all finer levels */
-  int *ntet;  /* [nlevel + 1] ntet[0] times 8^l */
+  int *ntet;  /* [nlevel + 1] ntet[0] times 8^l; of a level that corot_refinement_raise made, those
+                 of the level below */
   int (*parent)[2]; /* [nnode[nlevel] - nnode[0]] ends of the edge of which node nnode[0] + i is the
-                       middle: nodes of a coarser level, ascending */
+                       middle: nodes of a coarser level, ascending; of order 2 the ends of the edge
+                       on which it is, corners of its own level, which are the nodes of the coarser */
 } corot_refinement;
 
 /* Refines `nlevel` >= 0 times; 0 copies. Neighbouring tets still share whole faces.
 
    Nodes keep their numbers, and their positions to the last bit; the middles of the edges follow,
    level by level, in ascending order of their two ends. Children 8 e to 8 e + 7 come from tet e,
-   the first four from its corners: node k of child 8 e + k is node k of e. New nodes lie on
-   straight edges: a curved surface stays as faceted as it was.
+   the first four from its corners: node k of child 8 e + k is node k of e. At order 1 new nodes lie
+   on straight edges: a curved surface stays as faceted as it was.
+
+   A mesh of order 2 stays one, of the same shape: all its nodes become corners, and the new ones, on
+   the edges of the children, lie where its shape functions have them. So a mesh that is refined and
+   then raised, and one that is raised and then refined, are the same to the last bit.
 
    Groups keep their order. The children of a tet or triangle are in the groups of their parent,
    and wind as it does. A new node is in the groups of which both its parents are nodes, with two
@@ -216,10 +235,17 @@ typedef struct corot_refinement {
    group to the refined mesh.
 
    `refinement` may be NULL. COROT_EINVAL: nlevel is negative, there is no such diagonal, there would
-   be too many tets, or ones so flat that they are none. COROT_ENOMEM. It needs up to 50 bytes a tet of
-   the result while it works. */
+   be too many tets, or ones so flat, or so strongly curved, that they are none. COROT_ENOMEM. It needs
+   up to 50 bytes a tet of the result while it works, 200 at order 2. */
 corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel, corot_diagonal diagonal,
                                corot_mesh **fine, corot_refinement **refinement);
+
+/* Adds a level: that the finest mesh has become `raised`, by corot_mesh_change_order to order 2. The
+   nodes on its edges are the nodes of the new level, with the ends of the edges as parents; as there
+   are no more tets, ntet[nlevel] = ntet[nlevel - 1]. The mean of the parents is how linear functions
+   on the tets enter the ten-node ones: a multigrid method or a hierarchical basis needs no more.
+   COROT_EINVAL: `raised` is not that. COROT_ENOMEM. The refinement is as it was then. */
+corot_status corot_refinement_raise(corot_refinement *refinement, const corot_mesh *raised);
 
 /* Takes NULL. */
 void corot_refinement_destroy(corot_refinement *refinement);

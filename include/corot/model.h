@@ -65,10 +65,14 @@ typedef struct corot_amplitude {
   double offset;
 } corot_amplitude;
 
-/* LUMPED: row sums at the nodes (the paper's). CONSISTENT: the linear shape functions' own, which
-   couples neighbours; not with moving supports, whose sudden starts and stops it would hand on to
+/* LUMPED: row sums at the nodes (the paper's); of ten-node tets, whose row sums at corners are
+   negative, in proportion to the diagonal: 1/36 of a tet's mass at a corner, 4/27 on an edge (Hinton,
+   Rock & Zienkiewicz 1976). CONSISTENT: the shape functions' own, which couples neighbours. AUTO:
+   lumped for linear tets, consistent for ten-node ones, which need it for their order of accuracy:
+   lumped, the frequencies of torsion of a bar come out several per cent too low. CONSISTENT is not
+   possible with moving supports, whose sudden starts and stops it would hand on to
    them as impulses. */
-typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
+typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT, COROT_MASS_AUTO } corot_mass;
 
 /* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda
    grows: near incompressibility linear tets come out several times too stiff. NODAL: mostly its
@@ -76,8 +80,15 @@ typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT } corot_mass;
    every strain measure; a node between materials has an average of each. Displacements then converge
    as those of compressible solids do; the pressure stays rough from node to node. The damping's
    first coefficient acts on each tet's own rate all the same. K couples nodes two tets apart and has
-   nearly four times the entries; forces take twice the time. */
-typedef enum corot_dilatation { COROT_DILATATION_LOCAL, COROT_DILATATION_NODAL } corot_dilatation;
+   nearly four times the entries; forces take twice the time. Of ten-node tets the nodes are the
+   corners. ELEMENT: the mean over the points of each ten-node tet, which is stable there and does not
+   lock; K keeps its pattern. For linear tets, which have one point, it is the same as LOCAL. Without
+   averages ten-node tets lock mildly, if at all: LOCAL serves up to a Poisson's ratio of some 0.45. */
+typedef enum corot_dilatation {
+  COROT_DILATATION_LOCAL,
+  COROT_DILATATION_NODAL,
+  COROT_DILATATION_ELEMENT,
+} corot_dilatation;
 
 typedef enum corot_load_kind {
   COROT_TRACTION, /* force per rest area on the group's triangles, fixed direction [Pa] */
@@ -230,7 +241,7 @@ typedef struct corot_model_def {
                               fraction of lambda would lock again. >= 0 */
 } corot_model_def;
 
-/* Strain polar, viscosity AUTO, mass lumped, dilatation local (if nodal, with one mu left), nothing else. */
+/* Strain polar, viscosity and mass AUTO, dilatation local (if nodal, with one mu left), nothing else. */
 corot_model_def corot_model_defaults(void);
 
 /* What a strain measure is like. */

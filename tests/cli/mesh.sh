@@ -47,6 +47,27 @@ expect 3 mesh refine none.msh -o fine.msh; err "none.msh"; no_out
 [ ! -e fine.msh ] || complain "fine.msh was written"
 expect 5 mesh refine box.msh -o none/fine.msh; err "none/fine.msh"
 
+# ten-node tets: made, refined, lowered
+expect 0 mesh box --size 1,1,1 --cells 2,2,2 --order 2 -o two.msh; err "two.msh: 125 nodes, 48 tets"
+expect 0 mesh info two.msh; out "nodes     125: 27 corners and 98 on edges"; out "order     2"
+out "volume    1 m^3"; out "zmax: 25 nodes, 8 triangles"
+expect 0 mesh info two.msh --json
+json 'd["order"] == 2 and d["corners"] == 27 and d["nodes"] == 125 and abs(d["volume"] - 1) < 1e-12'
+expect 0 mesh info box.msh; out "order     1"
+expect 0 mesh info box.msh --json; json 'd["order"] == 1 and d["corners"] == d["nodes"]'
+expect 0 mesh box --size 1,1,1 --cells 2,2,2 -o one.msh
+expect 0 mesh refine one.msh --levels 0 --order 2 -o raised.msh
+cmp -s two.msh raised.msh || complain "a box of order 2 is not the raised box"
+expect 0 mesh refine two.msh --levels 0 --order 1 -o lowered.msh
+cmp -s one.msh lowered.msh || complain "lowering does not undo raising"
+expect 0 mesh refine two.msh -o fine.msh; err "fine.msh: 729 nodes, 384 tets"
+expect 0 mesh refine one.msh --order 2 -o again.msh
+cmp -s fine.msh again.msh || complain "refining and raising do not commute"
+rm fine.msh
+expect 2 mesh refine two.msh --order 3 -o fine.msh; err "--order 3: expected 1 or 2"
+expect 2 mesh box --size 1,1,1 --cells 1,1,1 --order two -o x.msh; err "--order two: expected 1 or 2"
+[ ! -e fine.msh ] && [ ! -e x.msh ] || complain "a file was written"
+
 expect 3 mesh info none.msh; err "none.msh"; no_out
 echo garbage >bad.msh
 expect 3 mesh info bad.msh; err "bad.msh"; no_out

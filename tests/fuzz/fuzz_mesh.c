@@ -27,12 +27,36 @@ static void require_ascending(int n, const int *a, int end, const char *what) {
   for (int i = 0; i < n; i++) require(a[i] >= 0 && a[i] < end && (i == 0 || a[i] > a[i - 1]), what);
 }
 
+/* The same tets by hand. */
+static corot_status make_again(const corot_mesh *m, corot_mesh **again) {
+  const double(*x)[3] = (const double(*)[3])m->x;
+  if (!m->mid) return corot_mesh_create(m->nnode, x, m->ntet, (const int(*)[4])m->tet, again);
+  int(*tet)[10] = malloc((size_t)m->ntet * sizeof *tet);
+  if (!tet) abort();
+  for (int e = 0; e < m->ntet; e++) {
+    memcpy(tet[e], m->tet[e], sizeof *m->tet);
+    memcpy(tet[e] + 4, m->mid[e], sizeof *m->mid);
+  }
+  corot_status status =
+      corot_mesh_create_order_2(m->nnode, x, m->ntet, (const int(*)[10])tet, again);
+  free(tet);
+  return status;
+}
+
+/* Either order can be made the other; what cannot be raised is at the limit of what is flat. */
+static void require_other_order(const corot_mesh *m) {
+  corot_mesh *other = NULL;
+  corot_status status = corot_mesh_change_order(m, 3 - corot_mesh_order(m), &other);
+  require(status == COROT_OK || (status == COROT_EINVAL && !m->mid), "no mesh of the other order");
+  if (status == COROT_OK) require(corot_mesh_order(other) != corot_mesh_order(m), "the same order");
+  corot_mesh_destroy(other);
+}
+
 static void require_sound(const corot_mesh *m) {
   corot_mesh *again;
-  require(corot_mesh_create(m->nnode, (const double(*)[3])m->x, m->ntet, (const int(*)[4])m->tet,
-                            &again) == COROT_OK,
-          "an unsound mesh");
+  require(make_again(m, &again) == COROT_OK, "an unsound mesh");
   corot_mesh_destroy(again);
+  require_other_order(m);
   for (int g = 0; g < m->ngroup; g++) {
     const corot_group *p = &m->group[g];
     require(p->nnode > 0, "an empty group");

@@ -464,7 +464,7 @@ static void resolved_values(void **state) {
       "0.0,0.0],\"split\":\"kuhn\"},\"refine\":0,\"diagonal\":\"shortest\"},\"groups\":{},"
       "\"material\":{\"lambda\":100000.0,"
       "\"mu\":10000.0,\"density\":1000.0,\"damping\":{\"lambda\":0.0,\"mu\":0.0,\"mass\":0.0}},"
-      "\"mass\":\"lumped\",\"strain\":\"polar\",\"dilatation\":{\"name\":\"local\",\"local\":1.0},"
+      "\"mass\":\"auto\",\"strain\":\"polar\",\"dilatation\":{\"name\":\"local\",\"local\":1.0},"
       "\"viscosity\":\"auto\",\"frames\":{\"policy\":"
       "\"exact\","
       "\"history\":\"auto\"},\"boundary\":[],"

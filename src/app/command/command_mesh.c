@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/scenario/facts.h"
+#include "app/scenario/refine.h"
 #include "app/scenario/warnings.h"
 #include "app/scenario/words.h"
 #include "app/text/json_text.h"
@@ -29,7 +30,7 @@ int command_mesh(int argc, char **argv) {
 
 static const char box_help[] =
     "usage: corot mesh box --size X,Y,Z --cells I,J,K [--origin X,Y,Z] [--split NAME]\n"
-    "                       -o FILE.msh\n"
+    "                       [--order N] -o FILE.msh\n"
     "\n"
     "Writes a box of I*J*K cells, six tets each, as gmsh 2.2 ASCII. Its sides are groups xmin "
     "xmax\n"
@@ -45,24 +46,23 @@ static const char box_help[] =
     "odd;\n"
     "                       kuhn: all cells the same, which drifts by up to a third of the\n"
     "                       deflection; default: symmetric\n"
+    "      --order N        1: four-node tets; 2: ten-node tets; default: 1\n"
     "  -o, --output FILE    the file to write\n"
     "\n"
     "example: corot mesh box --size 0.1,0.1,0.6 --cells 2,2,12 -o bar.msh\n";
 
 static const struct option box_options[] = {
-    {"size", required_argument, NULL, 's'},
-    {"cells", required_argument, NULL, 'c'},
-    {"origin", required_argument, NULL, 'g'},
-    {"split", required_argument, NULL, 'p'},
-    {"output", required_argument, NULL, 'o'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
+    {"size", required_argument, NULL, 's'},   {"cells", required_argument, NULL, 'c'},
+    {"origin", required_argument, NULL, 'g'}, {"split", required_argument, NULL, 'p'},
+    {"order", required_argument, NULL, 'r'},  {"output", required_argument, NULL, 'o'},
+    {"help", no_argument, NULL, 'h'},         {0},
 };
 
 typedef struct box_arguments {
   corot_box box;
   const char *file;
   bool size, cells; /* given */
+  int order;
 } box_arguments;
 
 /* Takes one option of the line; EXIT_OK: go on. */
@@ -90,6 +90,9 @@ static int box_option(box_arguments *a, int answer, char **argv) {
       if (word >= 0) a->box.split = (corot_box_split)word;
       if (word >= 0) return EXIT_OK;
       return usage_error(program, "--split %s: expected symmetric, alternating or kuhn", optarg);
+    case 'r':
+      if (parse_count(optarg, 2, &a->order)) return EXIT_OK;
+      return usage_error(program, "--order %s: expected 1 or 2", optarg);
     case 'o':
       a->file = optarg;
       return EXIT_OK;
@@ -102,6 +105,7 @@ static int write_box(const box_arguments *a) {
   corot_mesh *mesh = NULL;
   corot_status status = corot_mesh_box(&a->box, &mesh);
   if (status == COROT_EINVAL) return usage_error("corot mesh box", "%s", corot_error());
+  if (status == COROT_OK) status = change_order(a->order, &mesh, NULL);
   if (status == COROT_OK) status = corot_mesh_write(mesh, a->file);
   if (status == COROT_OK) say("%s: %d nodes, %d tets\n", a->file, mesh->nnode, mesh->ntet);
   corot_mesh_destroy(mesh);
@@ -109,7 +113,7 @@ static int write_box(const box_arguments *a) {
 }
 
 int command_mesh_box(int argc, char **argv) {
-  box_arguments a = {.box = corot_box_defaults()};
+  box_arguments a = {.box = corot_box_defaults(), .order = 1};
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":o:h", box_options, NULL)) != -1;) {
     if (answer == 'h') {
@@ -147,12 +151,25 @@ static const struct option info_options[] = {
 
 /* What is known of a mesh beside its shape. */
 typedef struct mesh_facts {
+  int ncorner; /* nodes that are corners of tets; the others are on edges */
   int npart;
   corot_part *part; /* [npart] */
   warnings warnings;
 } mesh_facts;
 
+static corot_status count_corners(const corot_mesh *mesh, int *ncorner) {
+  char *corner = calloc((size_t)mesh->nnode, 1);
+  if (!corner) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", mesh->nnode);
+  for (int e = 0; e < mesh->ntet; e++)
+    for (int k = 0; k < 4; k++) corner[mesh->tet[e][k]] = 1;
+  *ncorner = 0;
+  for (int i = 0; i < mesh->nnode; i++) *ncorner += corner[i];
+  free(corner);
+  return COROT_OK;
+}
+
 static corot_status find_mesh_facts(const corot_mesh *mesh, mesh_facts *f) {
+  COROT_TRY(count_corners(mesh, &f->ncorner));
   COROT_TRY(corot_mesh_parts(mesh, &f->npart, &f->part));
   return warnings_of_mesh(mesh, &f->warnings);
 }
@@ -160,8 +177,13 @@ static corot_status find_mesh_facts(const corot_mesh *mesh, mesh_facts *f) {
 static void print_info(const char *path, const corot_mesh *mesh, const mesh_facts *f) {
   corot_mesh_quality q = corot_mesh_measure(mesh);
   show("file      %s\n", path);
-  show("nodes     %d\n", mesh->nnode);
+  if (mesh->mid)
+    show("nodes     %d: %d corners and %d on edges\n", mesh->nnode, f->ncorner,
+         mesh->nnode - f->ncorner);
+  else
+    show("nodes     %d\n", mesh->nnode);
   show("tets      %d\n", mesh->ntet);
+  show("order     %d\n", corot_mesh_order(mesh));
   show("parts     %d\n", f->npart);
   show("box       [%g, %g] x [%g, %g] x [%g, %g] m\n", q.min[0], q.max[0], q.min[1], q.max[1],
        q.min[2], q.max[2]);
@@ -193,7 +215,9 @@ static json_t *info_json(const char *path, const corot_mesh *mesh, const mesh_fa
   json_t *j = json_object();
   j = json_text_with(j, "file", json_text_string(path));
   j = json_text_with(j, "nodes", json_integer(mesh->nnode));
+  j = json_text_with(j, "corners", json_integer(f->ncorner));
   j = json_text_with(j, "tets", json_integer(mesh->ntet));
+  j = json_text_with(j, "order", json_integer(corot_mesh_order(mesh)));
   j = json_text_with(j, "parts", parts_json(f));
   j = json_text_with(j, "min", json_pack("[f, f, f]", q.min[0], q.min[1], q.min[2]));
   j = json_text_with(j, "max", json_pack("[f, f, f]", q.max[0], q.max[1], q.max[2]));

@@ -12,10 +12,11 @@
 static const char program[] = "corot mesh refine";
 
 static const char help[] =
-    "usage: corot mesh refine FILE [--levels N] [--diagonal NAME] -o FILE.msh\n"
+    "usage: corot mesh refine FILE [--levels N] [--diagonal NAME] [--order N] -o FILE.msh\n"
     "\n"
     "Cuts every tet into eight, N times, and writes gmsh 2.2 ASCII with all groups. Nodes keep\n"
-    "their numbers; the middles of the edges follow. Size and shape before and after are printed\n"
+    "their numbers; the middles of the edges follow. Curved ten-node tets stay curved. Size and "
+    "shape before and after are printed\n"
     "to stderr; see also corot mesh info.\n"
     "\n"
     "      --levels N       how often; default: 1\n"
@@ -23,21 +24,22 @@ static const char help[] =
     "shapes\n"
     "                       of tets come from each, however often it is cut (Bey 1995); default:\n"
     "                       shortest\n"
+    "      --order N        of the result: 1, four-node tets, or 2, ten-node tets; default: as "
+    "FILE.\n"
+    "                       2 adds the middles of straight edges, 1 drops the nodes on edges\n"
     "  -o, --output FILE    the file to write\n"
     "\n"
     "example: corot mesh refine bar.msh --levels 2 -o fine.msh\n";
 
 static const struct option options[] = {
-    {"levels", required_argument, NULL, 'l'},
-    {"diagonal", required_argument, NULL, 'd'},
-    {"output", required_argument, NULL, 'o'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
+    {"levels", required_argument, NULL, 'l'}, {"diagonal", required_argument, NULL, 'd'},
+    {"order", required_argument, NULL, 'r'},  {"output", required_argument, NULL, 'o'},
+    {"help", no_argument, NULL, 'h'},         {0},
 };
 
 typedef struct arguments {
   const char *from, *to;
-  int nlevel;
+  int nlevel, order; /* 0: as it is */
   corot_diagonal diagonal;
 } arguments;
 
@@ -59,6 +61,10 @@ static int take_option(arguments *a, int answer, char **argv) {
         return usage_error(program, "--diagonal %s: expected consistent or shortest", optarg);
       a->diagonal = (corot_diagonal)word;
       return EXIT_OK;
+    case 'r':
+      if (!parse_count(optarg, 2, &a->order))
+        return usage_error(program, "--order %s: expected 1 or 2", optarg);
+      return EXIT_OK;
     case 'o':
       a->to = optarg;
       return EXIT_OK;
@@ -78,7 +84,9 @@ static int refine(const arguments *a) {
   corot_status status = corot_mesh_read(a->from, &mesh);
   if (status != COROT_OK) return failure(read_failure(status, a->from));
   report(a->from, mesh);
-  status = refine_mesh(a->nlevel, a->diagonal, &mesh, NULL);
+  if (a->order == 1) status = change_order(1, &mesh, NULL);
+  if (status == COROT_OK) status = refine_mesh(a->nlevel, a->diagonal, &mesh, NULL);
+  if (status == COROT_OK && a->order == 2) status = change_order(2, &mesh, NULL);
   if (status == COROT_EINVAL) corot_fail(status, "%s: %s", a->from, corot_error());
   if (status == COROT_OK) status = corot_mesh_write(mesh, a->to);
   if (status == COROT_OK) report(a->to, mesh);

@@ -175,6 +175,8 @@ static void print_dilatation(const scenario *s, FILE *out) {
   if (s->model.dilatation == COROT_DILATATION_NODAL)
     fprintf(out, "dilatation     averaged at the nodes, but for %g mu of lambda\n",
             s->model.dilatation_local);
+  if (s->model.dilatation == COROT_DILATATION_ELEMENT)
+    fprintf(out, "dilatation     averaged over each tet\n");
 }
 
 static void print_amplitude(const corot_amplitude *a, FILE *out) {

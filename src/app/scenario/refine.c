@@ -4,16 +4,21 @@
 #include <math.h>
 #include <unistd.h>
 
-#define BYTES_PER_TET 50 /* of the refined mesh, while it is made */
+/* Of a mesh of either order, while it is made. */
+static const double bytes_per_tet[] = {0, 50, 250};
 
-corot_status refine_fits(int ntet, int nlevel, double memory) {
-  double most = memory / BYTES_PER_TET, fine = ntet * pow(8, nlevel);
+static corot_status fits(int ntet, int order, int nlevel, double memory) {
+  double bytes = bytes_per_tet[order], most = memory / bytes, fine = ntet * pow(8, nlevel);
   int times = most > ntet ? (int)(log2(most / ntet) / 3) : 0;
   if (fine <= most) return COROT_OK;
   return corot_fail(COROT_EINVAL,
                     "refining %d tets %d times makes %.3g, which need %.3g GB of memory, and there "
                     "are %.3g: at most %d",
-                    ntet, nlevel, fine, fine * BYTES_PER_TET / 1e9, memory / 1e9, times);
+                    ntet, nlevel, fine, fine * bytes / 1e9, memory / 1e9, times);
+}
+
+corot_status refine_fits(int ntet, int nlevel, double memory) {
+  return fits(ntet, 1, nlevel, memory);
 }
 
 /* Infinite where the system does not say. */
@@ -28,9 +33,26 @@ static double physical_memory(void) {
 corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
                          corot_refinement **refinement) {
   corot_mesh *fine;
-  COROT_TRY(refine_fits((*mesh)->ntet, nlevel, physical_memory()));
+  COROT_TRY(fits((*mesh)->ntet, corot_mesh_order(*mesh), nlevel, physical_memory()));
   COROT_TRY(corot_mesh_refine(*mesh, nlevel, diagonal, &fine, refinement));
   corot_mesh_destroy(*mesh);
   *mesh = fine;
   return COROT_OK;
+}
+
+static corot_status check_room(const corot_mesh *mesh, int order, double memory) {
+  double bytes = mesh->ntet * bytes_per_tet[2];
+  if (order != 2 || mesh->mid || bytes <= memory) return COROT_OK;
+  return corot_fail(COROT_EINVAL, "order 2 needs %.3g GB of memory for %d tets, and there are %.3g",
+                    bytes / 1e9, mesh->ntet, memory / 1e9);
+}
+
+corot_status change_order(int order, corot_mesh **mesh, corot_refinement *refinement) {
+  corot_mesh *changed;
+  if (order == corot_mesh_order(*mesh)) return COROT_OK;
+  COROT_TRY(check_room(*mesh, order, physical_memory()));
+  COROT_TRY(corot_mesh_change_order(*mesh, order, &changed));
+  corot_mesh_destroy(*mesh);
+  *mesh = changed;
+  return refinement ? corot_refinement_raise(refinement, changed) : COROT_OK;
 }

@@ -1,4 +1,4 @@
-/* Refinement as the tool does it: in place, and not beyond the memory of the machine. */
+/* Refinement and order as the tool does it: in place, and not beyond the memory of the machine. */
 #ifndef COROT_APP_SCENARIO_REFINE_H
 #define COROT_APP_SCENARIO_REFINE_H
 
@@ -9,7 +9,11 @@
 corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
                          corot_refinement **refinement);
 
-/* Whether `ntet` tets can be refined so often with so much memory [byte]. */
+/* Replaces the mesh by its copy of order 1 or 2. `refinement` (or NULL) of the mesh gets the level
+   that is new at order 2. COROT_EINVAL: as corot_mesh_change_order, or too little memory. */
+corot_status change_order(int order, corot_mesh **mesh, corot_refinement *refinement);
+
+/* Whether `ntet` tets of order 1 can be refined so often with so much memory [byte]. */
 corot_status refine_fits(int ntet, int nlevel, double memory);
 
 #endif

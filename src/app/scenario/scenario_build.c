@@ -39,9 +39,31 @@ static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *me
   return COROT_OK;
 }
 
+static corot_status check_hierarchy(const scenario *s, const corot_mesh *mesh) {
+  if (!s->model.hierarchy || (s->order != 2 && !mesh->mid)) return COROT_OK;
+  return config_fail(place(s, s->order == 2 ? "mesh.order" : "hierarchy"),
+                     "a hierarchy of ten-node tets is not provided for%s",
+                     s->order == 2 ? "" : ": mesh.order: 1 makes them four-node ones");
+}
+
+/* *refinement, if it is not NULL, gets the level that order 2 adds. */
+static corot_status set_order(const scenario *s, corot_mesh **mesh, corot_refinement *refinement) {
+  if (s->order == 0) return COROT_OK;
+  corot_status status = change_order(s->order, mesh, refinement);
+  if (status == COROT_OK || status == COROT_ENOMEM) return status;
+  return config_fail(place(s, "mesh.order"), "%s", corot_error());
+}
+
+static corot_status check_levels(const scenario *s, const corot_refinement *refinement) {
+  if (!scenario_solves_by_levels(s) || refinement->nlevel > 0) return COROT_OK;
+  return config_fail(place(s, "linear_solver.preconditioner"),
+                     "%s needs mesh.refine: the file's tets have ten nodes already",
+                     s->integrator.linear.preconditioner);
+}
+
 static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
-  if (s->refine == 0 && !s->model.hierarchy) return COROT_OK;
   bool needed = s->model.hierarchy || scenario_solves_by_levels(s);
+  if (s->refine == 0 && !needed) return COROT_OK;
   corot_status status = refine_mesh(s->refine, s->diagonal, mesh, needed ? refinement : NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
@@ -53,7 +75,11 @@ static corot_status build_mesh(const scenario *s, corot_mesh **out, corot_refine
   corot_mesh *mesh = NULL;
   COROT_TRY(load_mesh(s, &mesh));
   corot_status status = add_groups(s, true, mesh);
+  if (status == COROT_OK) status = check_hierarchy(s, mesh);
+  if (status == COROT_OK && s->order == 1) status = set_order(s, &mesh, NULL);
   if (status == COROT_OK) status = refine(s, &mesh, refinement);
+  if (status == COROT_OK && s->order == 2) status = set_order(s, &mesh, *refinement);
+  if (status == COROT_OK) status = check_levels(s, *refinement);
   if (status == COROT_OK) status = add_groups(s, false, mesh);
   if (status == COROT_OK)
     *out = mesh;

@@ -46,16 +46,17 @@ static const schema_key keys[] = {
   {"mesh.box.origin",         VECTOR,          OPTIONAL, ANY,          "m",       "[0, 0, 0]", 0, "the corner with the smallest coordinates"},
   {"mesh.box.split",          CHOICE,          OPTIONAL, ANY,          "",        "symmetric", "symmetric|alternating|kuhn", "how the cells are cut into tets; symmetric: mirrored from cell to cell, and the middle one of an odd number in halves, so that nothing drifts sideways; alternating: mirrored only, which drifts a little where a number is odd; kuhn: all the same, which drifts by up to a third of the deflection"},
   {"mesh.refine",             INTEGER,         OPTIONAL, NOT_NEGATIVE, "",      "0", 0, "times that each tet is cut into eight; nodes keep their numbers, the middles of edges follow"},
+  {"mesh.order",              INTEGER,         OPTIONAL, POSITIVE,     "",      0, 0, "1: tets of four nodes, linear displacements; 2: of ten nodes, quadratic ones, whose edges stay as curved as the file has them; default: as the file, of a box 1. 2 adds the middles of straight edges, after mesh.refine, to tets of four nodes; 1 drops the nodes on edges, before mesh.refine, and the numbers of the corners close up"},
   {"mesh.diagonal",           CHOICE,          OPTIONAL, ANY,          "",        "shortest", "consistent|shortest", "which diagonal of the octahedron inside a tet is an edge of the eight: shortest makes better shapes on the average, consistent at most three of a tet, however often it is cut"},
 
-  {"groups",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "sets of nodes, in addition to the mesh's own groups; plane and box choose among those of the refined mesh"},
+  {"groups",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "sets of nodes, in addition to the mesh's own groups; plane and box choose among those of the refined mesh; of ten-node tets they choose corners, and a node on an edge belongs where both ends do"},
   {"groups.NAME.plane",       MAP,             ONE_OF,   ANY,          "",        0, 0, "the nodes on a plane across an axis"},
   {"groups.NAME.plane.axis",  CHOICE,          REQUIRED, ANY,          "",        0, "x|y|z", "the axis the plane is normal to"},
   {"groups.NAME.plane.at",    NUMBER,          REQUIRED, ANY,          "m",       0, 0, "where on the axis; within 1e-6 of the mesh's diagonal"},
   {"groups.NAME.box",         MAP,             ONE_OF,   ANY,          "",        0, 0, "the nodes in a box, its sides included"},
   {"groups.NAME.box.min",     VECTOR,          REQUIRED, ANY,          "m",       0, 0, "smallest coordinates"},
   {"groups.NAME.box.max",     VECTOR,          REQUIRED, ANY,          "m",       0, 0, "largest coordinates"},
-  {"groups.NAME.nodes",       SCHEMA_INTEGERS, ONE_OF,   NOT_NEGATIVE, "",        0, 0, "numbers of nodes before mesh.refine, the first is 0; what is cut passes the group on, edges, faces and tets"},
+  {"groups.NAME.nodes",       SCHEMA_INTEGERS, ONE_OF,   NOT_NEGATIVE, "",        0, 0, "numbers of nodes before mesh.refine and mesh.order, the first is 0; what is cut passes the group on, edges, faces and tets"},
 
   {"material",                SCHEMA_MAPS,     REQUIRED, ANY,          "",        0, 0, "one material, or a list of one for each group of tets"},
   {"material.group",          TEXT,            OPTIONAL, ANY,          "",        0, 0, "the tets it fills; without: all that no other entry names"},
@@ -69,7 +70,7 @@ static const schema_key keys[] = {
   {"material.damping.mu",     NUMBER,          OPTIONAL, RANGE_OF(damping_mu), "Pa s",    "0.0", 0, "second viscosity"},
   {"material.damping.mass",   NUMBER,          OPTIONAL, RANGE_OF(damping_mass), "1/s",     "0.0", 0, "Rayleigh's: a force against the velocity, this times the mass"},
 
-  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "lumped", "lumped|consistent", "lumped: row sums at the nodes; consistent: the shape functions' own, without moving supports"},
+  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|lumped|consistent", "lumped: at the nodes; consistent: the shape functions' own, without moving supports; auto: lumped for four-node tets, consistent for ten-node ones"},
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
   {"hierarchy",               MAP,             OPTIONAL, ANY,          "",        0, 0, "with mesh.refine: a measure of its own for the unrefined mesh; strain is that of the refined one, in frames handed down"},
   {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "green", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh"},
@@ -77,7 +78,7 @@ static const schema_key keys[] = {
   {"hierarchy.frame_level",   INTEGER,         OPTIONAL, NOT_NEGATIVE, "",        "0", 0, "the level whose frames are handed down to finer ones, 0 (the unrefined mesh) to mesh.refine"},
   {"hierarchy.force",         CHOICE,          OPTIONAL, ANY,          "",        "conservative", "conservative|paper", "conservative: the gradient of the energy; paper: without the part by which the frames follow, which keeps momentum only"},
   {"dilatation",              SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "local", 0, "what lambda acts on; the name alone will do"},
-  {"dilatation.name",         CHOICE,          OPTIONAL, ANY,          "",        "local", "local|nodal", "local: each tet's own dilatation, which locks as nu nears 1/2; nodal: averages around the nodes, which do not"},
+  {"dilatation.name",         CHOICE,          OPTIONAL, ANY,          "",        "local", "local|nodal|element", "local: each tet's own dilatation, which locks as nu nears 1/2, four-node tets soon, ten-node ones late; nodal: averages around the nodes, which do not; element: the mean over each ten-node tet, which does not either"},
   {"dilatation.local",        NUMBER,          OPTIONAL, NOT_NEGATIVE, "mu",      "1.0", 0, "nodal: so much of lambda stays with each tet's own"},
   {"viscosity",               CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|corotated|objective", "strain rate of the damping: sym(R' dF/dt), the paper's, whose forces can set a body spinning, or dS/dt of F = R S, zero in any rigid motion (polar, hybrid); auto: objective with polar and hybrid unless there is a hierarchy, else corotated"},
   {"frames",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "the rotations of the elements, as part of the model"},
@@ -174,7 +175,7 @@ static const schema_key keys[] = {
 
   {"probes",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "nodes whose motion is recorded; names are letters, digits, _ and -"},
   {"probes.NAME.point",       VECTOR,          ONE_OF,   ANY,          "m",       0, 0, "the node nearest to it at rest, of the refined mesh"},
-  {"probes.NAME.node",        INTEGER,         ONE_OF,   NOT_NEGATIVE, "",        0, 0, "the node of that number, the first is 0; unchanged by mesh.refine"},
+  {"probes.NAME.node",        INTEGER,         ONE_OF,   NOT_NEGATIVE, "",        0, 0, "the node of that number, the first is 0; unchanged by mesh.refine and mesh.order: 2"},
 
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},

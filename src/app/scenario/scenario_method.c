@@ -132,7 +132,7 @@ static corot_status read_integrator(scenario *s) {
   COROT_TRY(read_stages(node, &def));
   COROT_TRY(read_constant_step(node, &def));
   s->integrator = def;
-  if (s->refine == 0 && scenario_solves_by_levels(s))
+  if (s->refine == 0 && s->order != 2 && scenario_solves_by_levels(s))
     return config_fail(config_find(root, "linear_solver.preconditioner"), "%s needs mesh.refine",
                        def.linear.preconditioner);
   return COROT_OK;

@@ -10,8 +10,18 @@
 
 /* --- Mesh and groups --- */
 
+static corot_status read_order(scenario *s) {
+  config_node *order = config_find(s->source->root, "mesh.order");
+  if (order && order->number > 2)
+    return config_fail(order, "order %.0f: tets are of order 1, with four nodes, or 2, with ten",
+                       order->number);
+  s->order = order ? (int)order->number : 0;
+  return COROT_OK;
+}
+
 static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root;
+  COROT_TRY(read_order(s));
   config_node *box = config_find(root, "mesh.box");
   s->refine = (int)number_at(root, "mesh.refine");
   s->diagonal = (corot_diagonal)choice_at(root, "mesh.diagonal", words_diagonal);

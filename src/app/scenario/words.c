@@ -27,12 +27,14 @@ const char *const words_viscosity[] = {
 const char *const words_mass[] = {
     [COROT_MASS_LUMPED] = "lumped",
     [COROT_MASS_CONSISTENT] = "consistent",
+    [COROT_MASS_AUTO] = "auto",
     NULL,
 };
 
 const char *const words_dilatation[] = {
     [COROT_DILATATION_LOCAL] = "local",
     [COROT_DILATATION_NODAL] = "nodal",
+    [COROT_DILATATION_ELEMENT] = "element",
     NULL,
 };
 

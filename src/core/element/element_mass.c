@@ -7,6 +7,7 @@
    to the degree: five points are exact for nine. */
 #include <stdbool.h>
 
+#include "core/mesh/mesh.h"
 #include "tets.h"
 
 enum { GAUSS = 5 };
@@ -18,13 +19,10 @@ static const double gauss_weight[GAUSS] = {0.11846344252809454, 0.23931433524968
                                            0.28444444444444444, 0.23931433524968324,
                                            0.11846344252809454};
 
-/* The ends of the edges of the ten-node tet's nodes 4, 5, ... */
-static const int edge_end[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
-
 /* Whether the middles are where straight edges have them, but for rounding. */
 static bool is_straight(const corot_mesh *mesh, const int node[KIND_NODES]) {
   for (int k = 0; k < 6; k++) {
-    const double *a = mesh->x[node[edge_end[k][0]]], *b = mesh->x[node[edge_end[k][1]]];
+    const double *a = mesh->x[node[corot_tet_edge[k][0]]], *b = mesh->x[node[corot_tet_edge[k][1]]];
     const double *middle = mesh->x[node[4 + k]];
     double off = 0, edge = 0;
     for (int c = 0; c < 3; c++) {
@@ -44,7 +42,7 @@ static void shape_at(const double L[4], double N[10], double slope[10][3]) {
     for (int c = 0; c < 3; c++) slope[i][c] = (4 * L[i] - 1) * dL[i][c];
   }
   for (int k = 0; k < 6; k++) {
-    int i = edge_end[k][0], j = edge_end[k][1];
+    int i = corot_tet_edge[k][0], j = corot_tet_edge[k][1];
     N[4 + k] = 4 * L[i] * L[j];
     for (int c = 0; c < 3; c++) slope[4 + k][c] = 4 * (L[i] * dL[j][c] + L[j] * dL[i][c]);
   }

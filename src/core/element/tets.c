@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "core/lanes/polar.h"
+#include "core/mesh/mesh.h"
 
 void *corot_vector_calloc(size_t count, size_t size) {
   if (size && count > (SIZE_MAX - sizeof(vd)) / size) return NULL;
@@ -41,7 +42,6 @@ static void ascending(const int tet[4], int node[4]) {
 static const int edge_between[4][4] = {{0, 0, 2, 3}, {0, 0, 1, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}};
 
 void corot_tets_nodes(const corot_mesh *mesh, int tet, int node[KIND_NODES]) {
-  static const int end[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
   const int *corner = mesh->tet[tet];
   ascending(corner, node);
   if (!mesh->mid) return;
@@ -49,7 +49,7 @@ void corot_tets_nodes(const corot_mesh *mesh, int tet, int node[KIND_NODES]) {
   for (int a = 0; a < 4; a++)
     while (corner[at[a]] != node[a]) at[a]++;
   for (int k = 0; k < 6; k++)
-    node[4 + k] = mesh->mid[tet][edge_between[at[end[k][0]]][at[end[k][1]]]];
+    node[4 + k] = mesh->mid[tet][edge_between[at[corot_tet_edge[k][0]]][at[corot_tet_edge[k][1]]]];
 }
 
 /* Nodes of the lanes of a block by their roles. */

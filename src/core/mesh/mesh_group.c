@@ -1,8 +1,8 @@
 /* Named groups, selected by their nodes. */
-#include "mesh.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "core/mesh/refine/mesh_refine.h"
 
 const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *name) {
   for (int g = 0; g < mesh->ngroup; g++)
@@ -30,7 +30,7 @@ static bool all_marked(int n, const int *node, const char *mark) {
   return true;
 }
 
-/* Fills a zeroed group; the caller clears it on failure. */
+/* Fills a zeroed group but for its name; the caller clears it on failure. */
 static corot_status collect(const corot_mesh *mesh, const char *mark, int ntri,
                             const int (*boundary)[3], corot_group *g) {
   for (int i = 0; i < mesh->nnode; i++) g->nnode += mark[i] != 0;
@@ -67,6 +67,7 @@ corot_status corot_mesh_group_marked(corot_mesh *mesh, const char *name, const c
   corot_status status = COROT_ALLOC(g.name, strlen(name) + 1);
   if (!status) strcpy(g.name, name);
   if (!status) status = collect(mesh, mark, ntri, boundary, &g);
+  if (!status && mesh->mid) status = corot_group_add_middles(mesh, ntri, boundary, &g);
   if (status)
     corot_group_clear(&g);
   else
@@ -96,7 +97,7 @@ corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnod
   return status;
 }
 
-/* Marks the nodes in the box; the value is their number. */
+/* Marks the corners in the box; the value is the number of nodes marked. */
 static int mark_box(const corot_mesh *mesh, const double min[3], const double max[3], double tol,
                     char *mark) {
   int n = 0;
@@ -105,8 +106,10 @@ static int mark_box(const corot_mesh *mesh, const double min[3], const double ma
     for (int k = 0; k < 3; k++)
       in = in && mesh->x[i][k] >= min[k] - tol && mesh->x[i][k] <= max[k] + tol;
     mark[i] = in;
-    n += in;
   }
+  for (int e = 0; mesh->mid && e < mesh->ntet; e++)
+    for (int k = 0; k < 6; k++) mark[mesh->mid[e][k]] = 0;
+  for (int i = 0; i < mesh->nnode; i++) n += mark[i];
   return n;
 }
 
@@ -114,9 +117,10 @@ static corot_status no_nodes(const corot_mesh *mesh, const char *name, double to
   double lo[3], hi[3];
   corot_mesh_bounds(mesh, lo, hi);
   return corot_fail(COROT_EINVAL,
-                    "group '%s': no node is there (tolerance %g); the mesh fills [%g, %g] x [%g, "
+                    "group '%s': no %s is there (tolerance %g); the mesh fills [%g, %g] x [%g, "
                     "%g] x [%g, %g]",
-                    name, tol, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
+                    name, mesh->mid ? "corner of a tet" : "node", tol, lo[0], hi[0], lo[1], hi[1],
+                    lo[2], hi[2]);
 }
 
 corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],

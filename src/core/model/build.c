@@ -9,8 +9,10 @@
 #include "model.h"
 
 corot_model_def corot_model_defaults(void) {
-  return (corot_model_def){
-      .viscosity = COROT_VISCOSITY_AUTO, .strain = "polar", .dilatation_local = 1};
+  return (corot_model_def){.viscosity = COROT_VISCOSITY_AUTO,
+                           .strain = "polar",
+                           .mass = COROT_MASS_AUTO,
+                           .dilatation_local = 1};
 }
 
 corot_hierarchy_def corot_hierarchy_defaults(void) {
@@ -142,13 +144,14 @@ static void find_scales(corot_model *m) {
   }
 }
 
-/* What of lambda is left to the tets, where dilatations are averaged: no more than so many shear
-   moduli. */
+/* What of lambda is left to the points, where dilatations are averaged: at nodes no more than so
+   many shear moduli; over an element nothing, unless it has one point only. */
 static corot_status share_lambda(const corot_model_def *def, corot_model *m) {
-  if (def->dilatation == COROT_DILATATION_LOCAL) return COROT_OK;
+  bool by_element = def->dilatation == COROT_DILATATION_ELEMENT;
+  if (def->dilatation == COROT_DILATATION_LOCAL || (by_element && !m->mesh->mid)) return COROT_OK;
   for (int k = 0; k < m->nmaterial; k++) {
     material *a = &m->material[k];
-    double local = def->dilatation_local * a->mu;
+    double local = by_element ? 0 : def->dilatation_local * a->mu;
     if (!(a->lambda > local)) continue;
     a->lambda_local = local;
     a->own_share = local / a->lambda;
@@ -178,7 +181,9 @@ static corot_status choose_strain(const corot_model_def *def, system_def *of) {
 
 /* What deforms: measure, materials and the tets. */
 static corot_status make_system(const corot_model_def *def, corot_model *m) {
-  system_def of = {.mesh = m->mesh, .hierarchy = refined(def)};
+  system_def of = {.mesh = m->mesh,
+                   .hierarchy = refined(def),
+                   .by_element = def->dilatation == COROT_DILATATION_ELEMENT};
   COROT_TRY(choose_strain(def, &of));
   int *of_tet = malloc(m->mesh->ntet * sizeof *of_tet);
   if (!of_tet) return corot_fail(COROT_ENOMEM, "no memory for %d tets", m->mesh->ntet);

@@ -35,16 +35,19 @@ static corot_status check_viscosity(const corot_model_def *def, int nlevel) {
 
 static corot_status check_dilatation(const corot_model_def *def) {
   double local = def->dilatation_local;
-  if (def->dilatation == COROT_DILATATION_LOCAL || (local >= 0 && isfinite(local))) return COROT_OK;
+  if ((unsigned)def->dilatation > COROT_DILATATION_ELEMENT)
+    return corot_fail_at("model", 0, "dilatation", "there is no dilatation %d",
+                         (int)def->dilatation);
+  if (def->dilatation != COROT_DILATATION_NODAL || (local >= 0 && isfinite(local))) return COROT_OK;
   return corot_fail_at("model", 0, "dilatation_local",
                        "dilatation_local = %g is not a number of shear moduli >= 0", local);
 }
 
 /* A consistent mass couples neighbours. */
 static corot_status check_mass(const corot_model_def *def, bool one_way) {
-  if (def->mass != COROT_MASS_LUMPED && def->mass != COROT_MASS_CONSISTENT)
+  if ((unsigned)def->mass > COROT_MASS_AUTO)
     return corot_fail_at("model", 0, "mass", "no kind of mass has the number %d", (int)def->mass);
-  if (def->mass == COROT_MASS_LUMPED) return COROT_OK;
+  if (def->mass != COROT_MASS_CONSISTENT) return COROT_OK;
   if (one_way)
     return corot_fail_at("model", 0, "mass",
                          "a consistent mass would couple the finer nodes of a one-way hierarchy to "

@@ -22,37 +22,78 @@ static corot_status find_faces(const corot_model *m, const corot_load *from, int
                        (*group)->nnode, (*group)->ntet);
 }
 
-/* Half the cross product of two edges: the area, along the normal of the winding. */
+/* Half the cross product of two tangents: the area, along the normal of the winding. */
 static void area_vector(const double a[3], const double b[3], double area[3]) {
   area[0] = 0.5 * (a[1] * b[2] - a[2] * b[1]);
   area[1] = 0.5 * (a[2] * b[0] - a[0] * b[2]);
   area[2] = 0.5 * (a[0] * b[1] - a[1] * b[0]);
 }
 
-/* Edges 0-1 and 0-2 of a face; those of the rest mesh if u is NULL. */
-static void edges(const corot_model *m, const double (*u)[4], const int n[3], double a[3],
-                  double b[3]) {
+static const face_kind *faces_of(const corot_model *m) {
+  return face_kind_of(solid_of(m)->elements.kind->order);
+}
+
+/* Tangents of a face at point q, along which the coordinates of corners 1 and 2 grow: of the rest
+   mesh if u is NULL. */
+static void tangents(const corot_model *m, const double (*u)[4], const int *n, int q, double a[3],
+                     double b[3]) {
   const double(*x)[3] = (const double(*)[3])m->mesh->x;
+  const face_kind *kind = faces_of(m);
   for (int c = 0; c < 3; c++) {
-    a[c] = x[n[1]][c] - x[n[0]][c] + (u ? u[n[1]][c] - u[n[0]][c] : 0);
-    b[c] = x[n[2]][c] - x[n[0]][c] + (u ? u[n[2]][c] - u[n[0]][c] : 0);
+    a[c] = b[c] = 0;
+    for (int i = 1; i < kind->nnode; i++) {
+      double d = x[n[i]][c] - x[n[0]][c] + (u ? u[n[i]][c] - u[n[0]][c] : 0);
+      a[c] += kind->slope[q][i - 1][0] * d;
+      b[c] += kind->slope[q][i - 1][1] * d;
+    }
   }
 }
 
-/* A third of each face's traction to each of its nodes. */
+/* Their change with u. */
+static void change_of_tangents(const corot_model *m, const double (*du)[4], const int *n, int q,
+                               double da[3], double db[3]) {
+  const face_kind *kind = faces_of(m);
+  for (int c = 0; c < 3; c++) {
+    da[c] = db[c] = 0;
+    for (int i = 1; i < kind->nnode; i++) {
+      double d = du[n[i]][c] - du[n[0]][c];
+      da[c] += kind->slope[q][i - 1][0] * d;
+      db[c] += kind->slope[q][i - 1][1] * d;
+    }
+  }
+}
+
+/* The nodes of triangles, those on their edges too; the caller frees. */
+static corot_status list_faces(const corot_model *m, const corot_group *group,
+                               int (**face)[FACE_NODES]) {
+  if (m->mesh->mid)
+    return corot_mesh_face_nodes(m->mesh, group->ntri, (const int(*)[3])group->tri, face);
+  *face = calloc(group->ntri, sizeof **face);
+  if (!*face) return corot_fail(COROT_ENOMEM, "no memory for %d faces", group->ntri);
+  for (int k = 0; k < group->ntri; k++) memcpy((*face)[k], group->tri[k], sizeof group->tri[k]);
+  return COROT_OK;
+}
+
+/* Of each face's traction its nodes' shares. */
 static corot_status add_traction(const corot_model *m, const corot_load *from, int number,
                                  double (*f)[3]) {
   const corot_group *group;
+  const face_kind *kind = faces_of(m);
+  int(*face)[FACE_NODES];
   COROT_TRY(find_faces(m, from, number, &group));
-  for (int k = 0; k < group->ntri; k++) {
-    const int *n = group->tri[k];
-    double a[3], b[3], area[3];
-    edges(m, NULL, n, a, b);
-    area_vector(a, b, area);
-    double size = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 3; c++) f[n[i]][c] += size / 3 * from->value[c];
-  }
+  COROT_TRY(list_faces(m, group, &face));
+  for (int k = 0; k < group->ntri; k++)
+    for (int q = 0; q < kind->npoint; q++) {
+      double a[3], b[3], area[3];
+      tangents(m, NULL, face[k], q, a, b);
+      area_vector(a, b, area);
+      double size = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+      for (int i = 0; i < kind->nnode; i++) {
+        double part = size * kind->part[q] * kind->share[q][i] / kind->over;
+        for (int c = 0; c < 3; c++) f[face[k][i]][c] += part * from->value[c];
+      }
+    }
+  free(face);
   return COROT_OK;
 }
 
@@ -98,7 +139,7 @@ static corot_status add_constant(const corot_model_def *def, const corot_model *
   else if (from->kind == COROT_FORCE)
     status = add_point_force(m, from, number, f);
   else
-    corot_mass_lump(m, f);
+    corot_mass_sum_rows(m, f);
   if (!status) status = corot_model_restrict(def, nnode, f);
   if (!status && from->kind == COROT_GRAVITY) weigh(nnode, from->value, f);
   for (int n = 0; !status && n < nnode; n++) add_force(m, to->force, n, f[n], 1);
@@ -111,10 +152,8 @@ static corot_status add_pressure(const corot_model *m, const corot_load *from, i
                                  load *to) {
   const corot_group *group;
   COROT_TRY(find_faces(m, from, number, &group));
-  to->tri = malloc(group->ntri * sizeof *to->tri);
-  if (!to->tri) return corot_fail(COROT_ENOMEM, "no memory for %d faces", group->ntri);
-  memcpy(to->tri, group->tri, group->ntri * sizeof *to->tri);
-  to->ntri = group->ntri;
+  COROT_TRY(list_faces(m, group, &to->face));
+  to->nface = group->ntri;
   to->pressure = from->value[0];
   return COROT_OK;
 }
@@ -153,7 +192,7 @@ void corot_loads_destroy(corot_model *m) {
   for (int k = 0; k < m->nload; k++) {
     free(m->load[k].force);
     free(m->load[k].held);
-    free(m->load[k].tri);
+    free(m->load[k].face);
     corot_amplitude_clear(&m->load[k].amplitude);
   }
   free(m->load);
@@ -163,15 +202,21 @@ static double factor_of(const load *l, const instant *now) {
   return now->load_factor * corot_amplitude_at(&l->amplitude, now->side, now->load_t);
 }
 
-/* The area vector of a face where u has taken it [m^2]. */
-static void find_area(const corot_model *m, const double (*u)[4], const int tri[3],
+/* The area vector at a point of a face where u has taken it [m^2]. */
+static void find_area(const corot_model *m, const double (*u)[4], const int *face, int q,
                       double area[3]) {
   double a[3], b[3];
-  edges(m, u, tri, a, b);
+  tangents(m, u, face, q, a, b);
   area_vector(a, b, area);
 }
 
+/* What of a pressure, times `factor`, falls on node i for an area at point q. */
+static double pressure_share(const load *l, const face_kind *kind, int q, int i, double factor) {
+  return -factor * l->pressure * kind->part[q] * kind->share[q][i] / kind->over;
+}
+
 void corot_loads_force(const corot_model *m, const instant *now, const double (*u)[4], double *f) {
+  const face_kind *kind = faces_of(m);
   memset(f, 0, m->ndof * sizeof *f);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
@@ -179,17 +224,19 @@ void corot_loads_force(const corot_model *m, const instant *now, const double (*
     if (factor == 0) continue;
     if (l->force)
       for (int i = 0; i < m->ndof; i++) f[i] += factor * l->force[i];
-    for (int j = 0; j < l->ntri; j++) {
-      double area[3];
-      find_area(m, u, l->tri[j], area);
-      for (int i = 0; i < 3; i++) add_force(m, f, l->tri[j][i], area, -factor * l->pressure / 3);
-    }
+    for (int j = 0; j < l->nface; j++)
+      for (int q = 0; q < kind->npoint; q++) {
+        double area[3];
+        find_area(m, u, l->face[j], q, area);
+        for (int i = 0; i < kind->nnode; i++)
+          add_force(m, f, l->face[j][i], area, pressure_share(l, kind, q, i, factor));
+      }
   }
 }
 
 bool corot_loads_follow(const corot_model *m) {
   for (int k = 0; k < m->nload; k++)
-    if (m->load[k].ntri > 0) return true;
+    if (m->load[k].nface > 0) return true;
   return false;
 }
 
@@ -199,15 +246,18 @@ static void add_to_node(double (*f)[3], int node, const double value[3], double 
 
 static void add_nodal_load(const corot_model *m, const load *l, double factor, const double (*u)[4],
                            double (*f)[3]) {
+  const face_kind *kind = faces_of(m);
   for (int i = 0; l->force && i < 3 * m->mesh->nnode; i++)
     if (m->dof[i / 3][i % 3] >= 0) f[i / 3][i % 3] += factor * l->force[m->dof[i / 3][i % 3]];
   for (int i = 0; i < l->nheld; i++)
     f[l->held[i].node][l->held[i].component] += factor * l->held[i].force;
-  for (int j = 0; j < l->ntri; j++) {
-    double area[3];
-    find_area(m, u, l->tri[j], area);
-    for (int i = 0; i < 3; i++) add_to_node(f, l->tri[j][i], area, -factor * l->pressure / 3);
-  }
+  for (int j = 0; j < l->nface; j++)
+    for (int q = 0; q < kind->npoint; q++) {
+      double area[3];
+      find_area(m, u, l->face[j], q, area);
+      for (int i = 0; i < kind->nnode; i++)
+        add_to_node(f, l->face[j][i], area, pressure_share(l, kind, q, i, factor));
+    }
 }
 
 corot_status corot_load_force(const corot_model *m, double t, double factor,
@@ -228,22 +278,21 @@ corot_status corot_load_force(const corot_model *m, double t, double factor,
 
 void corot_loads_derivative(const corot_model *m, const instant *now, const double (*u)[4],
                             const double (*du)[4], double *f) {
+  const face_kind *kind = faces_of(m);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
     double factor = factor_of(l, now);
-    for (int j = 0; j < l->ntri; j++) { /* d(a x b) = da x b + a x db */
-      const int *n = l->tri[j];
+    for (int at = 0; at < l->nface * kind->npoint; at++) { /* d(a x b) = da x b + a x db */
+      const int *n = l->face[at / kind->npoint], q = at % kind->npoint;
       double a[3], b[3], da[3], db[3], first[3], second[3];
-      edges(m, u, n, a, b);
-      for (int c = 0; c < 3; c++) {
-        da[c] = du[n[1]][c] - du[n[0]][c];
-        db[c] = du[n[2]][c] - du[n[0]][c];
-      }
+      tangents(m, u, n, q, a, b);
+      change_of_tangents(m, du, n, q, da, db);
       area_vector(da, b, first);
       area_vector(a, db, second);
-      for (int i = 0; i < 3; i++) {
-        add_force(m, f, n[i], first, -factor * l->pressure / 3);
-        add_force(m, f, n[i], second, -factor * l->pressure / 3);
+      for (int i = 0; i < kind->nnode; i++) {
+        double part = pressure_share(l, kind, q, i, factor);
+        add_force(m, f, n[i], first, part);
+        add_force(m, f, n[i], second, part);
       }
     }
   }

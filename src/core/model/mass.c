@@ -9,13 +9,17 @@
 
 #include "model.h"
 
-void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
+/* What the mass of an element puts on its nodes. */
+typedef void element_share(const corot_mesh *mesh, const element_set *e, int b, int lane,
+                           double density, double mass[KIND_NODES]);
+
+static void add_shares(const corot_model *m, element_share *share_of, double (*nodal)[3]) {
   const element_set *t = &solid_of(m)->elements;
   for (int b = 0; b < t->nblock; b++) {
     const material *mat = &m->material[t->block[b].material];
     for (int l = 0; l < t->block[b].n; l++) {
       double part[KIND_NODES];
-      corot_element_lumped(m->mesh, t, b, l, mat->density, part);
+      share_of(m->mesh, t, b, l, mat->density, part);
       for (int a = 0; a < t->kind->nnode; a++) {
         int n = nodes_at(t, b, a)[l];
         nodal[n][0] += part[a];
@@ -25,7 +29,27 @@ void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
   }
 }
 
-/* Row sums, of the held nodes too. */
+void corot_mass_lump(const corot_model *m, double (*nodal)[3]) {
+  add_shares(m, corot_element_lumped, nodal);
+}
+
+static void row_sums(const corot_mesh *mesh, const element_set *e, int b, int lane, double density,
+                     double mass[KIND_NODES]) {
+  double matrix[KIND_NODES][KIND_NODES];
+  corot_element_mass(mesh, e, b, lane, density, matrix);
+  for (int i = 0; i < e->kind->nnode; i++) {
+    mass[i] = 0;
+    for (int j = 0; j < e->kind->nnode; j++) mass[i] += matrix[i][j];
+  }
+}
+
+/* Of linear tets they are the lumped mass. */
+void corot_mass_sum_rows(const corot_model *m, double (*nodal)[3]) {
+  bool differ = m->mass_pair && solid_of(m)->elements.kind->order > 1;
+  add_shares(m, differ ? row_sums : corot_element_lumped, nodal);
+}
+
+/* Of the held nodes too. */
 static corot_status lump(const corot_model_def *def, corot_model *m) {
   int nnode = m->mesh->nnode;
   double(*nodal)[3] = calloc(nnode, sizeof *nodal); /* mass, its damping, nothing */
@@ -77,8 +101,9 @@ static corot_status couple(corot_model *m) {
 }
 
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m) {
+  bool automatic = def->mass == COROT_MASS_AUTO && m->mesh->mid;
   COROT_TRY(lump(def, m));
-  return def->mass == COROT_MASS_LUMPED ? COROT_OK : couple(m);
+  return automatic || def->mass == COROT_MASS_CONSISTENT ? couple(m) : COROT_OK;
 }
 
 corot_mass corot_model_mass_kind(const corot_model *m) {

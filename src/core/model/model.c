@@ -84,7 +84,7 @@ size_t corot_model_bytes(const corot_model *m) {
   /* loads and motions */
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    bytes += sizeof *l + corot_amplitude_bytes(&l->amplitude) + l->ntri * sizeof *l->tri;
+    bytes += sizeof *l + corot_amplitude_bytes(&l->amplitude) + l->nface * sizeof *l->face;
     if (l->force) bytes += m->ndof * sizeof *l->force + l->nheld * sizeof *l->held;
   }
   for (int k = 0; k < m->nmotion; k++) {

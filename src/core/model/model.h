@@ -5,6 +5,7 @@
 #include <corot/model.h>
 
 #include "amplitude.h"
+#include "core/element/face.h"
 #include "core/system/system.h"
 #include "instant.h"
 
@@ -19,9 +20,9 @@ typedef struct load {
   double *force; /* [ndof] at amplitude one [N]; NULL: a pressure */
   int nheld;
   held_force *held; /* [nheld] the same of held components, where it is not zero */
-  int ntri;
-  int (*tri)[3];
-  double pressure; /* at amplitude one [Pa] */
+  int nface;
+  int (*face)[FACE_NODES]; /* [nface] nodes */
+  double pressure;         /* at amplitude one [Pa] */
   amplitude amplitude;
 } load;
 
@@ -107,6 +108,10 @@ corot_status corot_mass_create(const corot_model_def *def, corot_model *m);
 /* nodal [nnode] += the lumped mass [kg] and the mass damping [kg/s] of every node, held ones
    included, and nothing. */
 void corot_mass_lump(const corot_model *m, double (*nodal)[3]);
+
+/* nodal [nnode] += the row sums of the mass in use, of every node: what a uniform acceleration
+   takes [kg], and the mass damping [kg/s], and nothing. */
+void corot_mass_sum_rows(const corot_model *m, double (*nodal)[3]);
 
 /* f -= C v for the matrix C of the mass damping; nothing if there is none. */
 void corot_mass_damp(const corot_model *m, const double *v, double *f);

@@ -149,7 +149,8 @@ static corot_status fill_first(const system_def *def, int together, solid_system
                   .material = def->material,
                   .strain = def->strain,
                   .damped = def->damped,
-                  .objective = def->objective};
+                  .objective = def->objective,
+                  .by_element = def->by_element};
   COROT_TRY(corot_solid_fill(body, def->nmaterial, def->of_tet, together, 1,
                              added ? &added->body.pattern : NULL));
   for (int k = 1; k < y->nterm; k++)

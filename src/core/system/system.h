@@ -62,8 +62,8 @@ typedef struct solid_system {
 /* What a system is made from. Mesh and materials must outlive it. */
 typedef struct system_def {
   const corot_mesh *mesh;
-  int strain; /* of the first term */
-  bool damped, objective;
+  int strain;                         /* of the first term */
+  bool damped, objective, by_element; /* as of a solid */
   int nmaterial;
   const material *material;
   const int *of_tet;                    /* [ntet] the material that fills each tet */

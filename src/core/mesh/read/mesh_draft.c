@@ -9,6 +9,7 @@ void corot_draft_clear(corot_draft *d) {
   free(d->node);
   free(d->by_tag);
   free(d->element);
+  free(d->middle);
   free(d->member);
   free(d->name);
   memset(d, 0, sizeof *d);
@@ -82,11 +83,32 @@ corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size) 
   return COROT_OK;
 }
 
-corot_status corot_draft_add_element(corot_draft *d, const corot_draft_element *element) {
+static corot_status add_middle(corot_draft *d, int node) {
+  void *items = d->middle;
+  COROT_TRY(corot_make_room(&items, d->nmiddle, &d->middle_room, sizeof *d->middle));
+  d->middle = items;
+  d->middle[d->nmiddle++] = node;
+  return COROT_OK;
+}
+
+corot_status corot_draft_add_element(corot_draft *d, const corot_draft_element *element,
+                                     const int *middle) {
   void *items = d->element;
+  int order = middle ? 2 : 1, nedge = corot_draft_nedge(element->dim);
+  if (element->dim == 3 && d->order && d->order != order)
+    return corot_reader_fail(
+        d->element_file, element->at,
+        "element %lld is a tet of %d nodes, the tets before it have %d: orders do not mix",
+        (long long)element->tag, middle ? 10 : 4, middle ? 4 : 10);
+  if (element->dim == 3) d->order = order;
+  if (d->nmiddle > INT_MAX - NMIDDLE_MAX)
+    return corot_fail(COROT_ENOMEM, "too many elements: %zu", d->nelement);
   COROT_TRY(corot_make_room(&items, d->nelement, &d->element_room, sizeof *element));
   d->element = items;
-  d->element[d->nelement++] = *element;
+  d->element[d->nelement] = *element;
+  d->element[d->nelement].middle = middle ? (int)d->nmiddle + 1 : 0;
+  for (int k = 0; middle && k < nedge; k++) COROT_TRY(add_middle(d, middle[k]));
+  d->nelement++;
   return COROT_OK;
 }
 
@@ -140,8 +162,11 @@ static listed list(const corot_draft_element *t, int element) {
 
 /* Whether both are the same tet in two groups; otherwise a tet is there twice. */
 static bool same_tet(const corot_draft *d, const listed *a, const listed *b) {
+  const corot_draft_element *p = &d->element[a->element], *q = &d->element[b->element];
   return a->physical != 0 && a->physical != b->physical &&
-         memcmp(d->element[a->element].node, d->element[b->element].node, sizeof a->v) == 0;
+         memcmp(p->node, q->node, sizeof a->v) == 0 &&
+         (!p->middle || memcmp(d->middle + p->middle - 1, d->middle + q->middle - 1,
+                               NMIDDLE_MAX * sizeof *d->middle) == 0);
 }
 
 /* first[e] = the first element that is the same tet as element e; on entry it is e. */
@@ -231,10 +256,17 @@ static corot_status check(const corot_draft *d, const int *tet, const corot_mesh
 /* Fills a zeroed mesh with nodes, tets and groups; `tet` [nelement] is scratch. */
 static corot_status build(corot_draft *d, int *tet, corot_mesh *mesh) {
   corot_face *face;
+  COROT_TRY(corot_draft_check_orders(d));
+  if (d->order == 2) COROT_TRY(corot_draft_check_middles(d));
   COROT_TRY(number_tets(d, tet, &mesh->ntet));
   COROT_TRY(COROT_ALLOC(mesh->tet, mesh->ntet));
-  for (size_t e = d->nelement; e-- > 0;)
-    if (tet[e] >= 0) memcpy(mesh->tet[tet[e]], d->element[e].node, sizeof *mesh->tet);
+  if (d->order == 2) COROT_TRY(COROT_ALLOC(mesh->mid, mesh->ntet));
+  for (size_t e = d->nelement; e-- > 0;) {
+    if (tet[e] < 0) continue;
+    memcpy(mesh->tet[tet[e]], d->element[e].node, sizeof *mesh->tet);
+    if (mesh->mid)
+      memcpy(mesh->mid[tet[e]], d->middle + d->element[e].middle - 1, sizeof *mesh->mid);
+  }
   mesh->nnode = d->nnode;
   mesh->x = d->x;
   d->x = NULL;

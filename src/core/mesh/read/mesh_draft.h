@@ -14,9 +14,15 @@ typedef struct corot_draft_node {
 typedef struct corot_draft_element {
   int64_t tag;
   size_t at;
-  int dim;     /* 0 point, 1 line, 2 triangle, 3 tet: dim + 1 nodes */
-  int node[4]; /* indices */
+  int dim;     /* 0 point, 1 line, 2 triangle, 3 tet: dim + 1 corners */
+  int node[4]; /* indices of the corners */
+  int middle;  /* where its nodes on edges begin in corot_draft.middle, from 1; 0: it has none */
 } corot_draft_element;
+
+enum { NMIDDLE_MAX = 6 };
+
+/* How many edges an element has. */
+static inline int corot_draft_nedge(int dim) { return dim * (dim + 1) / 2; }
 
 /* That an element is in a group, which is known by its elements' dimension and a number. */
 typedef struct corot_draft_member {
@@ -44,6 +50,11 @@ typedef struct corot_draft {
 
   size_t nelement, element_room;
   corot_draft_element *element;
+  int order; /* of the tets; 0: there is none yet */
+
+  size_t nmiddle, middle_room;
+  int *middle; /* [nmiddle] indices: of a tet on the edges 01 12 02 03 13 23, of a triangle 01 12 20
+                */
 
   size_t nmember, member_room;
   corot_draft_member *member; /* elements ascending */
@@ -66,10 +77,23 @@ corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_eleme
 /* Makes room for one more item of `size` bytes. */
 corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size);
 
-/* Append; physical 0 is no group. COROT_EINVAL: not a name for a group. */
-corot_status corot_draft_add_element(corot_draft *d, const corot_draft_element *element);
+/* Append; physical 0 is no group. COROT_EINVAL: not a name for a group. `middle`: the element's
+   nodes on edges, NULL if it is of order 1. COROT_EFORMAT: a tet is not of the order of those
+   before. */
+corot_status corot_draft_add_element(corot_draft *d, const corot_draft_element *element,
+                                     const int *middle);
 corot_status corot_draft_add_member(corot_draft *d, int element, int physical);
 corot_status corot_draft_add_name(corot_draft *d, int dim, int physical, const char *name);
+
+/* Whether all lines and triangles in groups are of the order of the tets. COROT_EFORMAT. */
+corot_status corot_draft_check_orders(const corot_draft *d);
+
+/* Whether the nodes on the tets' edges are in the order that is expected. COROT_EFORMAT. */
+corot_status corot_draft_check_middles(const corot_draft *d);
+
+/* Finds the order in which all tets of a file list the nodes on their edges, where these are, and
+   puts them into ours. COROT_EFORMAT: it is not one order. */
+corot_status corot_draft_order_middles(corot_draft *d);
 
 /* The mesh that the draft describes, its groups in the order of their names, then the nameless
    ones by dimension and number. COROT_EFORMAT: it is not sound. */

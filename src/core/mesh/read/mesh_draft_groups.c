@@ -161,8 +161,9 @@ static int take_nodes(gather *g, const part *p, size_t npart, int *node) {
   for (size_t k = 0; k < npart; k++)
     for (size_t i = 0; i < p[k].count; i++) {
       const corot_draft_element *e = element(g, &p[k], i);
-      for (int j = 0; j <= e->dim; j++) {
-        int v = e->node[j];
+      int nnode = e->dim + 1 + (e->middle ? corot_draft_nedge(e->dim) : 0);
+      for (int j = 0; j < nnode; j++) {
+        int v = j <= e->dim ? e->node[j] : g->d->middle[e->middle - 1 + j - e->dim - 1];
         if (g->node_seen[v] == g->pass) continue;
         g->node_seen[v] = g->pass;
         if (node) node[n] = v;
@@ -204,6 +205,31 @@ static void orient(const gather *g, int f, bool reversed, int tri[3]) {
   }
 }
 
+/* The node of a tet on the edge between two of its corners. */
+static int tet_middle(const corot_mesh *mesh, int e, int a, int b) {
+  const int *v = mesh->tet[e];
+  int k = 0;
+  for (int i = 0; i < 6; i++) {
+    int p = v[corot_tet_edge[i][0]], q = v[corot_tet_edge[i][1]];
+    if ((p == a && q == b) || (p == b && q == a)) k = i;
+  }
+  return mesh->mid[e][k];
+}
+
+/* Whether a six-node triangle has the nodes on edges of the tet at face f. */
+static corot_status check_middles(const gather *g, const corot_draft_element *t, int f) {
+  for (int k = 0; k < 3; k++) {
+    int a = t->node[k], b = t->node[(k + 1) % 3], m = g->d->middle[t->middle - 1 + k];
+    if (m != tet_middle(g->mesh, g->face[f].side / 4, a, b))
+      return corot_reader_fail(
+          g->d->element_file, t->at,
+          "element %lld has node %lld on the edge %lld %lld, the tets have another",
+          (long long)t->tag, (long long)g->d->node[m].tag, (long long)g->d->node[a].tag,
+          (long long)g->d->node[b].tag);
+  }
+  return COROT_OK;
+}
+
 static corot_status take_triangles(gather *g, const part *p, corot_group *group) {
   for (size_t i = 0; i < p->count; i++) {
     const corot_draft_element *e = element(g, p, i);
@@ -211,6 +237,7 @@ static corot_status take_triangles(gather *g, const part *p, corot_group *group)
     if (f < 0)
       return corot_reader_fail(g->d->element_file, e->at,
                                "element %lld: the triangle is no face of a tet", (long long)e->tag);
+    if (g->mesh->mid) COROT_TRY(check_middles(g, e, f));
     if (g->face_seen[f] == g->pass) continue;
     g->face_seen[f] = g->pass;
     memcpy(tri, e->node, sizeof *group->tri);

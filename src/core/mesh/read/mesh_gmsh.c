@@ -46,7 +46,12 @@ static const char *article(const corot_gmsh_type *t) {
   return t->name[0] == '8' || strncmp(t->name, "18", 2) == 0 ? "an" : "a";
 }
 
-static bool is_simplex(const corot_gmsh_type *t) { return t->nnode == t->dim + 1; }
+/* Whether points, lines, triangles and tets have their corners only, or a node on each edge, too;
+   0: neither. */
+static int order_of(const corot_gmsh_type *t) {
+  if (t->nnode == t->dim + 1) return 1;
+  return t->nnode == t->dim + 1 + corot_draft_nedge(t->dim) ? 2 : 0;
+}
 
 corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element *element,
                                   int number, const corot_gmsh_type **type) {
@@ -56,9 +61,9 @@ corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element
   if (!t)
     return corot_reader_fail(&g->r, element->at, "element %lld is of type %d, which is unknown",
                              (long long)element->tag, number);
-  if (t->dim == 3 && !is_simplex(t))
+  if (t->dim == 3 && order_of(t) == 0)
     return corot_reader_fail(&g->r, element->at,
-                             "element %lld is %s %s: only linear tets are supported",
+                             "element %lld is %s %s: only tets of 4 or 10 nodes are supported",
                              (long long)element->tag, article(t), t->name);
   *type = t;
   return COROT_OK;
@@ -73,27 +78,37 @@ static corot_status read_tag(corot_gmsh *g, int64_t *tag) {
   return COROT_OK;
 }
 
+/* gmsh has the nodes of a tet on the edges 01 12 02 03 23 13. */
+static void swap_last_two(int middle[6]) {
+  int swap = middle[4];
+  middle[4] = middle[5];
+  middle[5] = swap;
+}
+
 corot_status corot_gmsh_add_element(corot_gmsh *g, corot_draft_element *element,
                                     const corot_gmsh_type *type, int n, const int *physical) {
   bool in_group = false;
+  int order = order_of(type), middle[NMIDDLE_MAX];
   for (int i = 0; i < n; i++) in_group = in_group || physical[i] != 0;
-  if (in_group && !is_simplex(type))
+  if (in_group && order == 0)
     return corot_reader_fail(
         &g->r, element->at,
-        "element %lld of a physical group is %s %s: only points, 2-node lines, "
-        "3-node triangles and 4-node tets are supported",
+        "element %lld of a physical group is %s %s: only points, lines of 2 or 3 nodes, "
+        "triangles of 3 or 6 and tets of 4 or 10 are supported",
         (long long)element->tag, article(type), type->name);
   for (int i = 0; i < type->nnode; i++) {
     int64_t tag;
-    int ignored;
+    int ignored, *to = &ignored;
+    if (order && i <= type->dim) to = &element->node[i];
+    if (order && i > type->dim) to = &middle[i - type->dim - 1];
     COROT_TRY(read_tag(g, &tag));
-    COROT_TRY(corot_draft_find_node(&g->d, element, tag,
-                                    is_simplex(type) ? &element->node[i] : &ignored));
+    COROT_TRY(corot_draft_find_node(&g->d, element, tag, to));
   }
   COROT_TRY(corot_reader_end_line(&g->r));
-  if (!is_simplex(type)) return COROT_OK;
+  if (order == 0 || (order == 2 && type->dim < 3 && !in_group)) return COROT_OK;
   element->dim = type->dim;
-  COROT_TRY(corot_draft_add_element(&g->d, element));
+  if (type->dim == 3 && order == 2) swap_last_two(middle);
+  COROT_TRY(corot_draft_add_element(&g->d, element, order == 2 ? middle : NULL));
   for (int i = 0; i < n; i++)
     COROT_TRY(corot_draft_add_member(&g->d, (int)g->d.nelement - 1, physical[i]));
   return COROT_OK;

@@ -29,7 +29,7 @@ typedef struct corot_gmsh_type {
   const char *name;
 } corot_gmsh_type;
 
-/* Fails for a type that is not known, and for solids other than the 4-node tet. */
+/* Fails for a type that is not known, and for solids other than tets of 4 or 10 nodes. */
 corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element *element,
                                   int number, const corot_gmsh_type **type);
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/mesh/refine/mesh_refine.h"
 #include "mesh_read.h"
 
 static int compare_reals(const void *a, const void *b) {
@@ -82,35 +83,37 @@ static corot_status read_nodes(corot_reader *r, corot_draft *d, double **marker)
   return corot_draft_index_nodes(d);
 }
 
-/* "INDEX NODE NODE NODE NODE ATTRIBUTE..."; the last attribute is the region. */
-static corot_status read_tet(corot_reader *r, int nattribute, corot_draft *d, double *region) {
+/* "INDEX NODE NODE NODE NODE [six nodes] ATTRIBUTE..."; the last attribute is the region. */
+static corot_status read_tet(corot_reader *r, int nnode, int nattribute, corot_draft *d,
+                             double *region) {
   corot_draft_element element = {.at = r->at, .dim = 3};
+  int middle[NMIDDLE_MAX];
   COROT_TRY(corot_reader_long(r, "a tet", &element.tag));
-  for (int k = 0; k < 4; k++) {
+  for (int k = 0; k < nnode; k++) {
     int64_t tag;
     COROT_TRY(corot_reader_long(r, "a node", &tag));
-    COROT_TRY(corot_draft_find_node(d, &element, tag, &element.node[k]));
+    COROT_TRY(corot_draft_find_node(d, &element, tag, k < 4 ? &element.node[k] : &middle[k - 4]));
   }
   for (int k = 0; k < nattribute; k++) COROT_TRY(corot_reader_real(r, "an attribute", region));
   if (*region - *region != 0) return corot_reader_fail(r, element.at, "the region is %g", *region);
   COROT_TRY(corot_reader_end_line(r));
-  return corot_draft_add_element(d, &element);
+  return corot_draft_add_element(d, &element, nnode == 10 ? middle : NULL);
 }
 
-/* "N 4 NATTRIBUTE", then the tets. region [N] is the caller's to free, on failure too. */
+/* "N 4|10 NATTRIBUTE", then the tets. region [N] is the caller's to free, on failure too. */
 static corot_status read_tets(corot_reader *r, corot_draft *d, double **region) {
   int n, nnode, nattribute = 0;
   corot_reader_skip_lines(r);
   size_t at = r->at;
   COROT_TRY(corot_reader_count(r, "the number of tets", 9, &n));
   COROT_TRY(corot_reader_int(r, "the number of nodes in a tet", &nnode));
-  if (nnode != 4)
-    return corot_reader_fail(r, at, "tets of %d nodes: only linear tets are supported", nnode);
+  if (nnode != 4 && nnode != 10)
+    return corot_reader_fail(r, at, "tets of %d nodes: only 4 or 10 are supported", nnode);
   if (corot_reader_more(r)) COROT_TRY(corot_reader_int(r, "the number of attributes", &nattribute));
   if (nattribute < 0) return corot_reader_fail(r, at, "tets with %d attributes", nattribute);
   COROT_TRY(corot_reader_end_line(r));
   COROT_TRY(COROT_ALLOC(*region, n));
-  for (int i = 0; i < n; i++) COROT_TRY(read_tet(r, nattribute, d, &(*region)[i]));
+  for (int i = 0; i < n; i++) COROT_TRY(read_tet(r, nnode, nattribute, d, &(*region)[i]));
   if (r->at < r->size) return corot_reader_fail(r, r->at, "expected the end after %d tets", n);
   return COROT_OK;
 }
@@ -137,10 +140,32 @@ static corot_status add_groups(corot_draft *d, const double *region, const doubl
   for (int i = 0; i < d->nnode; i++) {
     const corot_draft_element point = {.tag = d->node[i].tag, .node = {i}};
     if (marker[i] == 0) continue;
-    COROT_TRY(corot_draft_add_element(d, &point));
+    COROT_TRY(corot_draft_add_element(d, &point, NULL));
     COROT_TRY(corot_draft_add_member(d, (int)d->nelement - 1, number_of(marker[i], n, distinct)));
   }
   return COROT_OK;
+}
+
+/* The nodes on edges have no markers: they are in the groups of both ends, as after octasection. */
+static corot_status add_middles(corot_mesh *mesh) {
+  int nskin, (*skin)[3];
+  COROT_TRY(corot_mesh_boundary(mesh, &nskin, &skin));
+  corot_status status = COROT_OK;
+  for (int g = 0; g < mesh->ngroup && !status; g++)
+    status = corot_group_add_middles(mesh, nskin, (const int(*)[3])skin, &mesh->group[g]);
+  free(skin);
+  return status;
+}
+
+static corot_status finish(corot_draft *d, corot_mesh **mesh) {
+  corot_mesh *m;
+  COROT_TRY(corot_draft_finish(d, &m));
+  corot_status status = m->mid ? add_middles(m) : COROT_OK;
+  if (status)
+    corot_mesh_destroy(m);
+  else
+    *mesh = m;
+  return status;
 }
 
 corot_status corot_tetgen_parse(const char *node_path, const char *node_data, size_t node_size,
@@ -153,9 +178,10 @@ corot_status corot_tetgen_parse(const char *node_path, const char *node_data, si
   corot_status status = read_nodes(&node, &d, &marker);
   if (!status) status = read_tets(&ele, &d, &region);
   if (!status) turn_left_handed(&d);
+  if (!status && d.order == 2) status = corot_draft_order_middles(&d);
   if (!status) status = COROT_ALLOC(distinct, d.nelement + (size_t)d.nnode);
   if (!status) status = add_groups(&d, region, marker, distinct);
-  if (!status) status = corot_draft_finish(&d, mesh);
+  if (!status) status = finish(&d, mesh);
   free(distinct);
   free(region);
   free(marker);

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "core/base/c_locale.h"
-#include "core/mesh/mesh.h"
+#include "core/mesh/refine/mesh_refine.h"
 
 static void write_names(const corot_mesh *mesh, FILE *f) {
   int n = 0;
@@ -36,9 +36,29 @@ static void write_element(FILE *f, long long number, int type, int physical, int
   fprintf(f, "\n");
 }
 
+static void write_triangle(const corot_mesh *mesh, const corot_edges *edges, const int tri[3],
+                           int physical, long long number, FILE *f) {
+  int v[6];
+  for (int k = 0; k < 3; k++) {
+    v[k] = tri[k];
+    if (mesh->mid) v[3 + k] = edges->middle[corot_edges_find(edges, tri[k], tri[(k + 1) % 3])];
+  }
+  write_element(f, number, mesh->mid ? 9 : 2, physical, mesh->mid ? 6 : 3, v);
+}
+
+/* gmsh has the nodes of a tet on the edges 01 12 02 03 23 13. */
+static void write_tet(const corot_mesh *mesh, int e, int physical, long long number, FILE *f) {
+  static const int place[6] = {0, 1, 2, 3, 5, 4};
+  int v[10];
+  for (int k = 0; k < 4; k++) v[k] = mesh->tet[e][k];
+  for (int k = 0; mesh->mid && k < 6; k++) v[4 + k] = mesh->mid[e][place[k]];
+  write_element(f, number, mesh->mid ? 11 : 4, physical, mesh->mid ? 10 : 4, v);
+}
+
 /* All tets in order, each in the first of its groups; then once more for each further group.
    first [ntet] is that first group, from 1; 0: none. */
-static void write_elements(const corot_mesh *mesh, const int *first, FILE *f) {
+static void write_elements(const corot_mesh *mesh, const corot_edges *edges, const int *first,
+                           FILE *f) {
   long long n = mesh->ntet, k = 0;
   for (int g = 0; g < mesh->ngroup; g++) {
     const corot_group *group = &mesh->group[g];
@@ -49,28 +69,35 @@ static void write_elements(const corot_mesh *mesh, const int *first, FILE *f) {
   for (int g = 0; g < mesh->ngroup; g++) {
     const corot_group *group = &mesh->group[g];
     for (int i = 0; i < group->nnode; i++) write_element(f, ++k, 15, g + 1, 1, &group->node[i]);
-    for (int i = 0; i < group->ntri; i++) write_element(f, ++k, 2, g + 1, 3, group->tri[i]);
+    for (int i = 0; i < group->ntri; i++) write_triangle(mesh, edges, group->tri[i], g + 1, ++k, f);
   }
-  for (int e = 0; e < mesh->ntet; e++) write_element(f, ++k, 4, first[e], 4, mesh->tet[e]);
+  for (int e = 0; e < mesh->ntet; e++) write_tet(mesh, e, first[e], ++k, f);
   for (int g = 0; g < mesh->ngroup; g++)
     for (int i = 0; i < mesh->group[g].ntet; i++) {
       int e = mesh->group[g].tet[i];
-      if (first[e] != g + 1) write_element(f, ++k, 4, g + 1, 4, mesh->tet[e]);
+      if (first[e] != g + 1) write_tet(mesh, e, g + 1, ++k, f);
     }
   fprintf(f, "$EndElements\n");
 }
 
 static corot_status write_all(const corot_mesh *mesh, FILE *f) {
+  corot_edges edges = {0};
   int *first;
   COROT_TRY(COROT_ALLOC(first, mesh->ntet));
+  corot_status status = mesh->mid ? corot_edges_list(mesh, &edges) : COROT_OK;
+  if (status) {
+    free(first);
+    return status;
+  }
   for (int g = mesh->ngroup - 1; g >= 0; g--)
     for (int i = 0; i < mesh->group[g].ntet; i++) first[mesh->group[g].tet[i]] = g + 1;
   corot_c_locale locale = corot_c_locale_enter();
   fprintf(f, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
   write_names(mesh, f);
   write_nodes(mesh, f);
-  write_elements(mesh, first, f);
+  write_elements(mesh, &edges, first, f);
   corot_c_locale_leave(locale);
+  corot_edges_clear(&edges);
   free(first);
   return COROT_OK;
 }

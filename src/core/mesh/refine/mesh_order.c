@@ -109,6 +109,49 @@ static corot_status lower_all(const corot_mesh *mesh, corot_mesh *to) {
   return status;
 }
 
+/* Grows the arrays of a refinement by a level of n nodes, which are to be filled in. */
+static corot_status grow(corot_refinement *r, int n) {
+  int levels = r->nlevel + 2;
+  size_t count = (size_t)(r->nnode[r->nlevel] - r->nnode[0]) + (size_t)n;
+  int *nnode = realloc(r->nnode, (size_t)levels * sizeof *nnode);
+  if (nnode) r->nnode = nnode;
+  int *ntet = realloc(r->ntet, (size_t)levels * sizeof *ntet);
+  if (ntet) r->ntet = ntet;
+  int(*parent)[2] = realloc(r->parent, count * sizeof *parent);
+  if (parent) r->parent = parent;
+  if (nnode && ntet && parent) return COROT_OK;
+  return corot_fail(COROT_ENOMEM, "out of memory: %zu times %zu bytes", count, sizeof *parent);
+}
+
+/* Whether the nodes on edges are those that corot_mesh_change_order appends to nnode others. */
+static bool is_raised(const corot_mesh *mesh, const corot_edges *edges, int nnode) {
+  if (nnode + edges->n != mesh->nnode) return false;
+  for (int i = 0; i < edges->n; i++)
+    if (edges->middle[i] != nnode + i) return false;
+  return true;
+}
+
+corot_status corot_refinement_raise(corot_refinement *r, const corot_mesh *raised) {
+  corot_edges edges = {0};
+  int l = r->nlevel;
+  if (!raised->mid || raised->ntet != r->ntet[l])
+    return corot_fail(COROT_EINVAL, "refinement: %d tets of order %d are not its %d ones raised",
+                      raised->ntet, corot_mesh_order(raised), r->ntet[l]);
+  corot_status status = corot_edges_list(raised, &edges);
+  if (!status && !is_raised(raised, &edges, r->nnode[l]))
+    status = corot_fail(COROT_EINVAL, "refinement: the nodes on edges do not follow its %d nodes",
+                        r->nnode[l]);
+  if (!status) status = grow(r, edges.n);
+  if (!status) {
+    memcpy(r->parent + (r->nnode[l] - r->nnode[0]), edges.end, (size_t)edges.n * sizeof *r->parent);
+    r->nnode[l + 1] = raised->nnode;
+    r->ntet[l + 1] = raised->ntet;
+    r->nlevel++;
+  }
+  corot_edges_clear(&edges);
+  return status;
+}
+
 corot_status corot_mesh_change_order(const corot_mesh *mesh, int order, corot_mesh **out) {
   corot_mesh *m;
   if (order != 1 && order != 2)

@@ -75,22 +75,23 @@ static void cut_tets(const corot_mesh *mesh, const corot_edges *edges, corot_dia
     int middle[4][4], k = bey(v);
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++)
-        middle[i][j] = i == j ? v[i] : mesh->nnode + edges->tet[e][edge[i][j]];
+        middle[i][j] = i == j ? v[i] : corot_edge_middle(edges, edges->tet[e][edge[i][j]]);
     if (diagonal == COROT_DIAGONAL_SHORTEST)
       k = shortest((const double(*)[3])fine->x, v, (const int(*)[4])middle);
     cut_tet((const int(*)[4])middle, k, &fine->tet[8 * e]);
   }
 }
 
-/* Nodes and tets of the refined mesh. */
+/* Corners and tets of the refined mesh: those of a mesh of order 2 are all its nodes. */
 static corot_status cut(const corot_mesh *mesh, const corot_edges *edges, corot_diagonal diagonal,
                         corot_mesh *fine) {
-  COROT_TRY(COROT_ALLOC(fine->x, mesh->nnode + edges->n));
+  int nnew = mesh->mid ? 0 : edges->n;
+  COROT_TRY(COROT_ALLOC(fine->x, mesh->nnode + nnew));
   COROT_TRY(COROT_ALLOC(fine->tet, 8 * mesh->ntet));
-  fine->nnode = mesh->nnode + edges->n;
+  fine->nnode = mesh->nnode + nnew;
   fine->ntet = 8 * mesh->ntet;
   memcpy(fine->x, mesh->x, (size_t)mesh->nnode * sizeof *fine->x);
-  corot_edges_place(mesh, edges, fine->x + mesh->nnode);
+  if (nnew) corot_edges_place(mesh, edges, fine->x + mesh->nnode);
   cut_tets(mesh, edges, diagonal, fine);
   return corot_mesh_check_volumes(fine);
 }
@@ -118,17 +119,48 @@ static corot_status append_level(refiner *r, const corot_mesh *fine, const corot
   return COROT_OK;
 }
 
+static corot_status at_level(const refiner *r, corot_status status) {
+  if (status != COROT_EINVAL) return status;
+  return corot_fail(status, "at refinement %d, %s", r->level + 1, corot_error());
+}
+
+/* Makes `corners`, which have all but the nodes on edges, a mesh of order 2. `skin` [nskin] is
+   their boundary. */
+static corot_status add_middles(refiner *r, const corot_mesh *corners, int nskin,
+                                const int (*skin)[3], corot_mesh *fine) {
+  corot_edges fine_edges = {0};
+  corot_status status = corot_edges_list(corners, &fine_edges);
+  if (!status) status = corot_raise(corners, &fine_edges, fine);
+  if (!status) status = corot_edges_bend(r->mesh, corners, &fine_edges, fine->x);
+  if (!status) status = at_level(r, corot_mesh_check_volumes(fine));
+  if (!status) status = corot_raise_groups(corners, &fine_edges, nskin, skin, fine);
+  if (!status) status = append_level(r, fine, &fine_edges);
+  corot_edges_clear(&fine_edges);
+  return status;
+}
+
 /* Fills `fine` and `skin`, both of which the caller frees. */
 static corot_status make_level(refiner *r, const corot_edges *edges, corot_mesh *fine,
                                int (**skin)[3]) {
   const int(*old)[3] = (const int(*)[3])r->skin;
-  corot_status status = cut(r->mesh, edges, r->diagonal, fine);
-  if (status == COROT_EINVAL)
-    return corot_fail(status, "at refinement %d, %s", r->level + 1, corot_error());
-  COROT_TRY(status);
+  COROT_TRY(at_level(r, cut(r->mesh, edges, r->diagonal, fine)));
   COROT_TRY(corot_refine_groups(r->mesh, edges, r->nskin, old, fine));
-  COROT_TRY(corot_refine_triangles(r->mesh, edges, r->nskin, old, skin));
-  return append_level(r, fine, edges);
+  COROT_TRY(corot_refine_triangles(edges, r->nskin, old, skin));
+  return r->mesh->mid ? COROT_OK : append_level(r, fine, edges);
+}
+
+/* Replaces the corners by the mesh of order 2. */
+static corot_status finish_level_2(refiner *r, int (*skin)[3], corot_mesh **fine) {
+  corot_mesh *raised;
+  COROT_TRY(COROT_ALLOC(raised, 1));
+  corot_status status = add_middles(r, *fine, 4 * r->nskin, (const int(*)[3])skin, raised);
+  if (status) {
+    corot_mesh_destroy(raised);
+    return status;
+  }
+  corot_mesh_destroy(*fine);
+  *fine = raised;
+  return COROT_OK;
 }
 
 static corot_status refine_once(refiner *r) {
@@ -138,6 +170,7 @@ static corot_status refine_once(refiner *r) {
   COROT_TRY(COROT_ALLOC(fine, 1));
   corot_status status = corot_edges_list(r->mesh, &edges);
   if (!status) status = make_level(r, &edges, fine, &skin);
+  if (!status && r->mesh->mid) status = finish_level_2(r, skin, &fine);
   corot_edges_clear(&edges);
   if (status) {
     free(skin);
@@ -153,17 +186,18 @@ static corot_status refine_once(refiner *r) {
   return COROT_OK;
 }
 
-/* Nodes need no check: a tet of the refined mesh has at most 10 / 8 of them for itself. */
+/* Nodes need no check at order 1: a tet of the refined mesh has at most 10 / 8 of them for itself.
+ */
 static corot_status check_levels(const corot_mesh *mesh, int nlevel, corot_diagonal diagonal) {
   if (nlevel < 0) return corot_fail(COROT_EINVAL, "a mesh cannot be refined %d times", nlevel);
   if (diagonal != COROT_DIAGONAL_CONSISTENT && diagonal != COROT_DIAGONAL_SHORTEST)
     return corot_fail(COROT_EINVAL, "there is no diagonal %d", (int)diagonal);
-  int most = 0;
-  for (int n = mesh->ntet; n <= INT_MAX / 4 / 8; n *= 8) most++;
+  int most = 0, limit = mesh->mid ? INT_MAX / 10 : INT_MAX / 4;
+  for (int n = mesh->ntet; n <= limit / 8; n *= 8) most++;
   if (nlevel > most)
     return corot_fail(COROT_EINVAL,
                       "refining %d tets %d times makes %.3g, more than %d: at most %d", mesh->ntet,
-                      nlevel, mesh->ntet * pow(8, nlevel), INT_MAX / 4, most);
+                      nlevel, mesh->ntet * pow(8, nlevel), limit, most);
   return COROT_OK;
 }
 

@@ -45,6 +45,14 @@ static corot_status number_edges(int n, const side *s, corot_edges *edges) {
   return COROT_OK;
 }
 
+static corot_status find_middles(const corot_mesh *mesh, corot_edges *edges) {
+  COROT_TRY(COROT_ALLOC(edges->middle, edges->n));
+  for (int e = 0; e < mesh->ntet; e++)
+    for (int k = 0; k < 6; k++)
+      edges->middle[edges->tet[e][corot_edge_of_mid[k]]] = mesh->mid[e][k];
+  return COROT_OK;
+}
+
 corot_status corot_edges_list(const corot_mesh *mesh, corot_edges *edges) {
   int n = 6 * mesh->ntet, *start = NULL;
   side *a = NULL, *b = NULL;
@@ -56,16 +64,19 @@ corot_status corot_edges_list(const corot_mesh *mesh, corot_edges *edges) {
     sort_by(1, n, a, b, mesh->nnode, start);
     sort_by(0, n, b, a, mesh->nnode, start);
     status = number_edges(n, a, edges);
+    edges->nnode = mesh->nnode;
   }
   free(start);
   free(a);
   free(b);
+  if (!status && mesh->mid) status = find_middles(mesh, edges);
   return status;
 }
 
 void corot_edges_clear(corot_edges *edges) {
   free(edges->end);
   free(edges->tet);
+  free(edges->middle);
   memset(edges, 0, sizeof *edges);
 }
 
