@@ -11,7 +11,8 @@
 #include "report.h"
 
 static const char help[] =
-    "usage: corot-bench total [--json] [--mesh FILE] [--only TEXT] [--limit S] [--repeat N]\n"
+    "usage: corot-bench total [--json] [--mesh FILE | --cells I,J,K] [--only NAME] [--limit S]\n"
+    "                         [--repeat N]\n"
     "\n"
     "40 s of the bar (see corot-bench run --help) under strain green, how wrong all of it is, and\n"
     "what it costs: on four-node tets, once and twice refined, on ten-node tets, and on few of "
@@ -43,7 +44,8 @@ enum { MOST_RUNS = 100, MOST_SAMPLES = 10000, MOST_NAME = 64 };
 
 typedef struct arguments {
   bool json;
-  const char *mesh, *only;
+  bar_source bar;
+  const char *only;
   double limit;
   int nrun;
 } arguments;
@@ -182,7 +184,7 @@ static corot_status measure_body(const arguments *a, const body *b, motion *m) {
 }
 
 static bool wanted(const arguments *a, const char *name) {
-  return !a->only || strstr(name, a->only);
+  return !a->only || strncmp(name, a->only, strlen(a->only)) == 0;
 }
 
 /* --- By CalculiX --- */
@@ -308,16 +310,15 @@ static corot_status measure_one(const arguments *a, const body *b, bool calculix
 }
 
 static corot_status run(const arguments *a) {
-  bar_source four = bar_source_default("green"), ten, graded = four;
-  four.mesh = a->mesh, four.order = 1;
-  ten = four, ten.order = 2;
+  bar_source four = a->bar, ten = four, graded = bar_source_default("green");
+  four.order = 1, ten.order = 2;
   graded.order = 2, graded.box.cells[2] = 8, graded.grading = 1.75;
   graded.box.split = COROT_BOX_SYMMETRIC;
   const body bodies[] = {{"four-node", four, 0},
                          {"four-node, refined", four, 1},
                          {"four-node, refined twice", four, 2},
                          {"ten-node", ten, 0},
-                         {"ten-node, graded", graded, 0}};
+                         {"graded ten-node", graded, 0}};
   bool calculix = calculix_found();
   print_heading(a->json);
   for (size_t k = 0; k < sizeof bodies / sizeof *bodies; k++)
@@ -327,21 +328,18 @@ static corot_status run(const arguments *a) {
   return COROT_OK;
 }
 
-static const struct option known[] = {{"json", no_argument, NULL, 'j'},
-                                      {"mesh", required_argument, NULL, 'm'},
-                                      {"only", required_argument, NULL, 'o'},
-                                      {"limit", required_argument, NULL, 'l'},
-                                      {"repeat", required_argument, NULL, 'n'},
-                                      {"help", no_argument, NULL, 'h'},
-                                      {0}};
+static const struct option known[] = {
+    {"json", no_argument, NULL, 'j'},        {"mesh", required_argument, NULL, 'm'},
+    {"cells", required_argument, NULL, 'c'}, {"only", required_argument, NULL, 'o'},
+    {"limit", required_argument, NULL, 'l'}, {"repeat", required_argument, NULL, 'n'},
+    {"help", no_argument, NULL, 'h'},        {0}};
 
 static int take(arguments *a, int answer, char **argv) {
+  int taken = take_bar_option(program, answer, &a->bar);
+  if (taken >= 0) return taken;
   switch (answer) {
     case 'j':
       a->json = true;
-      return EXIT_OK;
-    case 'm':
-      a->mesh = optarg;
       return EXIT_OK;
     case 'o':
       a->only = optarg;
@@ -357,7 +355,7 @@ static int take(arguments *a, int answer, char **argv) {
 }
 
 int command_total(int argc, char **argv) {
-  arguments a = {.limit = 60, .nrun = 1};
+  arguments a = {.bar = bar_source_default("green"), .limit = 60, .nrun = 1};
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":h", known, NULL)) != -1;) {
     if (answer == 'h') {
