@@ -179,12 +179,21 @@ void corot_nodal(const corot_model *model, double t, const double *u, const doub
 
 /* Fields of the tets, in the mesh's order [ntet]; any may be NULL. With a hierarchy, frames are
    those handed down, strain and stress those of the finest level alone. Symmetric tensors are
-   stored xx yy zz xy yz xz (not doubled). */
+   stored xx yy zz xy yz xz (not doubled).
+
+   In ten-node tets they vary, and the first four are means over the points of integration, weighted
+   by volume; the frame is the rotation nearest to the mean of the frames. The others are the values
+   at the four points: point k, next to corner k of the mesh's tet, has the barycentric coordinate
+   a = (5 + 3 sqrt 5) / 20 there and b = (5 - sqrt 5) / 20 at each other corner. The linear function
+   with the values f at the points is (f_k - b sum f) / (a - b) at corner k. In four-node tets all four
+   points have the tet's value. */
 typedef struct corot_element_fields {
   double (*frame)[9];  /* R, row-major: the frame the model uses now */
   double (*strain)[6]; /* shear-term strain e_s, in the frame (B = R) or material axes (B = F) */
   double *von_mises;   /* of the Cauchy stress P F' / det F [Pa]; for cauchy of P itself */
-  double *det;         /* det F */
+  double *det;         /* det F; as a mean, volume over rest volume */
+  double (*frame_at)[4][9], (*strain_at)[4][6]; /* the same at the points */
+  double (*von_mises_at)[4], (*det_at)[4];
 } corot_element_fields;
 
 /* COROT_RETRY if a tet is inverted; the fields are set all the same, its own without meaning (and

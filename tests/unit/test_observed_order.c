@@ -47,11 +47,25 @@ static void the_limits_are_where_they_are_said(void **state) {
   assert_true(convergence_observe(1, 0.5, 0, 0.05).asymptotic);
 }
 
+/* Ten-node tets may converge faster, and not by any order either. */
+static void orders_are_believed_by_the_tets(void **state) {
+  (void)state;
+  double third = exp2(-3), fifth = exp2(-5);
+  assert_false(convergence_observe_of(1, 1, third, 1, 0).asymptotic);
+  convergence c = convergence_observe_of(2, 1, third, 1, 0);
+  assert_true(c.asymptotic);
+  assert_close(c.remainder, 1. / 7, 1e-15, 0);
+  c = convergence_observe_of(2, 1, fifth, 1, 0);
+  assert_false(c.asymptotic);
+  assert_string_equal(c.why, "the levels converge faster than ten-node tets do");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_power_is_found),
       cmocka_unit_test(doubts_are_told),
       cmocka_unit_test(the_limits_are_where_they_are_said),
+      cmocka_unit_test(orders_are_believed_by_the_tets),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

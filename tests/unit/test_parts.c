@@ -2,6 +2,7 @@
 #include "solve/statics/rigid.h"
 
 #include "alloc.h"
+#include "order_2.h"
 #include "solid.h"
 
 /* `count` unit boxes in a row, a box apart, their nodes dealt out in turn: node k of box b is node
@@ -45,6 +46,23 @@ static void parts_have_their_nodes(void **state) {
     free(part);
     corot_mesh_destroy(mesh);
   }
+}
+
+/* Of order 2, too, where each cube has 8 corners and 19 edges. */
+static void nodes_on_edges_belong_to_their_parts(void **state) {
+  (void)state;
+  corot_mesh *linear = boxes(3), *mesh = with_order(linear, 2);
+  corot_part *part;
+  int npart;
+  assert_ok(corot_mesh_parts(mesh, &npart, &part));
+  assert_int_equal(npart, 3);
+  for (int k = 0; k < npart; k++) {
+    assert_int_equal(part[k].first, k);
+    assert_int_equal(part[k].nnode, 27);
+  }
+  free(part);
+  corot_mesh_destroy(linear);
+  corot_mesh_destroy(mesh);
 }
 
 /* Tets that share an edge or a node only are one part. */
@@ -117,6 +135,7 @@ static void failed_allocations_are_survived(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(parts_have_their_nodes),
+      cmocka_unit_test(nodes_on_edges_belong_to_their_parts),
       cmocka_unit_test(a_node_joins),
       cmocka_unit_test(supports_hold_their_part),
       cmocka_unit_test(failed_allocations_are_survived),

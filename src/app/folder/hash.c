@@ -21,6 +21,7 @@ void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]) {
   add_integers(&sum, (const int[3]){mesh->nnode, mesh->ntet, mesh->ngroup}, 3);
   SHA256Update(&sum, (const uint8_t *)mesh->x, (size_t)mesh->nnode * sizeof *mesh->x);
   add_integers(&sum, &mesh->tet[0][0], 4 * (size_t)mesh->ntet);
+  if (mesh->mid) add_integers(&sum, &mesh->mid[0][0], 6 * (size_t)mesh->ntet);
   for (int i = 0; i < mesh->ngroup; i++) {
     const corot_group *g = &mesh->group[i];
     SHA256Update(&sum, (const uint8_t *)g->name, strlen(g->name) + 1);

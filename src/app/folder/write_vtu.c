@@ -26,6 +26,10 @@ enum {
   STRAIN,
   VON_MISES,
   DET,
+  FRAME_AT,
+  STRAIN_AT,
+  VON_MISES_AT,
+  DET_AT,
   MATERIAL,
   REST,
   NODES,
@@ -40,6 +44,7 @@ static const struct layout {
   int values;  /* a node, a tet */
   size_t item; /* bytes of a component */
   const char *attributes;
+  bool order_2; /* only there */
 } layout[NARRAY] = {
     [TIME] = {"TimeValue", "Float64", FIELD, 1, 8, " NumberOfTuples=\"1\""},
     [DISPLACEMENT] = {"displacement", "Float64", POINT, 3, 8, ""},
@@ -50,9 +55,13 @@ static const struct layout {
                 " ComponentName3=\"XY\" ComponentName4=\"YZ\" ComponentName5=\"XZ\""},
     [VON_MISES] = {"von_mises", "Float64", CELL, 1, 8, ""},
     [DET] = {"det", "Float64", CELL, 1, 8, ""},
+    [FRAME_AT] = {"frame_points", "Float64", CELL, 36, 8, "", true},
+    [STRAIN_AT] = {"strain_points", "Float64", CELL, 24, 8, "", true},
+    [VON_MISES_AT] = {"von_mises_points", "Float64", CELL, 4, 8, "", true},
+    [DET_AT] = {"det_points", "Float64", CELL, 4, 8, "", true},
     [MATERIAL] = {"material", "Int32", CELL, 1, 4, ""},
     [REST] = {"Points", "Float64", POINTS, 3, 8, ""},
-    [NODES] = {"connectivity", "Int32", CELLS, 4, 4, ""},
+    [NODES] = {"connectivity", "Int32", CELLS, 1, 4, ""}, /* values: those of the mesh */
     [OFFSETS] = {"offsets", "Int32", CELLS, 1, 4, ""},
     [TYPES] = {"types", "UInt8", CELLS, 1, 1, ""},
 };
@@ -103,12 +112,26 @@ void vtu_destroy(vtu *w) {
 
 static size_t padded(size_t size) { return (size + 7) / 8 * 8; }
 
+static const element_kind *kind_of(const corot_mesh *mesh) {
+  return &element_kinds[corot_mesh_order(mesh) == 2 ? TET10 : TET4];
+}
+
+static bool is_there(int i, const corot_mesh *mesh) {
+  return !layout[i].order_2 || corot_mesh_order(mesh) == 2;
+}
+
 static size_t array_bytes(int i, const corot_mesh *mesh) {
   const struct layout *a = &layout[i];
+  int values = i == NODES ? kind_of(mesh)->nnode : a->values;
   size_t tuples = a->section == FIELD                           ? 1
                   : a->section == POINT || a->section == POINTS ? (size_t)mesh->nnode
                                                                 : (size_t)mesh->ntet;
-  return tuples * (size_t)a->values * a->item;
+  return tuples * (size_t)values * a->item;
+}
+
+/* Bytes of an array in the file: its size, then the data. */
+static size_t room_of(int i, const corot_mesh *mesh) {
+  return is_there(i, mesh) ? 8 + padded(array_bytes(i, mesh)) : 0;
 }
 
 /* Appends to text [HEADER], which is known to be long enough. */
@@ -133,12 +156,12 @@ static void make_header(const corot_mesh *mesh, char text[HEADER]) {
   for (int i = 0; i < NARRAY; i++) {
     const struct layout *a = &layout[i];
     if (i == 0 || layout[i - 1].section != a->section) append(text, "%s", tag[a->section].open);
-    int components = a->section == CELLS ? 1 : a->values; /* connectivity is one long list */
-    append(text,
-           "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"%s format=\"appended\""
-           " offset=\"%zu\"/>\n",
-           a->type, a->name, components, a->attributes, offset);
-    offset += 8 + padded(array_bytes(i, mesh));
+    if (is_there(i, mesh))
+      append(text,
+             "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"%s format=\"appended\""
+             " offset=\"%zu\"/>\n",
+             a->type, a->name, a->values, a->attributes, offset);
+    offset += room_of(i, mesh);
     if (i + 1 < NARRAY && layout[i + 1].section == a->section) continue;
     append(text, "%s", tag[a->section].close);
     if (a->section == FIELD)
@@ -149,6 +172,19 @@ static void make_header(const corot_mesh *mesh, char text[HEADER]) {
   append(text, "%*s_", blanks, "");
 }
 
+static void put_mesh(vtu *w, const corot_mesh *mesh, const int *material) {
+  int n = kind_of(mesh)->nnode;
+  int32_t *nodes = (void *)w->array[NODES], *offsets = (void *)w->array[OFFSETS];
+  int32_t *number = (void *)w->array[MATERIAL];
+  memcpy(w->array[REST], mesh->x, array_bytes(REST, mesh));
+  for (int e = 0; e < mesh->ntet; e++) {
+    for (int k = 0; k < n; k++) nodes[n * e + k] = k < 4 ? mesh->tet[e][k] : mesh->mid[e][k - 4];
+    offsets[e] = n * (e + 1);
+    number[e] = material[e];
+  }
+  memset(w->array[TYPES], kind_of(mesh)->vtk, (size_t)mesh->ntet);
+}
+
 /* Lays out the image: everything that stays the same from frame to frame is put in place. */
 static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *material) {
   char header[HEADER];
@@ -156,7 +192,7 @@ static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *materi
   make_header(mesh, header);
   size_t at = strlen(header);
   w->size = at + sizeof file_tail - 1;
-  for (int i = 0; i < NARRAY; i++) w->size += 8 + padded(array_bytes(i, mesh));
+  for (int i = 0; i < NARRAY; i++) w->size += room_of(i, mesh);
   w->image = calloc(1, w->size);
   if (!w->image)
     return corot_fail(COROT_ENOMEM, "%zu bytes for the fields: out of memory", w->size);
@@ -164,23 +200,15 @@ static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *materi
   /* what frames the arrays, and where they are */
   memcpy(w->image, header, at);
   for (int i = 0; i < NARRAY; i++) {
+    if (!is_there(i, mesh)) continue;
     uint64_t bytes = array_bytes(i, mesh);
     memcpy(w->image + at, &bytes, 8);
     w->array[i] = w->image + at + 8;
-    at += 8 + padded(bytes);
+    at += room_of(i, mesh);
   }
   memcpy(w->image + at, file_tail, sizeof file_tail - 1);
 
-  /* the mesh and its materials */
-  int32_t *nodes = (void *)w->array[NODES], *offsets = (void *)w->array[OFFSETS];
-  int32_t *number = (void *)w->array[MATERIAL];
-  memcpy(w->array[REST], mesh->x, array_bytes(REST, mesh));
-  for (int e = 0; e < mesh->ntet; e++) {
-    for (int k = 0; k < 4; k++) nodes[4 * e + k] = mesh->tet[e][k];
-    offsets[e] = 4 * (e + 1);
-    number[e] = material[e];
-  }
-  memset(w->array[TYPES], element_kinds[TET4].vtk, (size_t)mesh->ntet);
+  put_mesh(w, mesh, material);
   return COROT_OK;
 }
 
@@ -217,7 +245,7 @@ static corot_status open_files(vtu *w, const char *dir) {
 }
 
 corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out) {
-  if (mesh->ntet > INT32_MAX / 4)
+  if (mesh->ntet > INT32_MAX / kind_of(mesh)->nnode)
     return corot_fail(COROT_EINVAL, "%d tets are too many for the fields' 32-bit indices",
                       mesh->ntet);
   vtu *w = calloc(1, sizeof *w);
@@ -241,6 +269,10 @@ vtu_fields vtu_arrays(vtu *w) {
       .strain = (void *)w->array[STRAIN],
       .von_mises = (void *)w->array[VON_MISES],
       .det = (void *)w->array[DET],
+      .frame_at = (void *)w->array[FRAME_AT],
+      .strain_at = (void *)w->array[STRAIN_AT],
+      .von_mises_at = (void *)w->array[VON_MISES_AT],
+      .det_at = (void *)w->array[DET_AT],
   };
 }
 

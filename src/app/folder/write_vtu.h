@@ -1,7 +1,9 @@
 /* Fields for ParaView and VTK: one .vtu file a frame, and a .pvd file that lists them by time.
 
-   Points stand at rest; the deformed shape is theirs plus the point vector `displacement`
-   (ParaView: Warp By Vector, scale 1), so that fields over the rest shape stay available.
+   Cells are tets of four nodes (VTK type 10) or, of a mesh of order 2, of ten (type 24, whose order
+   of nodes is the mesh's). Points stand at rest; the deformed shape is theirs plus the point vector
+   `displacement` (ParaView: Warp By Vector, scale 1), so that fields over the rest shape stay
+   available.
 
      point data  displacement [m], velocity [m/s]
      cell data   frame      R, row-major, 9 components
@@ -10,6 +12,10 @@
                  von_mises  of the Cauchy stress [Pa]
                  det        volume over rest volume
                  material   number of the tet's entry in the scenario's list of materials, from 0
+                 of order 2, where the first four are means over a tet, also frame_points,
+                            strain_points, von_mises_points, det_points: the same at the tet's four
+                            points of integration, one after another, point k the one next to corner
+                            k (see corot_element_fields)
      field data  TimeValue [s]
 
    Numbers are Float64 as they stand in memory ("appended raw", UInt64 sizes), each array at a
@@ -28,6 +34,9 @@ typedef struct vtu_fields {
   double (*displacement)[3], (*velocity)[3]; /* [nnode] */
   double (*frame)[9], (*strain)[6];          /* [ntet] */
   double *von_mises, *det;                   /* [ntet] */
+  /* [ntet] at the points of a mesh of order 2; NULL: it is of order 1 */
+  double (*frame_at)[4][9], (*strain_at)[4][6];
+  double (*von_mises_at)[4], (*det_at)[4];
 } vtu_fields;
 
 /* Makes DIR/fields and an empty DIR/fields.pvd. material: [ntet]. All memory is taken here. */

@@ -73,6 +73,10 @@ static corot_status evaluate_fields(void *writer, const moment *now) {
       .strain = value.strain,
       .von_mises = value.von_mises,
       .det = value.det,
+      .frame_at = value.frame_at,
+      .strain_at = value.strain_at,
+      .von_mises_at = value.von_mises_at,
+      .det_at = value.det_at,
   };
   return corot_elements(f->model, now->state, now->t, now->u, &of_tets);
 }

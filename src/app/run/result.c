@@ -25,8 +25,9 @@ static json_t *vector(const double x[3]) {
 
 static json_t *mesh_part(const scenario *s, const corot_model *model) {
   const corot_mesh *mesh = corot_model_mesh(model);
-  return json_pack("{s:o, s:i, s:i, s:i}", "file", text(s->mesh_file), "nodes", mesh->nnode, "tets",
-                   mesh->ntet, "dofs", corot_model_ndof(model));
+  return json_pack("{s:o, s:i, s:i, s:i, s:i}", "file", text(s->mesh_file), "order",
+                   corot_mesh_order(mesh), "nodes", mesh->nnode, "tets", mesh->ntet, "dofs",
+                   corot_model_ndof(model));
 }
 
 static json_t *frames_part(const scenario *s, const run_summary *run) {

@@ -7,19 +7,15 @@
 
 #include "app/config/config.h"
 #include "app/text/json_text.h"
+#include "core/mesh/mesh.h"
 #include "words.h"
 
 /* --- Finding --- */
 
 static double tet_volume(const corot_mesh *mesh, int e) {
-  const double *o = mesh->x[mesh->tet[e][0]];
-  double d[3][3];
-  for (int i = 0; i < 3; i++)
-    for (int k = 0; k < 3; k++) d[i][k] = mesh->x[mesh->tet[e][i + 1]][k] - o[k];
-  return (d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) +
-          d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
-          d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0])) /
-         6;
+  const double(*x)[3] = (const double(*)[3])mesh->x;
+  return mesh->mid ? corot_curved_volume(x, mesh->tet[e], mesh->mid[e])
+                   : corot_tet_volume(x, mesh->tet[e]);
 }
 
 static double group_volume(const corot_mesh *mesh, const corot_group *group) {
@@ -138,7 +134,8 @@ static void print_mesh(const scenario *s, const facts *f, FILE *out) {
   fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "");
   if (!s->mesh_file) print_box(&s->box, out);
   if (s->refine > 0) fprintf(out, ", refine %d", s->refine);
-  fprintf(out, ": %d nodes, %d tets, %.6g m^3\n", f->mesh->nnode, f->mesh->ntet, q->volume);
+  fprintf(out, ": %d nodes, %d %stets, %.6g m^3\n", f->mesh->nnode, f->mesh->ntet,
+          f->mesh->mid ? "ten-node " : "", q->volume);
   fprintf(out, "extent         [%g, %g] x [%g, %g] x [%g, %g] m\n", q->min[0], q->max[0], q->min[1],
           q->max[1], q->min[2], q->max[2]);
   fprintf(out, "shape          mean %.3f, worst %.3f (tet %d)\n", q->shape_mean, q->shape_min,
@@ -336,8 +333,8 @@ static json_t *probes_json(const scenario *s, const corot_mesh *mesh) {
 
 static json_t *mesh_json(const scenario *s, const facts *f) {
   const corot_mesh_quality *q = &f->quality;
-  json_t *j = json_pack("{s:i, s:i, s:f}", "nodes", f->mesh->nnode, "tets", f->mesh->ntet, "volume",
-                        q->volume);
+  json_t *j = json_pack("{s:i, s:i, s:i, s:f}", "order", corot_mesh_order(f->mesh), "nodes",
+                        f->mesh->nnode, "tets", f->mesh->ntet, "volume", q->volume);
   j = json_text_with(j, "file", s->mesh_file ? json_text_string(s->mesh_file) : json_null());
   j = json_text_with(j, "refine", json_integer(s->refine));
   j = json_text_with(j, "min", json_pack("[f, f, f]", q->min[0], q->min[1], q->min[2]));

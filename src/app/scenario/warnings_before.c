@@ -84,15 +84,27 @@ static double distance(const double a[3], const double b[3]) {
   return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/* The longest edge at a node. */
-static double edge_at(const corot_mesh *mesh, int node) {
+static bool has_node(const corot_mesh *mesh, int e, int node) {
+  for (int k = 0; k < 4; k++)
+    if (mesh->tet[e][k] == node) return true;
+  for (int k = 0; mesh->mid && k < 6; k++)
+    if (mesh->mid[e][k] == node) return true;
+  return false;
+}
+
+/* The largest distance of a node from another of its tets: in a linear mesh its longest edge; in
+   one of order 2, where edges have a node in their middle, half of what separates the corners. */
+static double reach_of(const corot_mesh *mesh, int node) {
   double longest = 0;
   for (int e = 0; e < mesh->ntet; e++) {
+    if (!has_node(mesh, e, node)) continue;
     const int *v = mesh->tet[e];
-    if (v[0] != node && v[1] != node && v[2] != node && v[3] != node) continue;
-    for (int a = 0; a < 4; a++) longest = fmax(longest, distance(mesh->x[node], mesh->x[v[a]]));
+    for (int a = 0; a < 4; a++)
+      for (int b = 0; b < a; b++)
+        if (mesh->mid || v[a] == node || v[b] == node)
+          longest = fmax(longest, distance(mesh->x[v[a]], mesh->x[v[b]]));
   }
-  return longest;
+  return mesh->mid ? longest / 2 : longest;
 }
 
 /* Inside the body a point is at most half the longest edge from a node of a box's cell, and 0.61 of
@@ -104,14 +116,14 @@ static corot_status find_probes(const scenario *s, const corot_mesh *mesh, warni
     const probe_def *p = &s->probe[i];
     if (p->node >= 0) continue;
     int node = corot_mesh_nearest(mesh, p->point);
-    double off = distance(p->point, mesh->x[node]), edge = edge_at(mesh, node);
+    double off = distance(p->point, mesh->x[node]), edge = reach_of(mesh, node);
     if (!(off > MOST_EDGES * edge)) continue;
     COROT_TRY(
         warnings_add(w, WARNING_PROBE,
                      "probe %.64s: the nearest node, %d, is %.3g m from its point, which is "
-                     "%.2g of the longest edge there: it records that node's motion; move the "
+                     "%.2g of the longest edge%s there: it records that node's motion; move the "
                      "point, or name a node",
-                     p->name, node, off, off / edge));
+                     p->name, node, off, off / edge, mesh->mid ? " between nodes" : ""));
   }
   return COROT_OK;
 }

@@ -26,23 +26,48 @@ typedef struct shown {
   vd mises, det;
 } shown;
 
-/* Means over the points so far, weighted by their volumes; the frame is the first one's, and the
-   determinant the least. */
-COROT_INLINE shown mean_of(shown all, shown point, vd before, vd weight) {
-  vd part = weight / (before + weight);
-  all.e = mat3_sum(1 - part, all.e, part, point.e);
-  all.mises = (1 - part) * all.mises + part * point.mises;
-  all.det = vd_select(point.det < all.det, point.det, all.det);
+/* Means over the points, weighted by their volumes; the frame is the rotation nearest to that of
+   the frames. */
+COROT_INLINE shown mean_of(const element_kind *kind, const shown *point, const vd *weight) {
+  shown all = point[0];
+  vd before = weight[0], volume;
+  for (int q = 1; q < kind->npoint; q++, before = volume) {
+    volume = before + weight[q];
+    vd part = weight[q] / volume, rest = 1 - part;
+    all.R = mat3_sum(rest, all.R, part, point[q].R);
+    all.e = mat3_sum(rest, all.e, part, point[q].e);
+    all.mises = rest * all.mises + part * point[q].mises;
+    all.det = rest * all.det + part * point[q].det;
+  }
+  vi bad;
+  if (kind->npoint > 1) all.R = polar(all.R, &bad);
   return all;
 }
 
-COROT_INLINE void store_lane(const corot_element_fields *f, int tet, int l, const shown *s) {
-  static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
+static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
+
+COROT_INLINE void store_mean(const corot_element_fields *f, int tet, int l, const shown *s) {
   if (f->frame) mat3_store(s->R, l, f->frame[tet]);
   if (f->strain)
     for (int k = 0; k < 6; k++) f->strain[tet][k] = s->e.m[ij[k][0]][ij[k][1]][l];
   if (f->von_mises) f->von_mises[tet] = s->mises[l];
   if (f->det) f->det[tet] = s->det[l];
+}
+
+/* The point next to a corner of the mesh: points are numbered as the corners in ascending order. */
+COROT_INLINE int point_next_to(const element_kind *kind, const int tet[4], int corner) {
+  int rank = 0;
+  for (int k = 0; k < 4; k++) rank += tet[k] < tet[corner];
+  return kind->npoint == 1 ? 0 : rank;
+}
+
+COROT_INLINE void store_point(const corot_element_fields *f, int tet, int corner, int l,
+                              const shown *s) {
+  if (f->frame_at) mat3_store(s->R, l, f->frame_at[tet][corner]);
+  if (f->strain_at)
+    for (int k = 0; k < 6; k++) f->strain_at[tet][corner][k] = s->e.m[ij[k][0]][ij[k][1]][l];
+  if (f->von_mises_at) f->von_mises_at[tet][corner] = s->mises[l];
+  if (f->det_at) f->det_at[tet][corner] = s->det[l];
 }
 
 COROT_INLINE shown show_point(const solid *body, const solid_state *s, point_lanes at,
@@ -70,16 +95,20 @@ COROT_INLINE int elements_loop(const element_kind *kind, const solid *body, cons
   for (int b = 0; b < body->elements.nblock; b++) {
     differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
     vi inverted = {0};
-    vd volume = vd_all(0);
-    shown all;
+    shown point[KIND_POINTS];
+    vd weight[KIND_POINTS];
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
-      shown point = show_point(body, s, at, &of_u, &inverted);
-      all = q == 0 ? point : mean_of(all, point, volume, weight_of(at));
-      volume += weight_of(at);
+      point[q] = show_point(body, s, at, &of_u, &inverted);
+      weight[q] = weight_of(at);
     }
-    for (int l = 0; l < body->elements.block[b].n; l++)
-      store_lane(fields, body->elements.number[b * W + l], l, &all);
+    shown mean = mean_of(kind, point, weight);
+    for (int l = 0; l < body->elements.block[b].n; l++) {
+      int tet = body->elements.number[b * W + l];
+      store_mean(fields, tet, l, &mean);
+      for (int k = 0; k < 4; k++)
+        store_point(fields, tet, k, l, &point[point_next_to(kind, body->mesh->tet[tet], k)]);
+    }
     if (first < 0) first = first_inverted(body, b, inverted);
   }
   return first;

@@ -1,6 +1,7 @@
 /* Finds the frames by the list in fields.pvd, and reads their arrays. */
 #include "fields_file.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@ void fields_close(fields *f) {
   free(f->text);
   free(f->x);
   free(f->tet);
+  free(f->mid);
   *f = (fields){0};
 }
 
@@ -25,6 +27,9 @@ void fields_frame_free(fields_frame *frame) {
   free(frame->frame);
   free(frame->von_mises);
   free(frame->det);
+  free(frame->frame_at);
+  free(frame->von_mises_at);
+  free(frame->det_at);
   *frame = (fields_frame){0};
 }
 
@@ -37,7 +42,14 @@ corot_status fields_frame_create(const fields *f, fields_frame *frame) {
       .von_mises = malloc(ntet * sizeof *made.von_mises),
       .det = malloc(ntet * sizeof *made.det),
   };
-  if (!made.displacement || !made.velocity || !made.frame || !made.von_mises || !made.det) {
+  bool complete = made.displacement && made.velocity && made.frame && made.von_mises && made.det;
+  if (complete && f->mid) {
+    made.frame_at = malloc(ntet * sizeof *made.frame_at);
+    made.von_mises_at = malloc(ntet * sizeof *made.von_mises_at);
+    made.det_at = malloc(ntet * sizeof *made.det_at);
+    complete = made.frame_at && made.von_mises_at && made.det_at;
+  }
+  if (!complete) {
     fields_frame_free(&made);
     return corot_fail(COROT_ENOMEM, "the fields of %d tets: out of memory", f->ntet);
   }
@@ -79,22 +91,35 @@ static corot_status parse_list(fields *f, const char *path) {
   return COROT_OK;
 }
 
+/* `per` nodes a tet, corners first. */
+static corot_status take_nodes(fields *f, const vtu_file *file, int per, const int32_t *node) {
+  for (size_t i = 0; i < (size_t)per * (size_t)f->ntet; i++) {
+    size_t e = i / (size_t)per, k = i % (size_t)per;
+    if (node[i] < 0 || node[i] >= f->nnode)
+      return corot_fail(COROT_EFORMAT, "%s: tet %zu has node %d of %d", file->path, e, (int)node[i],
+                        f->nnode);
+    if (k < 4)
+      f->tet[e][k] = node[i];
+    else
+      f->mid[e][k - 4] = node[i];
+  }
+  return COROT_OK;
+}
+
 static corot_status read_tets(fields *f, const vtu_file *file) {
-  size_t n = 4 * (size_t)f->ntet;
+  int order;
+  COROT_TRY(vtu_order(file, &order));
+  int per = order == 2 ? 10 : 4;
+  size_t ntet = (size_t)f->ntet, n = (size_t)per * ntet;
   int32_t *node = malloc(n * sizeof *node);
-  f->tet = malloc((size_t)f->ntet * sizeof *f->tet);
+  f->tet = malloc(ntet * sizeof *f->tet);
+  if (order == 2) f->mid = malloc(ntet * sizeof *f->mid);
   corot_status status = COROT_OK;
-  if (!node || !f->tet)
+  if (!node || !f->tet || (order == 2 && !f->mid))
     status = corot_fail(COROT_ENOMEM, "%s: out of memory", file->path);
   else
     status = vtu_array(file, "connectivity", "Int32", n * sizeof *node, node);
-  for (size_t i = 0; i < n && status == COROT_OK; i++) {
-    if (node[i] < 0 || node[i] >= f->nnode)
-      status = corot_fail(COROT_EFORMAT, "%s: tet %zu has node %d of %d", file->path, i / 4,
-                          (int)node[i], f->nnode);
-    else
-      f->tet[i / 4][i % 4] = node[i];
-  }
+  if (status == COROT_OK) status = take_nodes(f, file, per, node);
   free(node);
   return status;
 }
@@ -165,7 +190,11 @@ static corot_status read_arrays(const fields *f, const vtu_file *file, fields_fr
   COROT_TRY(vtu_array(file, "velocity", "Float64", 3 * node, frame->velocity));
   COROT_TRY(vtu_array(file, "frame", "Float64", 9 * tet, frame->frame));
   COROT_TRY(vtu_array(file, "von_mises", "Float64", tet, frame->von_mises));
-  return vtu_array(file, "det", "Float64", tet, frame->det);
+  COROT_TRY(vtu_array(file, "det", "Float64", tet, frame->det));
+  if (!f->mid) return COROT_OK;
+  COROT_TRY(vtu_array(file, "frame_points", "Float64", 36 * tet, frame->frame_at));
+  COROT_TRY(vtu_array(file, "von_mises_points", "Float64", 4 * tet, frame->von_mises_at));
+  return vtu_array(file, "det_points", "Float64", 4 * tet, frame->det_at);
 }
 
 corot_status fields_read(const fields *f, int i, fields_frame *frame) {

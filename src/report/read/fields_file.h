@@ -16,14 +16,18 @@ typedef struct fields {
   char *text;  /* of fields.pvd; the names are in it */
   int nnode, ntet;
   double (*x)[3]; /* [nnode] at rest [m] */
-  int (*tet)[4];  /* [ntet] */
+  int (*tet)[4];  /* [ntet] the corners */
+  int (*mid)[6];  /* [ntet] the nodes on their edges, as in corot_mesh; NULL: of order 1 */
 } fields;
 
-/* One frame; the arrays are the caller's. */
+/* One frame; the arrays are the caller's. Of tets of order 2 there are values at their four points
+   of integration, too (see app/folder/write_vtu.h); else these are NULL. */
 typedef struct fields_frame {
   double (*displacement)[3], (*velocity)[3]; /* [nnode] */
   double (*frame)[9];                        /* [ntet] */
   double *von_mises, *det;                   /* [ntet] */
+  double (*frame_at)[4][9];                  /* [ntet] */
+  double (*von_mises_at)[4], (*det_at)[4];   /* [ntet] */
 } fields_frame;
 
 /* Reads the list, and mesh and sizes from the first frame. `dir` must outlive the fields. Without

@@ -8,11 +8,13 @@
 typedef struct face {
   int key[3];    /* its nodes, ascending */
   int corner[3]; /* the same, winding outward */
+  int middle[3]; /* on its edges 01 12 20, of order 2 */
   int tet;
 } face;
 
 void surface_free(surface *s) {
   free(s->corner);
+  free(s->middle);
   free(s->tet);
   free(s->node);
   *s = (surface){0};
@@ -25,10 +27,16 @@ static void swap_if_greater(int *a, int *b) {
   *b = keep;
 }
 
-static face face_of(int e, const int *tet, int opposite) {
+/* mid: NULL of order 1. */
+static face face_of(int e, const int *tet, const int *mid, int opposite) {
   static const int outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  static const int edge[4][4] = {{-1, 0, 2, 3}, {0, -1, 1, 4}, {2, 1, -1, 5}, {3, 4, 5, -1}};
+  const int *out = outward[opposite];
   face f = {.tet = e};
-  for (int k = 0; k < 3; k++) f.key[k] = f.corner[k] = tet[outward[opposite][k]];
+  for (int k = 0; k < 3; k++) {
+    f.key[k] = f.corner[k] = tet[out[k]];
+    if (mid) f.middle[k] = mid[edge[out[k]][out[(k + 1) % 3]]];
+  }
   swap_if_greater(&f.key[0], &f.key[1]);
   swap_if_greater(&f.key[1], &f.key[2]);
   swap_if_greater(&f.key[0], &f.key[1]);
@@ -63,7 +71,10 @@ static int keep_single(int n, face *f) {
 /* number [nnode]: 0 to begin with, then one more than each node's number on the surface. */
 static void number_nodes(int nnode, int *number, const face *f, surface *s) {
   for (int i = 0; i < s->ntri; i++)
-    for (int k = 0; k < 3; k++) number[f[i].corner[k]] = 1;
+    for (int k = 0; k < 3; k++) {
+      number[f[i].corner[k]] = 1;
+      if (s->middle) number[f[i].middle[k]] = 1;
+    }
   for (int i = 0; i < nnode; i++) {
     if (!number[i]) continue;
     s->node[s->nnode++] = i;
@@ -71,11 +82,24 @@ static void number_nodes(int nnode, int *number, const face *f, surface *s) {
   }
   for (int i = 0; i < s->ntri; i++) {
     s->tet[i] = f[i].tet;
-    for (int k = 0; k < 3; k++) s->corner[i][k] = number[f[i].corner[k]] - 1;
+    for (int k = 0; k < 3; k++) {
+      s->corner[i][k] = number[f[i].corner[k]] - 1;
+      if (s->middle) s->middle[i][k] = number[f[i].middle[k]] - 1;
+    }
   }
 }
 
-corot_status surface_create(int nnode, int ntet, const int (*tet)[4], surface *out) {
+static bool allocate(int nnode, bool curved, surface *s) {
+  size_t ntri = (size_t)s->ntri + 1;
+  s->corner = malloc(ntri * sizeof *s->corner);
+  if (curved) s->middle = malloc(ntri * sizeof *s->middle);
+  s->tet = malloc(ntri * sizeof *s->tet);
+  s->node = malloc(((size_t)nnode + 1) * sizeof *s->node);
+  return s->corner && (s->middle || !curved) && s->tet && s->node;
+}
+
+corot_status surface_create_of_order(int nnode, int ntet, const int (*tet)[4], const int (*mid)[6],
+                                     surface *out) {
   size_t nface = 4 * (size_t)ntet;
   face *f = malloc((nface + 1) * sizeof *f);
   int *number = calloc((size_t)nnode + 1, sizeof *number);
@@ -84,12 +108,9 @@ corot_status surface_create(int nnode, int ntet, const int (*tet)[4], surface *o
   if (complete) {
     /* the faces that belong to one tet alone */
     for (int e = 0; e < ntet; e++)
-      for (int k = 0; k < 4; k++) f[4 * e + k] = face_of(e, tet[e], k);
+      for (int k = 0; k < 4; k++) f[4 * e + k] = face_of(e, tet[e], mid ? mid[e] : NULL, k);
     s.ntri = keep_single((int)nface, f);
-    s.corner = malloc(((size_t)s.ntri + 1) * sizeof *s.corner);
-    s.tet = malloc(((size_t)s.ntri + 1) * sizeof *s.tet);
-    s.node = malloc(((size_t)nnode + 1) * sizeof *s.node);
-    complete = s.corner && s.tet && s.node;
+    complete = allocate(nnode, mid, &s);
   }
   if (complete) number_nodes(nnode, number, f, &s);
   free(f);
@@ -100,4 +121,8 @@ corot_status surface_create(int nnode, int ntet, const int (*tet)[4], surface *o
   }
   *out = s;
   return COROT_OK;
+}
+
+corot_status surface_create(int nnode, int ntet, const int (*tet)[4], surface *out) {
+  return surface_create_of_order(nnode, ntet, tet, NULL, out);
 }

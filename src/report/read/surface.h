@@ -7,11 +7,17 @@
 typedef struct surface {
   int ntri, nnode;
   int (*corner)[3]; /* [ntri] numbers among the surface's nodes, winding outward */
+  int (*middle)[3]; /* [ntri] of the same, those on the edges 01 12 20 of a triangle of order 2;
+                       NULL: of order 1 */
   int *tet;         /* [ntri] whose face it is */
   int *node;        /* [nnode] of the mesh, ascending */
 } surface;
 
 corot_status surface_create(int nnode, int ntet, const int (*tet)[4], surface *s);
+
+/* The same of ten-node tets, whose nodes on edges are `mid`; NULL: of order 1. */
+corot_status surface_create_of_order(int nnode, int ntet, const int (*tet)[4], const int (*mid)[6],
+                                     surface *s);
 
 void surface_free(surface *s);
 

@@ -89,15 +89,32 @@ corot_status vtu_open(const char *path, vtu_file *f) {
   return status;
 }
 
-corot_status vtu_array(const vtu_file *f, const char *name, const char *type, size_t bytes,
-                       void *values) {
+/* Where an array begins, with its size [byte]. */
+static corot_status find(const vtu_file *f, const char *name, const char *type, long long *at,
+                         uint64_t *size) {
   char start[96];
   snprintf(start, sizeof start, "<DataArray type=\"%s\" Name=\"%s\" ", type, name);
   const char *tag = strstr(f->header, start);
   long long offset = tag ? attribute(tag, " offset=\"") : -1;
   if (offset < 0 || offset > f->size) return foreign(f, name);
+  *at = f->data + offset;
+  return read_at(f, *at, size, sizeof *size);
+}
+
+corot_status vtu_array(const vtu_file *f, const char *name, const char *type, size_t bytes,
+                       void *values) {
+  long long at = 0;
   uint64_t size;
-  COROT_TRY(read_at(f, f->data + offset, &size, sizeof size));
+  COROT_TRY(find(f, name, type, &at, &size));
   if (size != bytes) return foreign(f, name);
-  return read_at(f, f->data + offset + 8, values, bytes);
+  return read_at(f, at + 8, values, bytes);
+}
+
+corot_status vtu_order(const vtu_file *f, int *order) {
+  long long at = 0;
+  uint64_t size, ntet = (uint64_t)f->ntet;
+  COROT_TRY(find(f, "connectivity", "Int32", &at, &size));
+  if (size != 4 * 4 * ntet && size != 10 * 4 * ntet) return foreign(f, "connectivity");
+  *order = size == 4 * 4 * ntet ? 1 : 2;
+  return COROT_OK;
 }

@@ -21,4 +21,7 @@ void vtu_close(vtu_file *file);
 corot_status vtu_array(const vtu_file *file, const char *name, const char *type, size_t bytes,
                        void *values);
 
+/* Whether its tets have four nodes, 1, or ten, 2. */
+corot_status vtu_order(const vtu_file *file, int *order);
+
 #endif

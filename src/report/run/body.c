@@ -9,12 +9,14 @@
 
 #include "conditions.h"
 #include "core/lanes/polar.h"
+#include "gradients.h"
 #include "report/page/encode.h"
 #include "report/page/html.h"
 #include "report/read/lookup.h"
 #include "report/read/surface.h"
 
-/* What is known of each frame, by node or by triangle of the surface. */
+/* What is known of each frame, by node or by triangle of the surface; of order 2, by corner of the
+   triangle. */
 enum { UX, UY, UZ, SPEED, VON_MISES, TURN, DRIFT, VOLUME, NVALUE };
 
 static const struct {
@@ -36,51 +38,26 @@ typedef struct body {
   const run_folder *run;
   const fields *f;
   surface s;
-  fields_frame frame;   /* the one being read */
-  double (*inverse)[9]; /* [ntri] of the matrix of rest edges of the triangle's tet */
+  fields_frame frame;  /* the one being read */
+  gradients gradients; /* of the triangles' tets */
   int nshown;
   double *t;             /* [nshown] */
-  double *value[NVALUE]; /* [nshown][nodes or triangles] */
+  double *value[NVALUE]; /* [nshown][nodes, triangles or corners] */
 } body;
 
 static void body_free(body *b) {
   surface_free(&b->s);
   fields_frame_free(&b->frame);
-  free(b->inverse);
+  gradients_free(&b->gradients);
   free(b->t);
   for (int k = 0; k < NVALUE; k++) free(b->value[k]);
 }
 
+/* Values of a triangle that are its tet's: one, or those at its corners. */
+static int per_triangle(const body *b) { return b->s.middle ? 3 : 1; }
+
 static size_t count(const body *b, int k) {
-  return (size_t)(about[k].nodal ? b->s.nnode : b->s.ntri);
-}
-
-/* m = the edges of a tet as columns, row-major. */
-static void edges(const double (*x)[3], const int tet[4], double m[9]) {
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) m[3 * i + j] = x[tet[j + 1]][i] - x[tet[0]][i];
-}
-
-static void invert(const double m[9], double inverse[9]) {
-  double c[9];
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) {
-      int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
-      c[3 * j + i] = m[3 * p + r] * m[3 * q + s] - m[3 * p + s] * m[3 * q + r];
-    }
-  double det = m[0] * c[0] + m[1] * c[3] + m[2] * c[6];
-  for (int k = 0; k < 9; k++) inverse[k] = c[k] / det;
-}
-
-/* F = I + du/dX of a triangle's tet. */
-static void gradient(const body *b, int i, double F[9]) {
-  double du[9];
-  edges((const double(*)[3])b->frame.displacement, b->f->tet[b->s.tet[i]], du);
-  for (int r = 0; r < 3; r++)
-    for (int c = 0; c < 3; c++) {
-      F[3 * r + c] = r == c;
-      for (int k = 0; k < 3; k++) F[3 * r + c] += du[3 * r + k] * b->inverse[i][3 * k + c];
-    }
+  return about[k].nodal ? (size_t)b->s.nnode : (size_t)per_triangle(b) * (size_t)b->s.ntri;
 }
 
 /* Between two rotations, in degrees: |A - B| = 2 sqrt(2) sin(angle / 2). */
@@ -90,16 +67,49 @@ static double angle(const double A[9], const double B[9]) {
   return 360 / 3.14159265358979323846 * asin(fmin(1, sqrt(sum / 8)));
 }
 
-static void take_triangle(body *b, size_t at, int i) {
+/* What the i-th triangle's tet has at point q, from VON_MISES on. */
+static void look_at(const body *b, int i, int q, double value[NVALUE]) {
   static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const fields_frame *now = &b->frame;
+  bool curved = b->s.middle;
   double F[9], R[9];
   int e = b->s.tet[i];
-  gradient(b, i, F);
+  gradients_at(&b->gradients, (const double(*)[3])now->displacement, i, q, F);
   bool turned = corot_polar(F, R) == COROT_OK; /* an inverted tet has no rotation */
-  b->value[VON_MISES][at] = b->frame.von_mises[e];
-  b->value[VOLUME][at] = b->frame.det[e];
-  b->value[TURN][at] = turned ? angle(R, identity) : NAN;
-  b->value[DRIFT][at] = turned ? angle(R, b->frame.frame[e]) : NAN;
+  value[VON_MISES] = curved ? now->von_mises_at[e][q] : now->von_mises[e];
+  value[VOLUME] = curved ? now->det_at[e][q] : now->det[e];
+  value[TURN] = turned ? angle(R, identity) : NAN;
+  value[DRIFT] = turned ? angle(R, curved ? now->frame_at[e][q] : now->frame[e]) : NAN;
+}
+
+/* Which corner of its tet is corner k of a triangle. */
+static int corner_of_tet(const body *b, int i, int k) {
+  const int *tet = b->f->tet[b->s.tet[i]];
+  int node = b->s.node[b->s.corner[i][k]], found = 0;
+  while (found < 3 && tet[found] != node) found++;
+  return found;
+}
+
+/* A function of a ten-node tet is the linear one through its four points, but for what cannot be
+   negative. */
+static void take_corners(body *b, size_t at, int i) {
+  double value[4][NVALUE];
+  for (int q = 0; q < 4; q++) look_at(b, i, q, value[q]);
+  for (int k = VON_MISES; k < NVALUE; k++) {
+    double point[4], corner[4];
+    for (int q = 0; q < 4; q++) point[q] = value[q][k];
+    gradients_to_corners(point, corner);
+    for (int c = 0; c < 3; c++) {
+      double x = corner[corner_of_tet(b, i, c)];
+      b->value[k][3 * at + (size_t)c] = x < 0 && k != VOLUME ? 0 : x;
+    }
+  }
+}
+
+static void take_triangle(body *b, size_t at, int i) {
+  double value[NVALUE];
+  look_at(b, i, 0, value);
+  for (int k = VON_MISES; k < NVALUE; k++) b->value[k][at] = value[k];
 }
 
 static void take_frame(body *b, int k) {
@@ -109,8 +119,13 @@ static void take_frame(body *b, int k) {
     for (int c = 0; c < 3; c++) b->value[UX + c][at] = u[c];
     b->value[SPEED][at] = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
-  for (int i = 0; i < b->s.ntri; i++)
-    take_triangle(b, (size_t)k * (size_t)b->s.ntri + (size_t)i, i);
+  for (int i = 0; i < b->s.ntri; i++) {
+    size_t at = (size_t)k * (size_t)b->s.ntri + (size_t)i;
+    if (b->s.middle)
+      take_corners(b, at, i);
+    else
+      take_triangle(b, at, i);
+  }
 }
 
 static int stride_of(const body *b) {
@@ -137,16 +152,10 @@ static corot_status take_frames(body *b, int stride) {
 
 static corot_status prepare(body *b) {
   const fields *f = b->f;
-  COROT_TRY(surface_create(f->nnode, f->ntet, (const int(*)[4])f->tet, &b->s));
+  COROT_TRY(surface_create_of_order(f->nnode, f->ntet, (const int(*)[4])f->tet,
+                                    (const int(*)[6])f->mid, &b->s));
   COROT_TRY(fields_frame_create(f, &b->frame));
-  b->inverse = malloc((size_t)b->s.ntri * sizeof *b->inverse);
-  if (!b->inverse) return corot_fail(COROT_ENOMEM, "the surface's tets: out of memory");
-  for (int i = 0; i < b->s.ntri; i++) {
-    double m[9];
-    edges((const double(*)[3])f->x, f->tet[b->s.tet[i]], m);
-    invert(m, b->inverse[i]);
-  }
-  return COROT_OK;
+  return gradients_create(f, b->s.ntri, b->s.tet, &b->gradients);
 }
 
 /* Of the numbers there are; 0 to 0 where there are none. */
@@ -180,6 +189,11 @@ static corot_status write_steps(size_t n, const double *x, FILE *out) {
   return COROT_OK;
 }
 
+static void write_nodes(int n, const int (*node)[3], FILE *out) {
+  for (int i = 0; i < n; i++)
+    fprintf(out, "%s%d,%d,%d", i ? "," : "", node[i][0], node[i][1], node[i][2]);
+}
+
 static void write_geometry(const body *b, FILE *out) {
   const surface *s = &b->s;
   fprintf(out, "{\"nodes\":%d,\"triangles\":%d,\"rest\":[", s->nnode, s->ntri);
@@ -188,8 +202,11 @@ static void write_geometry(const body *b, FILE *out) {
     fprintf(out, "%s%.8g,%.8g,%.8g", i ? "," : "", x[0], x[1], x[2]);
   }
   fputs("],\"corners\":[", out);
-  for (int i = 0; i < s->ntri; i++)
-    fprintf(out, "%s%d,%d,%d", i ? "," : "", s->corner[i][0], s->corner[i][1], s->corner[i][2]);
+  write_nodes(s->ntri, (const int(*)[3])s->corner, out);
+  if (s->middle) {
+    fputs("],\"middles\":[", out);
+    write_nodes(s->ntri, (const int(*)[3])s->middle, out);
+  }
   fputs("],\"clock\":", out);
   encode_text(run_folder_is_static(b->run) ? "load factor" : "t", out);
 }
@@ -256,11 +273,12 @@ static corot_status write_section(const body *b, int stride, FILE *out) {
       out, "p class=\"note\"",
       "Drag to turn it, shift and drag to move it, click and turn the wheel to scale it; a "
       "click on a chart over time shows that moment here.");
-  page_element(out, "p class=\"note\"",
-               "The surface has %d triangles; %d of %d frames are here%s. Displacements are kept "
-               "to %.1e m, fields to a 130000th of their range; those of a tet are constant in it.",
-               b->s.ntri, b->nshown, b->f->nframe, stride > 1 ? ", for the size of this page" : "",
-               error);
+  page_element(
+      out, "p class=\"note\"",
+      "The surface has %d triangles; %d of %d frames are here%s. Displacements are kept "
+      "to %.1e m, fields to a 130000th of their range; those of a tet are %s.",
+      b->s.ntri, b->nshown, b->f->nframe, stride > 1 ? ", for the size of this page" : "", error,
+      b->s.middle ? "linear in it, through its four points of integration" : "constant in it");
   page_section_end(out);
   return COROT_OK;
 }

@@ -19,20 +19,21 @@ function colourTable(stops) {
 class Body {
   constructor(figure, data) {
     this.figure = figure;
-    this.nodes = data.nodes, this.triangles = data.triangles;
+    this.nodes = data.nodes;
+    this.faces = new Faces(data.corners, data.middles);
     this.rest = Float64Array.from(data.rest);
-    this.corners = Uint32Array.from(data.corners);
     this.t = doubles(data.t);
     this.moved = [data.ux, data.uy, data.uz].map((u) => this.open(u, true));
     this.fields = [this.displacement(), ...data.fields.map((f) => ({ ...f, ...this.open(f.data, f.nodal) }))];
     this.fields.forEach((f) => this.findRange(f));
     this.name = data.clock;
     this.frame = 0, this.exaggeration = 1, this.drawn = 0, this.playing = false;
-    this.points = new Float32Array(9 * this.triangles);
-    this.levels = new Float32Array(3 * this.triangles);
+    this.points = new Float32Array(9 * this.faces.triangles);
+    this.values = new Float64Array(3 * this.faces.triangles);
+    this.levels = new Float32Array(3 * this.faces.triangles);
     this.position = new Float32Array(3 * this.nodes);
     this.camera = new Camera(...this.bounds());
-    this.restLines = this.outline();
+    this.restLines = this.faces.outline(this.rest);
     this.build(data);
     this.choose(Math.max(0, this.fields.findIndex((f) => f.name === 'von Mises stress')));
     this.show(this.furthest());
@@ -42,7 +43,8 @@ class Body {
   }
 
   open(data, nodal) {
-    return { low: data.low, step: data.step, q: words(data.q), count: nodal ? this.nodes : this.triangles };
+    const { count, middles } = this.faces; /* what is a tet's has one value a face, or one a corner */
+    return { low: data.low, step: data.step, q: words(data.q), count: nodal ? this.nodes : middles ? 3 * count : count };
   }
 
   /* Its size follows from what is there. */
@@ -93,19 +95,6 @@ class Body {
     return [low, high];
   }
 
-  /* The edges of the surface at rest, each once. */
-  outline() {
-    const seen = new Set(), lines = [];
-    for (let i = 0; i < this.corners.length; i++) {
-      const a = this.corners[i], b = this.corners[i % 3 === 2 ? i - 2 : i + 1];
-      const key = Math.min(a, b) * this.nodes + Math.max(a, b);
-      if (seen.has(key)) continue;
-      seen.add(key);
-      for (const node of [a, b]) lines.push(...this.rest.subarray(3 * node, 3 * node + 3));
-    }
-    return Float32Array.from(lines);
-  }
-
   build(data) {
     const bar = element('div', { class: 'controls' }, this.figure);
     const label = element('label', {}, bar, 'Colour: ');
@@ -146,6 +135,7 @@ class Body {
     } catch (error) {
       this.paint = new Paint2d(this.canvas);
     }
+    this.paint.setPlaces(this.faces.places, this.faces.cuts > 1);
     this.listen();
   }
 
@@ -199,17 +189,21 @@ class Body {
       const { low, step, q } = this.moved[c];
       for (let i = 0; i < n; i++) this.position[3 * i + c] = this.rest[3 * i + c] + more * (low + step * q[k + i]);
     }
-    for (let i = 0; i < this.corners.length; i++) {
-      const from = 3 * this.corners[i];
-      for (let c = 0; c < 3; c++) this.points[3 * i + c] = this.position[from + c];
-    }
+    const { faces, position, points } = this;
+    for (let c = 0; c < 3; c++)
+      faces.spread((i, x) => { points[3 * i + c] = x; },
+                   (face, at) => faces.nodal(face, at, (node) => position[3 * node + c]));
     this.draw();
     timeline.show(this.t[frame]);
   }
 
-  value(corner) {
-    const f = this.field, at = f.nodal ? this.corners[corner] : Math.floor(corner / 3);
-    return f.low + f.step * f.q[this.frame * f.count + at];
+  /* The field's values at the corners to paint. */
+  evaluate() {
+    const { faces, values } = this, { low, step, q, count, nodal } = this.field, from = this.frame * count;
+    const of = (i) => low + step * q[from + i];
+    faces.spread((i, x) => { values[i] = x; },
+                 nodal ? (face, at) => faces.nodal(face, at, of)
+                       : faces.middles ? (face, at) => faces.linear(face, at, of) : of);
   }
 
   draw() {
@@ -220,7 +214,8 @@ class Body {
     if (canvas.height !== Math.round(height * fine)) canvas.height = Math.round(height * fine);
     const range = this.own.checked ? this.spread(this.field, this.extent(this.field, this.frame, this.frame + 1))
                                    : this.field.range;
-    for (let i = 0; i < this.levels.length; i++) this.levels[i] = (this.value(i) - range[0]) / (range[1] - range[0]);
+    this.evaluate();
+    for (let i = 0; i < this.levels.length; i++) this.levels[i] = (this.values[i] - range[0]) / (range[1] - range[0]);
     const look = this.look = this.camera.look(width, height);
     const ink = getComputedStyle(canvas).color.match(/\d+/g).slice(0, 3).map(Number);
     this.paint.draw(look, this.points, this.levels, this.still.checked ? this.restLines : null,
@@ -315,7 +310,7 @@ class Body {
     }
     this.tip.hidden = best < 0;
     if (best < 0) return;
-    const f = this.field, mean = (this.value(best) + this.value(best + 1) + this.value(best + 2)) / 3;
+    const f = this.field, mean = (this.values[best] + this.values[best + 1] + this.values[best + 2]) / 3;
     this.tip.textContent = `${f.name} ${plain(+mean.toPrecision(4))}${f.unit === '1' ? '' : ' ' + f.unit}`;
     this.tip.style.left = Math.min(px + 12, box.width - this.tip.offsetWidth) + 'px';
     this.tip.style.top = Math.max(0, py - 30) + 'px';

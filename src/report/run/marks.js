@@ -17,13 +17,15 @@ class Marks {
     this.buildKey(after);
   }
 
-  /* Of each node with a mark, the triangles that have it: their numbers in `corners`. */
+  /* Of each node with a mark, the faces that have it: their numbers in `corners`. */
   findTriangles() {
-    const { corners } = this.body;
+    const { corners, middles } = this.body.faces;
     this.around = new Map();
     for (const s of [...this.supports.map((s) => s.nodes), ...this.loads.map((l) => l.at)])
       for (const node of s) this.around.set(node, []);
-    corners.forEach((node, i) => { if (this.around.has(node)) this.around.get(node).push(3 * Math.floor(i / 3)); });
+    const enter = (node, i) => { if (this.around.has(node)) this.around.get(node).push(3 * Math.floor(i / 3)); };
+    corners.forEach(enter);
+    if (middles) middles.forEach(enter);
   }
 
   buildKey(after) {
@@ -41,9 +43,9 @@ class Marks {
     if (!this.key.childElementCount) element('li', {}, this.key, 'no supports, no loads');
   }
 
-  /* The normal of the triangle that begins at corner i, of the length of twice its area. */
+  /* The normal of the face that begins at corner i, flat between its corners, of the length of twice its area. */
   normal(i) {
-    const { corners, position } = this.body, p = [0, 1, 2].map((k) => 3 * corners[i + k]);
+    const { faces: { corners }, position } = this.body, p = [0, 1, 2].map((k) => 3 * corners[i + k]);
     const a = [0, 1, 2].map((c) => position[p[1] + c] - position[p[0] + c]);
     const b = [0, 1, 2].map((c) => position[p[2] + c] - position[p[0] + c]);
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -64,8 +66,12 @@ class Marks {
     return { seen, normal: sum.map((x) => x / size) };
   }
 
+  /* Of a node, or of the face with these three. */
   middle(nodes) {
-    const { position } = this.body;
+    const { faces, position } = this.body, has = (i, node) => faces.corners.subarray(i, i + 3).includes(node);
+    const face = nodes.length < 3 ? undefined
+      : this.around.get(nodes[0]).find((i) => nodes.every((node) => has(i, node)));
+    if (face !== undefined) return faces.middle(position, face);
     return [0, 1, 2].map((c) => nodes.reduce((s, n) => s + position[3 * n + c], 0) / nodes.length);
   }
 

@@ -9,6 +9,9 @@ class Paint2d {
 
   setColours(colours) { this.colours = colours; }
 
+  /* See PaintGl; `cut`: not every side of a triangle is an edge. */
+  setPlaces(places, cut) { this.places = cut ? places : null; }
+
   /* See PaintGl. */
   draw(look, points, levels, lines, edges, ink) {
     const { canvas, context } = this, n = levels.length / 3;
@@ -32,10 +35,25 @@ class Paint2d {
       context.closePath();
       context.fillStyle = colour(1);
       context.fill();
-      context.strokeStyle = edges ? colour(0.68) : context.fillStyle; /* which also closes gaps */
+      context.strokeStyle = edges && !this.places ? colour(0.68) : context.fillStyle; /* which also closes gaps */
       context.stroke();
+      if (edges && this.places) this.strokeEdges(t, seen, colour(0.68));
     }
     if (lines) this.drawLines(look, lines, ink, half, middle);
+  }
+
+  /* The sides of a triangle that are edges of its face. */
+  strokeEdges(t, seen, colour) {
+    const { context, places } = this;
+    context.strokeStyle = colour;
+    context.beginPath();
+    for (let k = 0; k < 3; k++) {
+      const a = 9 * t + 3 * k, b = 9 * t + 3 * ((k + 1) % 3);
+      if (![0, 1, 2].some((c) => places[a + c] === 0 && places[b + c] === 0)) continue;
+      context.moveTo(seen[a], seen[a + 1]);
+      context.lineTo(seen[b], seen[b + 1]);
+    }
+    context.stroke();
   }
 
   drawLines(look, lines, ink, half, middle) {

@@ -1,7 +1,7 @@
 /* Paints triangles with WebGL 2. */
 
 const VERTEX_SHADER = `#version 300 es
-in vec3 point;
+in vec3 point, place;
 in float colour;
 uniform mat3 axes;
 uniform vec3 center;
@@ -17,8 +17,7 @@ void main() {
   float d = (away * (depth.y + depth.x) - 2.0 * depth.y * depth.x) / (depth.y - depth.x);
   gl_Position = vec4(lens.y * p.x / lens.z, lens.y * p.y, d, away);
   seen = p;
-  int k = gl_VertexID % 3;
-  corner = vec3(k == 0, k == 1, k == 2);
+  corner = place;
   level = colour;
 }`;
 
@@ -57,11 +56,12 @@ class PaintGl {
     }
     gl.bindAttribLocation(program, 0, 'point');
     gl.bindAttribLocation(program, 1, 'colour');
+    gl.bindAttribLocation(program, 2, 'place');
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
     gl.useProgram(program);
     this.at = (name) => gl.getUniformLocation(program, name);
-    this.buffers = [0, 1, 2].map(() => gl.createBuffer());
+    this.buffers = [0, 1, 2, 3].map(() => gl.createBuffer());
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
@@ -73,6 +73,10 @@ class PaintGl {
     const gl = this.gl;
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours);
   }
+
+  /* Of each corner, three numbers: where it is in its face, of which a side is an edge where one of
+     them is 0 at both ends. */
+  setPlaces(places) { this.places = places; }
 
   feed(index, buffer, data, size) {
     const gl = this.gl;
@@ -96,11 +100,15 @@ class PaintGl {
     gl.uniform4f(this.at('flat_colour'), 0, 0, 0, 0);
     this.feed(0, 0, points, 3);
     this.feed(1, 1, levels, 1);
+    if (this.places) this.feed(2, 3, this.places, 3);
+    this.places = null; /* they stay in their buffer */
+    gl.enableVertexAttribArray(2);
     gl.drawArrays(gl.TRIANGLES, 0, levels.length);
     if (!lines) return;
     gl.uniform4f(this.at('flat_colour'), ...ink.map((c) => c / 255 * 0.5), 0.5);
     this.feed(0, 2, lines, 3);
     gl.disableVertexAttribArray(1);
+    gl.disableVertexAttribArray(2);
     gl.drawArrays(gl.LINES, 0, lines.length / 3);
   }
 }

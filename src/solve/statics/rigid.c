@@ -26,16 +26,19 @@ static void partition_free(partition *p) {
   free(p->root);
 }
 
+static void join(int *root, int i, int j) {
+  while (root[i] != i) i = root[i] = root[root[i]];
+  while (root[j] != j) j = root[j] = root[root[j]];
+  root[i > j ? i : j] = i > j ? j : i;
+}
+
 /* root [nnode]: the smallest node of each node's part. */
 static void find_roots(const corot_mesh *mesh, int *root) {
   for (int n = 0; n < mesh->nnode; n++) root[n] = n;
-  for (int e = 0; e < mesh->ntet; e++)
-    for (int a = 1; a < 4; a++) {
-      int i = mesh->tet[e][0], j = mesh->tet[e][a];
-      while (root[i] != i) i = root[i] = root[root[i]];
-      while (root[j] != j) j = root[j] = root[root[j]];
-      root[i > j ? i : j] = i > j ? j : i;
-    }
+  for (int e = 0; e < mesh->ntet; e++) {
+    for (int a = 1; a < 4; a++) join(root, mesh->tet[e][0], mesh->tet[e][a]);
+    for (int k = 0; mesh->mid && k < 6; k++) join(root, mesh->tet[e][0], mesh->mid[e][k]);
+  }
   for (int n = 0; n < mesh->nnode; n++) root[n] = root[root[n]];
 }
 

@@ -85,7 +85,7 @@ static corot_status extrapolate(yardstick *y, claim *c, const trajectory *middle
   if (status == COROT_OK) {
     level_pair p = compare_levels(y, &sum[0], &sum[1], &sum[2]);
     double known = c->known.n > 0 ? c->known.of[ERROR_DISPLACEMENT].max * p.scale : 0;
-    c->convergence = convergence_observe(p.d1, p.d2, p.cosine, known);
+    c->convergence = convergence_observe_of(corot_mesh_order(y->mesh), p.d1, p.d2, p.cosine, known);
     double r = c->convergence.remainder, weight[] = {1, r};
     const trajectory *const limit[] = {&sum[2], &sum[1]};
     status = states_sum(c->before, 2, weight, limit, &c->made);

@@ -47,7 +47,9 @@ json_t *approximations_of(const json_t *result) {
   char text[NKIND][TEXT] = {""};
   name_frames(result, text[FRAMES]);
   double tets = lookup_number(result, "mesh.tets");
-  if (tets > 0) snprintf(text[MESH], TEXT, "mesh of %.0f tets", tets);
+  bool quadratic = lookup_number(result, "mesh.order") == 2;
+  if (tets > 0)
+    snprintf(text[MESH], TEXT, "mesh of %.0f %stets", tets, quadratic ? "ten-node " : "");
   name_choice(said, "strain", "green", text[STRAIN]);
   if (json_is_object(lookup(said, "hierarchy")))
     snprintf(text[HIERARCHY], TEXT, "hierarchy over %.60s",

@@ -18,6 +18,10 @@
 #define CONVERGENCE_LOWEST 0.5
 #define CONVERGENCE_HIGHEST 2.5
 
+/* Those of ten-node tets converge at order 3 where all is smooth, and at nodes at up to 4; near the
+   corners of a support at the same 1 to 1.5. */
+#define CONVERGENCE_HIGHEST_2 4.5
+
 /* The remainder after the third level may be so many times what is extrapolated: as where an order
    of 1.8 is observed and that of a corner, 1, is what remains. */
 #define CONVERGENCE_SAFETY 3.0
@@ -34,5 +38,9 @@ typedef struct convergence {
    what each is uncertain by. Where they point in different directions, but not against one another,
    the remainder holds for its size. */
 convergence convergence_observe(double d1, double d2, double cosine, double known);
+
+/* The same of meshes of that order (corot_mesh_order). */
+convergence convergence_observe_of(int mesh_order, double d1, double d2, double cosine,
+                                   double known);
 
 #endif
