@@ -1,6 +1,6 @@
-// A quarter of a thick tube: radii 0.2 m and 0.3 m, a slice of 0.03 m, in ten-node tets.
+// A quarter of a thick tube: radii 0.2 m and 0.25 m, a slice of 25 mm, in ten-node tets.
 // gmsh -3 -order 2 -format msh22 -o tube.msh tube.geo
-r = 0.2; R = 0.3; L = 0.03; h = 0.03;
+r = 0.2; R = 0.25; L = 0.025; h = 0.025;
 Point(1) = {0, 0, 0, h};
 Point(2) = {r, 0, 0, h};
 Point(3) = {R, 0, 0, h};
