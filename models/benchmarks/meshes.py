@@ -65,7 +65,7 @@ def bend(s, t, w):
 def main():
     f = int(sys.argv[1]) if len(sys.argv) > 1 else 1
     write("csm", 1, (80 * f, 2 * f, f), csm)
-    write("bend", 2, (24 * f, f, f), bend)
+    write("bend", 2, (24 * f, 2 * f, f), bend)
 
 
 main()
