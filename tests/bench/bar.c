@@ -1,15 +1,36 @@
 /* The bar of the second example of Hauth & Strasser (2004). */
+#include <math.h>
+
 #include "bench.h"
 
 bar_source bar_source_default(const char *strain) {
   return (bar_source){.box = {.size = {0.1, 0.1, 0.6}, .cells = {2, 2, 12}}, .strain = strain};
 }
 
+static void grade(const bar_source *source, corot_mesh *mesh) {
+  double height = source->box.size[2];
+  for (int k = 0; k < mesh->nnode; k++)
+    mesh->x[k][2] = height * pow(mesh->x[k][2] / height, source->grading);
+}
+
+/* What there is before it is refined. */
+static corot_status get_coarse(const bar_source *source, corot_mesh **mesh) {
+  corot_mesh *m;
+  COROT_TRY(source->mesh ? corot_mesh_read(source->mesh, &m) : corot_mesh_box(&source->box, &m));
+  if (!source->mesh && source->grading > 0) grade(source, m);
+  corot_status status = COROT_OK;
+  *mesh = m;
+  if (source->order) {
+    status = corot_mesh_change_order(m, source->order, mesh);
+    corot_mesh_destroy(m);
+  }
+  return status;
+}
+
 static corot_status get_mesh(const bar_source *source, int nlevel, corot_mesh **mesh,
                              corot_refinement **levels) {
   corot_mesh *coarse, *m;
-  COROT_TRY(source->mesh ? corot_mesh_read(source->mesh, &coarse)
-                         : corot_mesh_box(&source->box, &coarse));
+  COROT_TRY(get_coarse(source, &coarse));
   corot_status refined = corot_mesh_refine(coarse, nlevel, COROT_DIAGONAL_CONSISTENT, &m, levels);
   corot_mesh_destroy(coarse);
   COROT_TRY(refined);

@@ -17,11 +17,15 @@ int command_frames(int argc, char **argv);
 int command_precision(int argc, char **argv);
 int command_hierarchy(int argc, char **argv);
 int command_jitter(int argc, char **argv);
+int command_total(int argc, char **argv);
 
 /* Where the bar of corot-bench run comes from. */
 typedef struct bar_source {
   const char *mesh; /* a file; NULL: the box */
   corot_box box;
+  double grading; /* of the box: heights above its base, from 0 to 1, are taken to this power; 0:
+                     not */
+  int order;      /* of its tets: 1 or 2, or 0, as they come */
   const char *strain;
 } bar_source;
 

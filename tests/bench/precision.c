@@ -6,6 +6,7 @@
 
 #include "app/run/run_clock.h"
 #include "bench.h"
+#include "motion.h"
 #include "report.h"
 
 static const char help[] =
@@ -34,7 +35,7 @@ static const char help[] =
 
 static const char program[] = "corot-bench precision";
 
-enum { NOUTPUT = 401, MOST_ROWS = 1024, MOST_RUNS = 100 };
+enum { MOST_ROWS = 1024, MOST_RUNS = 100 };
 
 typedef struct arguments {
   bool json;
@@ -50,12 +51,9 @@ typedef struct variant {
   bool newton; /* of constant step, not linear */
 } variant;
 
-/* A model, and what its runs write to. */
+/* A bar, and how it moves. */
 typedef struct job {
-  corot_model *model;
-  corot_state *state;
-  double *zero, *u; /* [n] */
-  int probe;        /* degree of freedom */
+  motion bar;
   double reference[NOUTPUT];
 } job;
 
@@ -97,52 +95,6 @@ static int list_variants(variant out[]) {
   return n;
 }
 
-static corot_status job_create(const bar_source *source, job *j) {
-  COROT_TRY(bar_model(source, &j->model));
-  COROT_TRY(corot_state_create(j->model, &j->state));
-  int n = corot_model_ndof(j->model);
-  j->zero = calloc(2 * (size_t)n, sizeof *j->zero);
-  if (!j->zero) return corot_fail(COROT_ENOMEM, "out of memory");
-  j->u = j->zero + n;
-  const corot_mesh *mesh = corot_model_mesh(j->model);
-  const double corner[3] = {0.1, 0.1, 0.6};
-  j->probe = corot_model_dof(j->model)[corot_mesh_nearest(mesh, corner)][0];
-  return COROT_OK;
-}
-
-static void job_destroy(job *j) {
-  free(j->zero);
-  corot_state_destroy(j->state);
-  corot_model_destroy(j->model);
-}
-
-/* The corner's ux at the outputs within the last step. */
-static corot_status read_outputs(job *j, corot_integrator *integrator, double t, int *next,
-                                 double ux[NOUTPUT]) {
-  while (*next < NOUTPUT && 0.1 * *next <= t * (1 + 1e-12)) {
-    COROT_TRY(corot_integrator_at(integrator, fmin(0.1 * *next, t), j->u, NULL));
-    ux[(*next)++] = j->u[j->probe];
-  }
-  return COROT_OK;
-}
-
-/* The load has its kink at 10 s. */
-static corot_status integrate(job *j, const corot_integrator_def *def, double ux[NOUTPUT],
-                              corot_statistics *counts) {
-  corot_integrator *integrator;
-  COROT_TRY(corot_integrator_create(def, j->model, j->state, 0, j->zero, j->zero, &integrator));
-  corot_status status = COROT_OK;
-  int next = 1;
-  ux[0] = 0;
-  for (corot_step step = {0}; !status && next < NOUTPUT;) {
-    status = corot_integrator_step(integrator, step.t < 10 ? 10 : 40.001, &step);
-    if (!status) status = read_outputs(j, integrator, step.t, &next, ux);
-  }
-  *counts = corot_integrator_statistics(integrator);
-  corot_integrator_destroy(integrator);
-  return status;
-}
-
 static double deviation(const double *a, const double *b) {
   double largest = 0;
   for (int k = 0; k < NOUTPUT; k++) largest = fmax(largest, fabs(a[k] - b[k]));
@@ -159,7 +111,7 @@ static corot_status measure(const arguments *a, job *j, result *r) {
   r->cpu = INFINITY;
   for (int k = 0; k < a->nrun && (k == 0 || r->cpu < a->limit); k++) {
     double start = cpu_clock();
-    corot_status status = integrate(j, &def, ux, &r->counts);
+    corot_status status = motion_run(&j->bar, &def, ux, &r->counts);
     r->cpu = fmin(r->cpu, cpu_clock() - start);
     if (status == COROT_EINVAL || status == COROT_ENOMEM) return status;
     r->error = status ? INFINITY : deviation(ux, j->reference);
@@ -255,8 +207,8 @@ static corot_status make_reference(job *j, double *floor) {
   corot_statistics counts;
   double other[NOUTPUT];
   erk.rtol = 1e-12, bdf.rtol = 1e-10;
-  COROT_TRY(integrate(j, &erk, j->reference, &counts));
-  COROT_TRY(integrate(j, &bdf, other, &counts));
+  COROT_TRY(motion_run(&j->bar, &erk, j->reference, &counts));
+  COROT_TRY(motion_run(&j->bar, &bdf, other, &counts));
   *floor = deviation(j->reference, other);
   return COROT_OK;
 }
@@ -268,13 +220,14 @@ static corot_status measure_all(const arguments *a, job *j, result *rows) {
   COROT_TRY(make_reference(j, &floor));
   if (a->json)
     report_object(json_pack("{s:s, s:i, s:i, s:s, s:f}", "bench", "precision reference", "tets",
-                            corot_model_mesh(j->model)->ntet, "unknowns",
-                            corot_model_ndof(j->model), "strain", a->bar.strain, "floor_m", floor));
+                            corot_model_mesh(j->bar.model)->ntet, "unknowns",
+                            corot_model_ndof(j->bar.model), "strain", a->bar.strain, "floor_m",
+                            floor));
   else
     printf(
         "%d tets, %d degrees of freedom, strain %s; the references are %.1e m apart\n"
         "%-18s %12s  %10s %10s %8s %8s %8s %6s %5s %5s\n",
-        corot_model_mesh(j->model)->ntet, corot_model_ndof(j->model), a->bar.strain, floor,
+        corot_model_mesh(j->bar.model)->ntet, corot_model_ndof(j->bar.model), a->bar.strain, floor,
         "method", "", "error", "CPU", "nst", "nfe", "nni", "nfact", "netf", "ncfn");
   for (int k = 0; k < nvariant; k++) {
     if (a->only && strncmp(variants[k].name, a->only, strlen(a->only)) != 0) continue;
@@ -293,9 +246,12 @@ static corot_status measure_all(const arguments *a, job *j, result *rows) {
 static corot_status run(const arguments *a) {
   job j = {0};
   result *rows = calloc(MOST_ROWS, sizeof *rows);
-  corot_status status = rows ? job_create(&a->bar, &j) : corot_fail(COROT_ENOMEM, "out of memory");
+  corot_model *model;
+  corot_status status =
+      rows ? bar_model(&a->bar, &model) : corot_fail(COROT_ENOMEM, "out of memory");
+  if (!status) status = motion_create(model, &j.bar);
   if (!status) status = measure_all(a, &j, rows);
-  job_destroy(&j);
+  motion_destroy(&j.bar);
   free(rows);
   return status;
 }

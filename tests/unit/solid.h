@@ -126,6 +126,14 @@ static inline corot_mesh *crooked_box(int nx, int ny, int nz) {
   return mesh;
 }
 
+/* The mesh given up for one of that order. */
+static inline corot_mesh *of_order(corot_mesh *mesh, int order) {
+  corot_mesh *out;
+  assert_ok(corot_mesh_change_order(mesh, order, &out));
+  corot_mesh_destroy(mesh);
+  return out;
+}
+
 static const corot_material soft = {
     .lambda = 1.0e5, .mu = 1.0e4, .density = 1000, .damping_lambda = 10, .damping_mu = 1};
 

@@ -12,6 +12,7 @@ typedef struct strip_def {
   int cells[2];    /* along and across */
   double tip[2];   /* load on its free end over E I / length^2, along and across */
   double pressure; /* on its upper side, over E I / length^3 */
+  int order;       /* of its tets; 0: 1 */
 } strip_def;
 
 static const double strip_stiffness = 1e6; /* Young's modulus [Pa] */
@@ -21,6 +22,7 @@ static inline body strip_create(const strip_def *s) {
   corot_box box = {.size = {L, 1, width}, .cells = {s->cells[0], s->cells[1], 1}};
   corot_mesh *mesh;
   assert_ok(corot_mesh_box(&box, &mesh));
+  mesh = of_order(mesh, s->order ? s->order : 1);
   corot_material material = {.mu = strip_stiffness / 2, .density = 1000}; /* Poisson's ratio 0 */
   corot_fix fix[] = {
       {"xmin", {true, true, true}}, {"zmin", {false, false, true}}, {"zmax", {false, false, true}}};
