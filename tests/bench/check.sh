@@ -37,6 +37,7 @@ lines "all($per_tet for r in d[1:])
 for lanes in 4 2; do # narrower vectors have a lower peak, which the kernels do not exceed either
   lines "all($per_tet for r in d[1:])" kernels --json --tets 6 --lanes $lanes
 done
+lines "all($per_tet for r in d[1:])" kernels --json --tets 6 --order 2
 lines "len(d) == 1 and d[0]['tets'] == 6 and d[0]['nst'] > 0 and 'force' in d[0]['phases_s']" \
   run --json --cells 1,1,1 --rtol 1e-2 --repeat 1
 lines "d[0]['floor_m'] < 1e-6 and len(d) > 3 and all(r['error_m'] > 0 for r in d if r['bench'] == 'precision')" \
@@ -73,6 +74,7 @@ usage kernels --tets 0
 usage run --rtol -1
 usage kernels --peak 0
 usage kernels --lanes x
+usage kernels --order 3
 usage memory extra
 usage solvers --most 0
 usage solvers --role other

@@ -9,7 +9,8 @@
 #include "solvers.h"
 
 static const char help[] =
-    "usage: corot-bench kernels [--json] [--tets N]... [--large] [--peak N] [--lanes N]\n"
+    "usage: corot-bench kernels [--json] [--tets N]... [--large] [--order N] [--peak N] [--lanes "
+    "N]\n"
     "\n"
     "Time of each evaluation and of the linear solvers per tet, and the floor that memory and\n"
     "arithmetic of this machine put under it, measured at the same time. Exit code 5 if a\n"
@@ -19,6 +20,7 @@ static const char help[] =
     "      --tets N   size of the box, rounded to whole cells; may be given again for more sizes\n"
     "                 (default: 18432, which the caches of most machines hold)\n"
     "      --large    147456 tets as well, which they do not\n"
+    "      --order N  of the tets: 1, four nodes; 2, ten nodes (default: 1)\n"
     "      --peak N   Gflop/s of this machine in place of those measured\n"
     "      --lanes N  no vectors of more than N doubles: 8 (AVX-512), 4 (AVX2), 2\n"
     "\n"
@@ -145,18 +147,18 @@ static corot_status all(bool json, corot_mesh *mesh) {
   return COROT_OK;
 }
 
-static corot_status of_size(bool json, int ntet) {
+static corot_status of_size(bool json, int order, int ntet) {
   corot_mesh *mesh;
-  COROT_TRY(solid_mesh(ntet, &mesh));
+  COROT_TRY(solid_mesh(ntet, order, &mesh));
   corot_status status = all(json, mesh);
   corot_mesh_destroy(mesh);
   return status;
 }
 
-static int of_sizes(bool json, int nsize, const int *ntet) {
+static int of_sizes(bool json, int order, int nsize, const int *ntet) {
   report_machine(json);
   for (int k = 0; k < nsize; k++) {
-    corot_status status = of_size(json, ntet[k]);
+    corot_status status = of_size(json, order, ntet[k]);
     if (status) return failure(status);
   }
   corot_status status = report_check();
@@ -165,15 +167,13 @@ static int of_sizes(bool json, int nsize, const int *ntet) {
 
 int command_kernels(int argc, char **argv) {
   static const char program[] = "corot-bench kernels";
-  static const struct option known[] = {{"json", no_argument, NULL, 'j'},
-                                        {"tets", required_argument, NULL, 't'},
-                                        {"large", no_argument, NULL, 'l'},
-                                        {"peak", required_argument, NULL, 'p'},
-                                        {"lanes", required_argument, NULL, 'w'},
-                                        {"help", no_argument, NULL, 'h'},
-                                        {0}};
+  static const struct option known[] = {
+      {"json", no_argument, NULL, 'j'},       {"tets", required_argument, NULL, 't'},
+      {"large", no_argument, NULL, 'l'},      {"order", required_argument, NULL, 'o'},
+      {"peak", required_argument, NULL, 'p'}, {"lanes", required_argument, NULL, 'w'},
+      {"help", no_argument, NULL, 'h'},       {0}};
   enum { MOST = 16 };
-  int ntet[MOST], nsize = 0, lanes;
+  int ntet[MOST], nsize = 0, lanes, order = 1;
   double peak;
   bool json = false, large = false;
   opterr = 0;
@@ -188,6 +188,9 @@ int command_kernels(int argc, char **argv) {
         if (nsize == MOST - 1) return usage_error(program, "--tets: more than %d sizes", MOST - 1);
         if (!parse_count(optarg, 100 * 1000 * 1000, &ntet[nsize++]))
           return usage_error(program, "--tets %s: expected a whole number > 0", optarg);
+        break;
+      case 'o':
+        if (!parse_count(optarg, 2, &order)) return usage_error(program, "--order: 1 or 2");
         break;
       case 'p':
         if (!parse_positive(optarg, &peak))
@@ -207,5 +210,5 @@ int command_kernels(int argc, char **argv) {
   if (optind < argc) return usage_error(program, "unexpected: %s", argv[optind]);
   if (nsize == 0) ntet[nsize++] = 18432;
   if (large) ntet[nsize++] = 147456;
-  return of_sizes(json, nsize, ntet);
+  return of_sizes(json, order, nsize, ntet);
 }

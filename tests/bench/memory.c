@@ -4,12 +4,13 @@
 #include "report.h"
 
 static const char help[] =
-    "usage: corot-bench memory [--json] [--tets N]\n"
+    "usage: corot-bench memory [--json] [--tets N] [--order N]\n"
     "\n"
     "Bytes per tet that a model and a state of each strain measure hold.\n"
     "\n"
     "      --json     one JSON object a line\n"
     "      --tets N   size of the box, rounded to whole cells (default: 18432)\n"
+    "      --order N  of the tets: 1, four nodes; 2, ten nodes (default: 1)\n"
     "\n"
     "example: corot-bench memory\n";
 
@@ -24,9 +25,9 @@ static void print(bool json, const char *strain, const specimen *s) {
     printf("%-8s %9.0f %9.0f %9.0f\n", strain, model, state, model + state);
 }
 
-static corot_status all(bool json, int ntet) {
+static corot_status all(bool json, int order, int ntet) {
   corot_mesh *mesh;
-  COROT_TRY(solid_mesh(ntet, &mesh));
+  COROT_TRY(solid_mesh(ntet, order, &mesh));
   if (!json)
     printf("%d tets; bytes per tet\n%-8s %9s %9s %9s\n", mesh->ntet, "strain", "model", "state",
            "both");
@@ -45,10 +46,11 @@ int command_memory(int argc, char **argv) {
   static const char program[] = "corot-bench memory";
   static const struct option known[] = {{"json", no_argument, NULL, 'j'},
                                         {"tets", required_argument, NULL, 't'},
+                                        {"order", required_argument, NULL, 'o'},
                                         {"help", no_argument, NULL, 'h'},
                                         {0}};
   bool json = false;
-  int ntet = 18432;
+  int ntet = 18432, order = 1;
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":h", known, NULL)) != -1;) switch (answer) {
       case 'j':
@@ -58,6 +60,9 @@ int command_memory(int argc, char **argv) {
         if (!parse_count(optarg, 100 * 1000 * 1000, &ntet))
           return usage_error(program, "--tets %s: expected a whole number > 0", optarg);
         break;
+      case 'o':
+        if (!parse_count(optarg, 2, &order)) return usage_error(program, "--order: 1 or 2");
+        break;
       case 'h':
         fputs(help, stdout);
         return EXIT_OK;
@@ -65,6 +70,6 @@ int command_memory(int argc, char **argv) {
         return option_error(program, answer, argv, known);
     }
   if (optind < argc) return usage_error(program, "unexpected: %s", argv[optind]);
-  corot_status status = all(json, ntet);
+  corot_status status = all(json, order, ntet);
   return status ? failure(status) : EXIT_OK;
 }

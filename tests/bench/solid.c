@@ -3,12 +3,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-corot_status solid_mesh(int ntet, corot_mesh **mesh) {
+corot_status solid_mesh(int ntet, int order, corot_mesh **mesh) {
   /* cells i x i x 3/4 i, as 16 x 16 x 12 for 18432 tets */
   int i = (int)fmax(1, round(cbrt(ntet / 6.0 / 0.75)));
   int k = (int)fmax(1, round(ntet / 6.0 / i / i));
   corot_box box = {.size = {0.1, 0.1, 0.6}, .cells = {i, i, k}};
-  return corot_mesh_box(&box, mesh);
+  corot_mesh *linear;
+  COROT_TRY(corot_mesh_box(&box, &linear));
+  corot_status status = corot_mesh_change_order(linear, order, mesh);
+  corot_mesh_destroy(linear);
+  return status;
 }
 
 static void deform(specimen *s) {
@@ -52,7 +56,7 @@ corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, spe
   corot_fix fix = {"base", {true, true, true}};
   corot_model_def def = corot_model_defaults();
   def.mesh = mesh, def.strain = strain;
-  def.viscosity = COROT_COROTATED; /* the paper's */
+  def.viscosity = COROT_COROTATED, def.mass = COROT_MASS_LUMPED; /* the paper's */
   def.nmaterial = 1, def.material = &material;
   def.nfix = 1, def.fix = &fix;
   specimen s = {0};

@@ -15,8 +15,8 @@ typedef struct specimen {
   double (*K)[9], (*D)[9]; /* [corot_model_nblock()] */
 } specimen;
 
-/* A box 0.1 x 0.1 x 0.6 m of about so many tets. */
-corot_status solid_mesh(int ntet, corot_mesh **mesh);
+/* A box 0.1 x 0.1 x 0.6 m of about so many tets of that order. */
+corot_status solid_mesh(int ntet, int order, corot_mesh **mesh);
 
 /* Fixed at its lowest face, which lies at z = 0; bent about the y axis by up to 0.3 rad, with
    strains of up to 5 %. Either without damping or with that of the second example of Hauth &

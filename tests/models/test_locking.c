@@ -27,7 +27,7 @@ static body membrane_create(const membrane *of) {
     mesh->x[k][0] = 48 * s;
     mesh->x[k][1] = 44 * s + t * (44 * (1 - s) + 16 * s);
   }
-  mesh = of_order(mesh, of->order ? of->order : 1);
+  mesh = given_order(mesh, of->order ? of->order : 1);
   double nu = of->nu;
   corot_material material = {
       .lambda = nu / (1 + nu) / (1 - 2 * nu), .mu = 0.5 / (1 + nu), .density = 1};

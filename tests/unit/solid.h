@@ -80,13 +80,17 @@ static inline int order_of_test(void) {
   return order ? atoi(order) : 1;
 }
 
+/* The mesh given up for one of that order, with straight edges. */
+static inline corot_mesh *given_order(corot_mesh *mesh, int order) {
+  corot_mesh *out;
+  assert_ok(corot_mesh_change_order(mesh, order, &out));
+  corot_mesh_destroy(mesh);
+  return out;
+}
+
 /* The mesh of the order that is asked for, with straight edges; takes the mesh. */
 static inline corot_mesh *of_order(corot_mesh *mesh) {
-  corot_mesh *raised;
-  if (order_of_test() == 1) return mesh;
-  assert_ok(corot_mesh_change_order(mesh, order_of_test(), &raised));
-  corot_mesh_destroy(mesh);
-  return raised;
+  return order_of_test() == 1 ? mesh : given_order(mesh, order_of_test());
 }
 
 static inline corot_mesh *box_of_order(const corot_box *box) {
@@ -124,14 +128,6 @@ static inline corot_mesh *crooked_box(int nx, int ny, int nz) {
   corot_mesh *mesh = straight_box(nx, ny, nz);
   bend_edges(mesh, 0.3 * crookedness(nx, nz));
   return mesh;
-}
-
-/* The mesh given up for one of that order. */
-static inline corot_mesh *of_order(corot_mesh *mesh, int order) {
-  corot_mesh *out;
-  assert_ok(corot_mesh_change_order(mesh, order, &out));
-  corot_mesh_destroy(mesh);
-  return out;
 }
 
 static const corot_material soft = {

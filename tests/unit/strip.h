@@ -22,7 +22,7 @@ static inline body strip_create(const strip_def *s) {
   corot_box box = {.size = {L, 1, width}, .cells = {s->cells[0], s->cells[1], 1}};
   corot_mesh *mesh;
   assert_ok(corot_mesh_box(&box, &mesh));
-  mesh = of_order(mesh, s->order ? s->order : 1);
+  mesh = given_order(mesh, s->order ? s->order : 1);
   corot_material material = {.mu = strip_stiffness / 2, .density = 1000}; /* Poisson's ratio 0 */
   corot_fix fix[] = {
       {"xmin", {true, true, true}}, {"zmin", {false, false, true}}, {"zmax", {false, false, true}}};

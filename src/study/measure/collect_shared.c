@@ -42,6 +42,15 @@ static void name_choice(const json_t *said, const char *key, const char *none, c
     snprintf(text, TEXT, "%.*s %.60s", (int)strcspn(key, "."), key, word);
 }
 
+/* Automatic, the mass of four-node tets is lumped. */
+static void name_mass(const json_t *said, bool quadratic, char text[TEXT]) {
+  bool automatic = strcmp(lookup_text(said, "mass"), "auto") == 0;
+  if (!automatic)
+    name_choice(said, "mass", "consistent", text);
+  else if (!quadratic)
+    snprintf(text, TEXT, "mass lumped");
+}
+
 json_t *approximations_of(const json_t *result) {
   const json_t *said = lookup(result, "scenario");
   char text[NKIND][TEXT] = {""};
@@ -54,7 +63,7 @@ json_t *approximations_of(const json_t *result) {
   if (json_is_object(lookup(said, "hierarchy")))
     snprintf(text[HIERARCHY], TEXT, "hierarchy over %.60s",
              lookup_text(said, "hierarchy.coarse_strain"));
-  name_choice(said, "mass", "consistent", text[MASS]);
+  name_mass(said, quadratic, text[MASS]);
   name_choice(said, "dilatation.name", "local", text[DILATATION]);
   json_t *list = json_array();
   for (int k = 0; k < NKIND; k++) json_array_append_new(list, json_text_string(text[k]));
