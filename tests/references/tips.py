@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Equilibria by CalculiX, to compare with: writes tips.inc, which tests/models/test_references.c reads.
+"""Equilibria by CalculiX, to compare with: writes tests/models/calculix_tips.inc.
 
     tests/references/tips.py [FOLDER]     decks and output of ccx stay in FOLDER (default: ccx)
 
@@ -37,7 +37,7 @@ def row(case, order, u):
 
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else "ccx"
-    with open(os.path.join(HERE, "tips.inc"), "w") as out:
+    with open(os.path.join(HERE, "../models/calculix_tips.inc"), "w") as out:
         out.write("    /* by tips.py: mesh, order, E, nu, axis and place of the clamp, force, "
                   "points, u in the last */\n")
         for case in CASES:
