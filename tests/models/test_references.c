@@ -19,7 +19,7 @@ typedef struct tip {
 } tip;
 
 static const tip tips[] = {
-#include "../references/tips.inc"
+#include "calculix_tips.h"
 };
 
 static corot_mesh *read_mesh(const tip *of) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Equilibria by CalculiX, to compare with: writes tips.inc, which tests/models/test_references.c reads.
+"""Equilibria by CalculiX, to compare with: writes tests/models/calculix_tips.h.
 
     tests/references/tips.py [FOLDER]     decks and output of ccx stay in FOLDER (default: ccx)
 
@@ -37,9 +37,9 @@ def row(case, order, u):
 
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else "ccx"
-    with open(os.path.join(HERE, "tips.inc"), "w") as out:
-        out.write("    /* by tips.py: mesh, order, E, nu, axis and place of the clamp, force, "
-                  "points, u in the last */\n")
+    with open(os.path.join(HERE, "../models/calculix_tips.h"), "w") as out:
+        out.write("/* Made by references/tips.py: rows of the table of test_references.c. */\n"
+                  "/* clang-format off */\n")
         for case in CASES:
             mesh = ccx.read_mesh(os.path.join(HERE, case["mesh"] + ".msh"))
             for order, make in (1, ccx.lowered), (2, ccx.raised):

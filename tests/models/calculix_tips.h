@@ -1,4 +1,5 @@
-    /* by tips.py: mesh, order, E, nu, axis and place of the clamp, force, points, u in the last */
+/* Made by references/tips.py: rows of the table of test_references.c. */
+/* clang-format off */
     {"beam", 1, 1e+07, 0.3, 0, 0, {0, 20, -30}, 4, {{1, 0, 0}, {1, 0.1, 0}, {1, 0, 0.15}, {1, 0.1, 0.15}},
      {-3.352873e-03, 6.991355e-02, -6.867449e-02}},
     {"beam", 2, 1e+07, 0.3, 0, 0, {0, 20, -30}, 4, {{1, 0, 0}, {1, 0.1, 0}, {1, 0, 0.15}, {1, 0.1, 0.15}},
