@@ -153,7 +153,8 @@ static void fields_of_the_order_have_their_gradients(void **state) {
               double M[4] = {L[0], L[1], L[2], L[3]}, x = 0;
               M[i + 1] += 0.5 * s, M[0] -= 0.5 * s;
               for (int a = 0; a < e.kind->nnode; a++) {
-                int m = a < 4 ? a : corot_tet_edge[a - 4][0], n = a < 4 ? a : corot_tet_edge[a - 4][1];
+                int m = a < 4 ? a : corot_tet_edge[a - 4][0],
+                    n = a < 4 ? a : corot_tet_edge[a - 4][1];
                 double N = a >= 4 ? 4 * M[m] * M[n] : square ? M[a] * (2 * M[a] - 1) : M[a];
                 x += N * mesh->x[node[a]][c];
               }
