@@ -53,7 +53,7 @@ static inline corot_model_def definition(const choice *c, corot_coupling couplin
 
 static inline solid make_solid(const choice *c, corot_coupling coupling,
                                const corot_material *material, bool held) {
-  solid s = {.coarse = crooked_box(1, 1, 2)};
+  solid s = {.coarse = linear_box(1, 1, 2)};
   corot_hierarchy_def hierarchy;
   corot_model_def def = definition(c, coupling, material, held, &hierarchy);
   assert_ok(

@@ -111,8 +111,8 @@ static inline void bend_edges(corot_mesh *mesh, double h) {
 
 static inline double crookedness(int nx, int nz) { return 0.08 / (nx > nz ? nx : nz); }
 
-/* A unit-size box whose corners are moved, so that no two tets are alike, with straight edges. */
-static inline corot_mesh *straight_box(int nx, int ny, int nz) {
+/* A unit-size box whose corners are moved, so that no two tets are alike, of order 1. */
+static inline corot_mesh *linear_box(int nx, int ny, int nz) {
   corot_box box = {.size = {1.0, 0.9, 1.1}, .cells = {nx, ny, nz}, .origin = {-0.3, 0.2, 0.1}};
   corot_mesh *mesh;
   assert_ok(corot_mesh_box(&box, &mesh));
@@ -120,7 +120,12 @@ static inline corot_mesh *straight_box(int nx, int ny, int nz) {
   double h = crookedness(nx, nz);
   for (int n = 0; n < mesh->nnode; n++)
     for (int c = 0; c < 3; c++) mesh->x[n][c] += h * noise(&seed);
-  return of_order(mesh);
+  return mesh;
+}
+
+/* The same of the order that is asked for. */
+static inline corot_mesh *straight_box(int nx, int ny, int nz) {
+  return of_order(linear_box(nx, ny, nz));
 }
 
 /* The same with curved edges, where the order has any. */
@@ -128,6 +133,46 @@ static inline corot_mesh *crooked_box(int nx, int ny, int nz) {
   corot_mesh *mesh = straight_box(nx, ny, nz);
   bend_edges(mesh, 0.3 * crookedness(nx, nz));
   return mesh;
+}
+
+/* Rest gradients g of the shape functions at point q of a tet, of the nodes node [4 or 10] in the
+   mesh's own order; returns the volume that the point stands for. Written anew from the formulas,
+   to hold the kernels against. */
+static inline double point_gradients(const corot_mesh *mesh, int e, int q, int node[10],
+                                     double g[10][3]) {
+  static const int edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+  int order = corot_mesh_order(mesh), nnode = order == 1 ? 4 : 10;
+  double root = sqrt(5), L[4], by_L[10][4] = {{0}}, D[9] = {0}, inverse[9];
+  for (int i = 0; i < 4; i++) {
+    L[i] = order == 1 ? 0.25 : (5 + (i == q ? 3 : -1) * root) / 20;
+    by_L[i][i] = order == 1 ? 1 : 4 * L[i] - 1;
+    node[i] = mesh->tet[e][i];
+  }
+  for (int k = 0; k < nnode - 4; k++) {
+    by_L[4 + k][edge[k][0]] = 4 * L[edge[k][1]], by_L[4 + k][edge[k][1]] = 4 * L[edge[k][0]];
+    node[4 + k] = mesh->mid[e][k];
+  }
+  for (int a = 0; a < nnode; a++)
+    for (int c = 0; c < 3; c++)
+      for (int j = 0; j < 3; j++)
+        D[3 * c + j] += mesh->x[node[a]][c] * (by_L[a][j + 1] - by_L[a][0]);
+  double det = determinant(D);
+  for (int j = 0; j < 3; j++)
+    for (int c = 0; c < 3; c++) {
+      int j1 = (j + 1) % 3, j2 = (j + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+      inverse[3 * j + c] =
+          (D[3 * c1 + j1] * D[3 * c2 + j2] - D[3 * c1 + j2] * D[3 * c2 + j1]) / det;
+    }
+  for (int a = 0; a < nnode; a++)
+    for (int c = 0; c < 3; c++) {
+      g[a][c] = 0;
+      for (int j = 0; j < 3; j++) g[a][c] += (by_L[a][j + 1] - by_L[a][0]) * inverse[3 * j + c];
+    }
+  return fabs(det) / (order == 1 ? 6 : 24);
+}
+
+static inline int points_of_tets(const corot_mesh *mesh) {
+  return corot_mesh_order(mesh) == 1 ? 1 : 4;
 }
 
 static const corot_material soft = {

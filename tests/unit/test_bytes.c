@@ -44,7 +44,8 @@ static corot_status create(const variant *v, const corot_mesh *mesh, corot_model
 
 /* Lists of materials, loads, motions and kinks have room for one entry more, and that of the kinks
    for those that coincide, some ten at most here; these few bytes are not counted. Of a state each
-   byte is, but where a hierarchy rounds up to whole vectors. */
+   byte is, but where rows of nodes are rounded up to whole vectors: of a hierarchy, and of a mesh
+   whose nodes are odd in number, as they are here in order 2. */
 enum { SPARE = 640 };
 
 static void assert_bytes(const char *what, size_t said, size_t slack) {
@@ -64,7 +65,7 @@ static void a_model_and_its_state(void **state) {
     assert_bytes(variants[k].name, corot_model_bytes(model), SPARE);
     alloc_fail_at(0);
     assert_ok(corot_state_create(model, &s));
-    assert_bytes("its state", corot_state_bytes(s), 0);
+    assert_bytes("its state", corot_state_bytes(s), mesh->nnode % 2 ? SPARE : 0);
     corot_state_destroy(s), corot_model_destroy(model);
   }
   corot_mesh_destroy(mesh);

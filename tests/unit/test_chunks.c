@@ -48,8 +48,10 @@ static corot_mesh *shuffle(corot_mesh *mesh, uint64_t *seed) {
 
 static sample make(const char *strain, int layout, corot_mass mass) {
   uint64_t seed = 41;
-  corot_mesh *mesh = crooked_box(4, 5, 24);
+  corot_mesh *mesh = linear_box(4, 5, 24);
   if (layouts[layout].shuffled) mesh = shuffle(mesh, &seed);
+  mesh = of_order(mesh);
+  if (mass == COROT_MASS_LUMPED) bend_edges(mesh, 5e-4); /* masses are in closed form if straight */
   char *of_tet = calloc(mesh->ntet, 1);
   if (layouts[layout].mixed) { /* a group of half the tets, all over the body */
     double low[3] = {-9, -9, -9}, high[3] = {9, 9, 9};
@@ -71,28 +73,13 @@ static sample make(const char *strain, int layout, corot_mass mass) {
 
 static void drop(sample *s) { free(s->of_tet), free(s->u), drop_body(&s->b); }
 
-/* Rest gradients g [4][3] of a tet, and its volume. */
-static double gradients(const corot_mesh *mesh, int e, double g[4][3]) {
-  const int *n = mesh->tet[e];
-  double D[9], det;
-  for (int a = 0; a < 3; a++)
-    for (int c = 0; c < 3; c++) D[3 * c + a] = mesh->x[n[a + 1]][c] - mesh->x[n[0]][c];
-  det = determinant(D);
-  for (int a = 0; a < 3; a++)
-    for (int c = 0; c < 3; c++) { /* row a of D^-1 */
-      int a1 = (a + 1) % 3, a2 = (a + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-      g[a + 1][c] = (D[3 * c1 + a1] * D[3 * c2 + a2] - D[3 * c1 + a2] * D[3 * c2 + a1]) / det;
-    }
-  for (int c = 0; c < 3; c++) g[0][c] = -(g[1][c] + g[2][c] + g[3][c]);
-  return fabs(det) / 6;
-}
-
 /* A = sum x_a g_a' */
-static void field_gradient(const sample *s, int e, double g[4][3], const double *x, double A[9]) {
+static void field_gradient(int nnode, const int *node, double g[10][3], const double *x,
+                           double A[9]) {
   for (int k = 0; k < 9; k++) A[k] = 0;
-  for (int a = 0; a < 4; a++)
+  for (int a = 0; a < nnode; a++)
     for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++) A[3 * i + j] += x[3 * s->b.mesh->tet[e][a] + i] * g[a][j];
+      for (int j = 0; j < 3; j++) A[3 * i + j] += x[3 * node[a] + i] * g[a][j];
 }
 
 /* P += B sigma(e): lambda tr(e) B + 2 mu B e. */
@@ -111,33 +98,44 @@ static void symmetric(const double A[9], const double B[9], double e[9]) {
     for (int j = 0; j < 3; j++) e[3 * i + j] = 0.5 * (C[3 * i + j] + C[3 * j + i]);
 }
 
-/* y = the sum over the tets of V P g_a, last tet first: of the internal and viscous force at u, v,
-   or of its change in the direction (du, 0) at v = 0. Cauchy or Green strain. */
+/* P of the internal and viscous force for F and V, or of its change for dF at V = 0. Cauchy or
+   Green strain. */
+static void stress_at(const corot_material *m, bool green, const double F[9], const double V[9],
+                      const double *dF, double P[9]) {
+  const double *B = green ? F : identity;
+  double e[9];
+  for (int k = 0; k < 9; k++) P[k] = 0;
+  if (dF) {
+    symmetric(B, dF, e);
+    add_stress(B, m->lambda, m->mu, e, P);
+  } else {
+    symmetric(B, V, e);
+    add_stress(B, m->damping_lambda, m->damping_mu, e, P);
+  }
+  symmetric(F, green ? F : identity, e); /* the strain itself */
+  for (int k = 0; k < 9; k++) e[k] = green ? 0.5 * (e[k] - identity[k]) : e[k] - identity[k];
+  if (!dF) add_stress(B, m->lambda, m->mu, e, P);
+  if (dF && green) add_stress(dF, m->lambda, m->mu, e, P);
+}
+
+/* y = the sum over the tets and their points of w P g_a, last tet first: of the internal and
+   viscous force at u, v, or of its change in the direction (du, 0) at v = 0. */
 static void sum_tets(const sample *s, bool green, const double *du, double *y) {
   const corot_mesh *mesh = s->b.mesh;
+  int nnode = order_of_test() == 1 ? 4 : 10, npoint = points_of_tets(mesh);
   for (int i = 0; i < s->b.n; i++) y[i] = 0;
-  for (int t = mesh->ntet - 1; t >= 0; t--) {
-    const corot_material *m = &materials[(int)s->of_tet[t]];
-    double g[4][3], F[9], V[9], dF[9], e[9], P[9] = {0}, volume = gradients(mesh, t, g);
-    field_gradient(s, t, g, s->u, F);
-    field_gradient(s, t, g, s->v, V);
+  for (int k = npoint * mesh->ntet - 1; k >= 0; k--) {
+    int t = k / npoint, node[10];
+    double g[10][3], F[9], V[9], dF[9], P[9];
+    double weight = point_gradients(mesh, t, k % npoint, node, g);
+    field_gradient(nnode, node, g, s->u, F);
+    field_gradient(nnode, node, g, s->v, V);
+    if (du) field_gradient(nnode, node, g, du, dF);
     for (int i = 0; i < 3; i++) F[4 * i] += 1;
-    const double *B = green ? F : identity;
-    if (du) {
-      field_gradient(s, t, g, du, dF);
-      symmetric(B, dF, e);
-      add_stress(B, m->lambda, m->mu, e, P);
-    } else {
-      symmetric(B, V, e);
-      add_stress(B, m->damping_lambda, m->damping_mu, e, P);
-    }
-    symmetric(F, green ? F : identity, e); /* the strain itself */
-    for (int k = 0; k < 9; k++) e[k] = green ? 0.5 * (e[k] - identity[k]) : e[k] - identity[k];
-    if (!du) add_stress(B, m->lambda, m->mu, e, P);
-    if (du && green) add_stress(dF, m->lambda, m->mu, e, P);
-    for (int a = 0; a < 4; a++)
+    stress_at(&materials[(int)s->of_tet[t]], green, F, V, du ? dF : NULL, P);
+    for (int a = 0; a < nnode; a++)
       for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) y[3 * mesh->tet[t][a] + i] += volume * P[3 * i + j] * g[a][j];
+        for (int j = 0; j < 3; j++) y[3 * node[a] + i] += weight * P[3 * i + j] * g[a][j];
   }
 }
 
@@ -156,7 +154,9 @@ static void buffers_wrap(void **state) {
     const pattern *p = &solid_of(s.b.model)->pattern;
     assert_true(p->nchunk > 10);
     assert_true(p->window >= CHUNK && p->window <= solid_of(s.b.model)->elements.nblock);
-    if (!layouts[l].mixed) assert_true(2 * p->window < solid_of(s.b.model)->elements.nblock);
+    /* nodes on edges, which follow all corners, are not ready before the last chunk */
+    if (!layouts[l].mixed && order_of_test() == 1)
+      assert_true(2 * p->window < solid_of(s.b.model)->elements.nblock);
     drop(&s);
   }
 }
@@ -216,14 +216,16 @@ static void masses_are_the_sum_over_the_tets(void **state) {
   for (int l = 0; l < NLAYOUT; l++) {
     sample s = make("polar", l, COROT_MASS_CONSISTENT);
     const corot_mesh *mesh = s.b.mesh;
-    double *y = calloc(2 * s.b.n, sizeof *y), *expected = y + s.b.n, g[4][3];
+    double *y = calloc(2 * s.b.n, sizeof *y), *expected = y + s.b.n, g[10][3];
+    const element_kind *kind = &element_kinds[order_of_test() == 1 ? TET4 : TET10];
     for (int t = mesh->ntet - 1; t >= 0; t--) {
-      double part = materials[(int)s.of_tet[t]].density * gradients(mesh, t, g) / 20;
-      for (int a = 0; a < 4; a++)
-        for (int b = 0; b < 4; b++)
+      int node[10];
+      double part = kind->npoint * point_gradients(mesh, t, 0, node, g) / kind->mass_over;
+      part *= materials[(int)s.of_tet[t]].density;
+      for (int a = 0; a < kind->nnode; a++)
+        for (int b = 0; b < kind->nnode; b++)
           for (int c = 0; c < 3; c++)
-            expected[3 * mesh->tet[t][a] + c] +=
-                part * (1 + (a == b)) * s.v[3 * mesh->tet[t][b] + c];
+            expected[3 * node[a] + c] += part * kind->mass[a][b] * s.v[3 * node[b] + c];
     }
     corot_mass_multiply(s.b.model, s.v, y);
     assert_same(s.b.n, y, expected, 1);

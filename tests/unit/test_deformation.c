@@ -137,8 +137,9 @@ static void a_rigid_motion_does_not_jump(void **state) {
   }
 }
 
-/* u_x = z^2 size: bent. Turned as a whole it jumps as much, but in cauchy's eyes; and at small
-   sizes the share does not depend on the size. */
+/* u_x = z^2 size, or z^3 with ten-node tets, which have the stress of z^2: bent. Turned as a whole
+   it jumps as much, but in cauchy's eyes; and at small sizes the share does not depend on the size.
+ */
 static void a_bent_block_jumps_however_it_is_turned(void **state) {
   (void)state;
   for (int m = 0; m < NMEASURE; m++) {
@@ -150,14 +151,14 @@ static void a_bent_block_jumps_however_it_is_turned(void **state) {
       double size = k == 1 ? 1e-4 : 1e-5;
       for (int n = 0; n < b.mesh->nnode; n++) {
         const double *X = b.mesh->x[n];
-        double bent[3] = {X[0] + size * X[2] * X[2], X[1], X[2]};
+        double bent[3] = {X[0] + size * pow(X[2], order_of_test() + 1), X[1], X[2]};
         apply(k == 2 ? Q : identity, bent, x[n]);
         for (int c = 0; c < 3; c++) x[n][c] -= X[c];
       }
       to_dofs(&b, (const double(*)[3])x, u);
       share[k] = jumps(&b, u);
     }
-    assert_above(share[0], 0.1);
+    assert_above(share[0], order_of_test() == 1 ? 0.1 : 0.01); /* the jumps are of higher order */
     assert_below(share[0], 0.9);
     assert_close(share[1], share[0], 1e-2, 0);
     assert_close(share[2], share[0], 1e-6, 0);

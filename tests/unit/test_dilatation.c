@@ -29,7 +29,10 @@ static body make(const char *strain, corot_dilatation dilatation, double local) 
   return make_body(mesh, def);
 }
 
-static body make_nodal(const char *strain) { return make(strain, COROT_DILATATION_NODAL, 1); }
+/* What is averaged over: nodes, or each element, which a second run of a test sets. */
+static corot_dilatation averages = COROT_DILATATION_NODAL;
+
+static body make_nodal(const char *strain) { return make(strain, averages, 1); }
 
 /* x -> F x, and noise. */
 static void move(const body *b, const double F[9], double size, uint64_t *seed, double *u) {
@@ -65,27 +68,16 @@ static void combine(int n, const double *a, double factor, const double *b, doub
   for (int i = 0; i < n; i++) c[i] = a[i] + factor * b[i];
 }
 
-/* Volume of a tet and the trace of the Green or Cauchy strain in it. */
-static double tet_dilatation(const body *b, const double *u, const int tet[4], bool green,
-                             double *volume) {
+/* Volume of a point of a tet and the trace of the Green or Cauchy strain there. */
+static double point_dilatation(const body *b, const double *u, int tet, int q, bool green,
+                               double *volume) {
   const int(*dof)[3] = corot_model_dof(b->model);
-  double D[9], d[9], inverse[9], F[9], trace = 0;
-  for (int a = 0; a < 3; a++)
-    for (int c = 0; c < 3; c++) {
-      int i = tet[a + 1], j = tet[0];
-      D[3 * c + a] = b->mesh->x[i][c] - b->mesh->x[j][c];
-      d[3 * c + a] = D[3 * c + a] + u[dof[i][c]] - u[dof[j][c]];
-    }
-  double det = determinant(D);
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) {
-      int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      double cofactor = D[3 * i1 + j1] * D[3 * i2 + j2] - D[3 * i1 + j2] * D[3 * i2 + j1];
-      inverse[3 * j + i] = cofactor / det;
-    }
-  multiply(d, inverse, F);
+  double g[10][3], F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, trace = 0;
+  int node[10], nnode = order_of_test() == 1 ? 4 : 10;
+  *volume = point_gradients(b->mesh, tet, q, node, g);
+  for (int a = 0; a < nnode; a++)
+    for (int k = 0; k < 9; k++) F[k] += u[dof[node[a]][k / 3]] * g[a][k % 3];
   for (int k = 0; k < 9; k++) trace += green ? F[k] * F[k] / 2 : (k % 4 == 0) * F[k];
-  *volume = fabs(det) / 6;
   return green ? trace - 1.5 : trace - 3;
 }
 
@@ -103,8 +95,10 @@ static void energy_is_that_of_the_averages(void **state) {
       double lambda = material[k].lambda, local = fmin(lambda, material[k].mu);
       for (int e = 0; e < b.mesh->ntet; e++) {
         if (material_of(b.mesh->tet[e]) != k) continue;
-        double theta = tet_dilatation(&b, u, b.mesh->tet[e], green, &V);
-        expected -= V * (lambda - local) / 2 * theta * theta;
+        for (int q = 0; q < points_of_tets(b.mesh); q++) {
+          double theta = point_dilatation(&b, u, e, q, green, &V);
+          expected -= V * (lambda - local) / 2 * theta * theta;
+        }
       }
       for (int n = 0; n < b.mesh->nnode; n++) {
         double sum = 0, volume = 0;
@@ -112,8 +106,10 @@ static void energy_is_that_of_the_averages(void **state) {
           const int *tet = b.mesh->tet[e];
           if (material_of(tet) != k) continue;
           if (tet[0] != n && tet[1] != n && tet[2] != n && tet[3] != n) continue;
-          sum += tet_dilatation(&b, u, tet, green, &V) * V;
-          volume += V;
+          for (int q = 0; q < points_of_tets(b.mesh); q++) {
+            sum += point_dilatation(&b, u, e, q, green, &V) * V;
+            volume += V;
+          }
         }
         if (volume > 0) expected += volume / 4 * (lambda - local) / 2 * pow(sum / volume, 2);
       }
@@ -372,6 +368,35 @@ static void a_share_out_of_range_is_refused(void **state) {
   corot_mesh_destroy(mesh);
 }
 
+static int over_elements(void **state) {
+  (void)state;
+  averages = COROT_DILATATION_ELEMENT;
+  return 0;
+}
+
+static int over_nodes(void **state) {
+  (void)state;
+  averages = COROT_DILATATION_NODAL;
+  return 0;
+}
+
+/* Of ten-node tets only: a linear one has one dilatation. */
+#define element_test(f) \
+  { #f ", over elements", f, over_elements, over_nodes, NULL }
+
+static int run_over_elements(void) {
+  const struct CMUnitTest tests[] = {
+      element_test(force_is_the_gradient_of_the_energy),
+      element_test(derivative_is_that_of_the_force),
+      element_test(stiffness_is_the_derivative),
+      element_test(clamped_stiffness_is_semidefinite),
+      element_test(rigid_motions_do_nothing),
+      element_test(uniform_strain_is_as_without),
+      element_test(internal_force_averages_too),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(energy_is_that_of_the_averages),
@@ -387,5 +412,6 @@ int main(void) {
       cmocka_unit_test(internal_force_averages_too),
       cmocka_unit_test(a_share_out_of_range_is_refused),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  int failed = order_of_test() > 1 ? run_over_elements() : 0;
+  return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -117,8 +117,7 @@ static void linear_fields_are_integrated_exactly(void **state) {
   for (corot_mass kind = COROT_MASS_LUMPED; kind <= COROT_MASS_CONSISTENT; kind++)
     for (int g = 0; g < 2; g++) {
       const double *A = gradients[g];
-      corot_mesh *mesh;
-      assert_ok(corot_mesh_box(&box, &mesh));
+      corot_mesh *mesh = box_of_order(&box);
       corot_model_def def = corot_model_defaults();
       def.nmaterial = 1, def.material = &soft, def.mass = kind;
       body b = make_body(mesh, def);
@@ -149,7 +148,7 @@ static void linear_fields_are_integrated_exactly(void **state) {
       kinetic *= soft.density / 2;
       bool exact = kind == COROT_MASS_CONSISTENT;
       if (exact) assert_close(e.kinetic, kinetic, 1e-13, 0);
-      if (!exact) assert_above(e.kinetic, kinetic * 1.01);
+      if (!exact) assert_above(e.kinetic, kinetic * (order_of_test() == 1 ? 1.01 : 1.002));
       for (int c = 0; c < 3; c++) {
         assert_close(e.momentum[c], soft.density * momentum[c], 1e-13, 1e-10);
         if (exact) assert_close(e.angular_momentum[c], soft.density * angular[c], 1e-13, 1e-10);
@@ -361,8 +360,7 @@ typedef struct outcome {
 /* A bar at rest, pulled sideways at its end from now on, and damped both ways. */
 static body pulled_bar(corot_mass mass) {
   corot_box box = {.size = {0.1, 0.1, 0.4}, .cells = {1, 1, 4}};
-  corot_mesh *mesh;
-  assert_ok(corot_mesh_box(&box, &mesh));
+  corot_mesh *mesh = box_of_order(&box);
   corot_material material = soft;
   material.damping_mass = 1;
   material.damping_lambda *= 100, material.damping_mu *= 100;
@@ -416,8 +414,7 @@ static void every_method_integrates_with_either(void **state) {
 static void a_free_body_keeps_its_momentum(void **state) {
   (void)state;
   corot_box box = {.size = {0.1, 0.1, 0.3}, .cells = {1, 1, 3}, .origin = {-0.05, -0.05, -0.15}};
-  corot_mesh *mesh;
-  assert_ok(corot_mesh_box(&box, &mesh));
+  corot_mesh *mesh = box_of_order(&box);
   corot_material material = {.lambda = 1e5, .mu = 1e4, .density = 1000};
   corot_model_def def = corot_model_defaults();
   def.nmaterial = 1, def.material = &material, def.mass = COROT_MASS_CONSISTENT;

@@ -17,7 +17,13 @@
      linear:   N_i = L_i                        one point, the centroid
      ten-node: N_i = L_i (2 L_i - 1), N_ij = 4 L_i L_j
                four points with L = a once and b three times, which integrate quadratic functions
-               exactly: 24 strains, as many as there are modes that deform */
+               exactly: 24 strains, as many as there are modes that deform
+
+   On curved edges the products det(J) g_a are of degree three. What the rule then leaves out goes
+   with the product of two offsets of an edge's node from its middle, in forces, and of three, in
+   the volume: with h the offsets, an affine motion is in equilibrium (the patch test) to h^2, and
+   the weights sum to the volume to h^3. Both hold exactly where edges are straight, in particular;
+   the first where the offsets of an element are parallel, the second where they lie in a plane. */
 #ifndef COROT_CORE_ELEMENT_ELEMENT_H
 #define COROT_CORE_ELEMENT_ELEMENT_H
 

@@ -19,6 +19,7 @@ COROT_INLINE int force_loop(const element_kind *kind, const strain_measure *s, c
     differences of_u = differences_of(here, u), of_v;
     if (v) of_v = differences_of(here, v);
     node_forces f;
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
       vd minus = -weight_of(e.at);
@@ -31,8 +32,9 @@ COROT_INLINE int force_loop(const element_kind *kind, const strain_measure *s, c
         A = mat3_add(A, viscous_stress(s, body->objective, e.mat, minus, e.F, e.R, V));
       }
       add_forces(e.at, A, &f);
-      if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
+      inverted |= e.inverted;
     }
+    if (vi_any(inverted)) return first_inverted(body, b, inverted);
     store_forces(body, state, here, &f);
   }
   return -1;
@@ -62,9 +64,10 @@ COROT_INLINE int energy_loop(const element_kind *kind, const strain_measure *s, 
     point_lanes here = point_at(kind, &body->elements, b, 0);
     differences of_u = differences_of(here, u), of_v;
     if (v) of_v = differences_of(here, v);
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
-      if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
+      inverted |= e.inverted;
       vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
       const vd *average =
           body->dilatation.npool ? (const vd *)state->dilatation + index_of(e.at) : NULL;
@@ -74,6 +77,7 @@ COROT_INLINE int energy_loop(const element_kind *kind, const strain_measure *s, 
       mat3 P = viscous_stress(s, body->objective, e.mat, vd_all(1), e.F, e.R, V);
       sum_power += vd_sum(weight_of(e.at) * mat3_dot(P, V));
     }
+    if (vi_any(inverted)) return first_inverted(body, b, inverted);
   }
   *elastic = sum_elastic;
   *power = sum_power;
@@ -90,15 +94,17 @@ COROT_INLINE int frames_loop(const element_kind *kind, const strain_measure *s, 
                              nodal_field u, block_mat3 *R) {
   for (int b = 0; b < body->elements.nblock * PARTS; b++) {
     differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
-      vi inverted = {0};
       mat3 F = deformation(at, &of_u);
       mat3 room;
       const mat3 *Q0 = rest_basis_of(s->frame, at, &room);
-      mat3_put(R, index_of(at), frame_of(s->frame, F, Q0, &inverted));
-      if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
+      vi bad;
+      mat3_put(R, index_of(at), frame_of(s->frame, F, Q0, &bad));
+      inverted |= bad;
     }
+    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
   }
   return -1;
 }
@@ -112,19 +118,21 @@ COROT_INLINE int spin_loop(const element_kind *kind, const strain_measure *s, co
   for (int b = 0; b < body->elements.nblock * PARTS; b++) {
     point_lanes here = point_at(kind, &body->elements, b, 0);
     differences of_u = differences_of(here, u), of_v = differences_of(here, v);
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
       mat3 room;
       const mat3 *Q0 = rest_basis_of(s->frame, at, &room);
-      vi inverted = {0};
       mat3 F = deformation(at, &of_u);
       mat3 V = gradient(at, &of_v);
-      mat3 R = frame_of(s->frame, F, Q0, &inverted);
-      if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
+      vi bad;
+      mat3 R = frame_of(s->frame, F, Q0, &bad);
+      inverted |= bad;
       mat3 dR = frame_derivative(s->frame, F, Q0, R, V);
       vec3_put(spin, index_of(at),
                mat3_vee(mat3_scale(vd_all(0.5), mat3_mul(dR, mat3_transpose(R)))));
     }
+    if (s->frame != FRAME_IDENTITY && vi_any(inverted)) return first_inverted(body, b, inverted);
   }
   return -1;
 }
@@ -148,13 +156,14 @@ COROT_INLINE int internal_loop(const element_kind *kind, const strain_measure *s
     node_forces f;
     mat3 Q0 = mat3_identity();
     if (s->frame == FRAME_WARP) Q0 = rest_basis_anew(body, b);
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
       const material *mat = &body->material[material_of(at)];
-      vi inverted = {0};
       mat3 F = deformation(at, &of_u);
-      mat3 R = frame_of(s->frame, F, &Q0, &inverted);
-      if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(body, b, inverted);
+      vi bad;
+      mat3 R = frame_of(s->frame, F, &Q0, &bad);
+      inverted |= bad;
       vd lambda = -weight_of(at) * (lambda_part * mat->lambda),
          mu = -weight_of(at) * (mu_part * mat->mu);
       mat3 A =
@@ -163,6 +172,7 @@ COROT_INLINE int internal_loop(const element_kind *kind, const strain_measure *s
               : stress(s, lambda, mu, F, R);
       add_forces(at, A, &f);
     }
+    if (!strain_is_linear(s) && vi_any(inverted)) return first_inverted(body, b, inverted);
     store_forces(body, state, here, &f);
   }
   return -1;

@@ -141,9 +141,10 @@ COROT_INLINE int tangent_loop(const element_kind *kind, const strain_measure *s,
     differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
     int npair = kind->npair, lane = b % PARTS * LANES; /* the first in the block */
     const int(*place)[W] = (const int(*)[W])body->pattern.place + b / PARTS * npair;
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
-      if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
+      inverted |= e.inverted;
 
       vd lambda = weight_of(e.at) * e.mat->lambda, mu = weight_of(e.at) * e.mat->mu;
       vd dlambda = weight_of(e.at) * e.mat->damping_lambda,
@@ -174,6 +175,7 @@ COROT_INLINE int tangent_loop(const element_kind *kind, const strain_measure *s,
                     &of_D.of[k], D, place[k] + lane);
       }
     }
+    if (vi_any(inverted)) return first_inverted(body, b, inverted);
   }
   const pattern *p = &body->pattern;
   if (K) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], K);
@@ -199,9 +201,10 @@ COROT_INLINE int derivative_loop(const element_kind *kind, const strain_measure 
     differences of_u = differences_of(here, u), of_du = differences_of(here, du), of_v, of_dv;
     if (v) of_v = differences_of(here, v), of_dv = differences_of(here, dv);
     node_forces f;
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
-      if (vi_any(e.inverted)) return first_inverted(body, b, e.inverted);
+      inverted |= e.inverted;
 
       /* the change of the frame */
       mat3 dF = gradient(e.at, &of_du);
@@ -230,6 +233,7 @@ COROT_INLINE int derivative_loop(const element_kind *kind, const strain_measure 
       }
       add_forces(e.at, dA, &f);
     }
+    if (vi_any(inverted)) return first_inverted(body, b, inverted);
     store_forces(body, state, here, &f);
   }
   return -1;
