@@ -12,10 +12,12 @@ corot_status corot_solid_check(solid_state *s, int tet) {
 corot_status corot_solid_collect(const solid *body, solid_state *s, int tet, int chunk,
                                  force_sum *sum) {
   const double *force = (const double *)s->force;
-  const int *begin = body->pattern.first, *slot = body->pattern.slot, *ready = body->pattern.ready;
+  const int *begin = body->pattern.first, *slot = body->pattern.slot, *due = body->pattern.due;
   double *r = sum->r, check = 0;
   COROT_TRY(corot_solid_check(s, tet));
-  for (int n = ready[chunk] > sum->from ? ready[chunk] : sum->from; n < ready[chunk + 1]; n++) {
+  for (int at = due[chunk]; at < due[chunk + 1]; at++) {
+    int n = body->pattern.turn[at];
+    if (n < sum->from) continue;
     double f[3] = {0, 0, 0};
     for (int k = begin[n]; k < begin[n + 1]; k++)
       for (int c = 0; c < 3; c++) f[c] += force[slot[k] + c * W];

@@ -68,6 +68,7 @@ COROT_INLINE int energy_loop(const element_kind *kind, const strain_measure *s, 
     EACH_POINT (kind, q) {
       element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
       inverted |= e.inverted;
+      if (q == kind->npoint - 1 && vi_any(inverted)) return first_inverted(body, b, inverted);
       vd lambda = vd_all(e.mat->lambda), mu = vd_all(e.mat->mu);
       const vd *average =
           body->dilatation.npool ? (const vd *)state->dilatation + index_of(e.at) : NULL;
@@ -77,7 +78,6 @@ COROT_INLINE int energy_loop(const element_kind *kind, const strain_measure *s, 
       mat3 P = viscous_stress(s, body->objective, e.mat, vd_all(1), e.F, e.R, V);
       sum_power += vd_sum(weight_of(e.at) * mat3_dot(P, V));
     }
-    if (vi_any(inverted)) return first_inverted(body, b, inverted);
   }
   *elastic = sum_elastic;
   *power = sum_power;

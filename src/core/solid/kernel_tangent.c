@@ -26,19 +26,17 @@ typedef struct node_rates {
   mat3 rate[KIND_NODES][3]; /* [node][component] */
 } node_rates;
 
-COROT_INLINE node_rates node_rates_of(point_lanes at, mat3 F, mat3 R) {
-  node_rates n;
+COROT_INLINE void find_node_rates(point_lanes at, mat3 F, mat3 R, node_rates *n) {
   for (int i = 0; i < 3; i++) {
     for (int a = 1; a < at.kind->nnode; a++) {
       mat3 V = mat3_scale(vd_all(0), R);
       for (int j = 0; j < 3; j++) V.m[i][j] = slope_of(at, a, j);
-      n.rate[a][i] = stretch_rate_of(F, R, V).rate;
+      n->rate[a][i] = stretch_rate_of(F, R, V).rate;
     }
-    mat3 sum = n.rate[1][i];
-    for (int a = 2; a < at.kind->nnode; a++) sum = mat3_add(sum, n.rate[a][i]);
-    n.rate[0][i] = mat3_scale(vd_all(-1), sum);
+    mat3 sum = n->rate[1][i];
+    for (int a = 2; a < at.kind->nnode; a++) sum = mat3_add(sum, n->rate[a][i]);
+    n->rate[0][i] = mat3_scale(vd_all(-1), sum);
   }
-  return n;
 }
 
 COROT_INLINE mat3 objective_damping(const strain_measure *s, vd lambda, vd mu, const node_rates *n,
@@ -78,17 +76,15 @@ COROT_INLINE vec3 minus_sum(int n, const vec3 *x) {
   return y;
 }
 
-COROT_INLINE node_vectors node_vectors_of(point_lanes at, const tangent_terms *k) {
-  node_vectors n;
+COROT_INLINE void find_node_vectors(point_lanes at, const tangent_terms *k, node_vectors *n) {
   for (int a = 1; a < at.kind->nnode; a++) {
-    for (int c = 0; c < 3; c++) n.g[a].v[c] = slope_of(at, a, c);
-    n.p[a] = mat3_apply(k->Bp, n.g[a]);
-    n.s[a] = mat3_apply(k->Bs, n.g[a]);
+    for (int c = 0; c < 3; c++) n->g[a].v[c] = slope_of(at, a, c);
+    n->p[a] = mat3_apply(k->Bp, n->g[a]);
+    n->s[a] = mat3_apply(k->Bs, n->g[a]);
   }
   int rest = at.kind->nnode - 1;
-  n.g[0] = minus_sum(rest, &n.g[1]), n.p[0] = minus_sum(rest, &n.p[1]);
-  n.s[0] = minus_sum(rest, &n.s[1]);
-  return n;
+  n->g[0] = minus_sum(rest, &n->g[1]), n->p[0] = minus_sum(rest, &n->p[1]);
+  n->s[0] = minus_sum(rest, &n->s[1]);
 }
 
 COROT_INLINE void store_slopes(point_lanes at, const node_vectors *n, block_vd (*slope)[3]) {
@@ -125,9 +121,9 @@ typedef struct pair_sums {
 /* Adds a point's block to those of the points before it; of the last one, all to the matrix. */
 COROT_INLINE void add_block(point_lanes at, mat3 block, mat3 *sum, double (*A)[9],
                             const int place[LANES]) {
-  if (at.q > 0) block = mat3_add(*sum, block);
+  if (at.q > 0) EACH_IJ block.m[i][j] = sum->m[i][j] + block.m[i][j];
   if (at.q < at.kind->npoint - 1)
-    *sum = block;
+    EACH_IJ sum->m[i][j] = block.m[i][j]; /* copied whole it would take several times as long */
   else
     scatter(A, place, block);
 }
@@ -154,18 +150,24 @@ COROT_INLINE int tangent_loop(const element_kind *kind, const strain_measure *s,
                           : dilatation_of(s->pressure, e.F, e.R);
       vd local = weight_of(e.at) * e.mat->lambda_local;
       tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e.F, e.R);
-      node_vectors n = node_vectors_of(e.at, &t);
+      node_vectors n;
+      find_node_vectors(e.at, &t, &n);
       if (averaged) store_slopes(e.at, &n, state->slope);
       bool objective = D && body->objective && s->frame == FRAME_POLAR;
       node_rates rates;
-      if (objective) rates = node_rates_of(e.at, e.F, e.R);
+      if (objective) find_node_rates(e.at, e.F, e.R, &rates);
+      vec3 Zg;
+      mat3 Hs;
       for (int k = 0; k < npair; k++) {
         int a = kind->pair[k][0], c = kind->pair[k][1];
+        if (k == 0 || kind->pair[k - 1][1] != c) { /* a new column */
+          if (s->pressure == BY_GRADIENT) Zg = mat3_apply(t.Z, n.g[c]);
+          if (turning) Hs = mat3_mul(t.H, mat3_skew(n.s[c]));
+        }
         vd gg = vec3_dot(n.g[a], n.g[c]);
         mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
-        if (s->pressure == BY_GRADIENT)
-          A = mat3_add_identity(A, vec3_dot(n.g[a], mat3_apply(t.Z, n.g[c])));
-        if (turning) A = add_skew_transposed(A, n.s[a], mat3_mul(t.H, mat3_skew(n.s[c])));
+        if (s->pressure == BY_GRADIENT) A = mat3_add_identity(A, vec3_dot(n.g[a], Zg));
+        if (turning) A = add_skew_transposed(A, n.s[a], Hs);
         if (K) add_block(e.at, A, &of_K.of[k], K, place[k] + lane);
         if (objective)
           add_block(e.at, objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]),

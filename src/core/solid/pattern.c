@@ -121,7 +121,12 @@ static int chunk_end(const element_set *t, int chunk) {
   return chunk < t->nblock / CHUNK ? (chunk + 1) * CHUNK : t->nblock;
 }
 
-/* A node is ready when all nodes up to it are below the lowest node of every later tet. */
+/* The chunk of a node's last tet. */
+static int last_chunk(const element_set *t, const pattern *p, int node) {
+  return p->slot[p->first[node + 1] - 1] / block_slots(t) / CHUNK;
+}
+
+/* A column is ready when all nodes up to its own are below the lowest node of every later tet. */
 static corot_status plan_chunks(int nnode, const element_set *t, pattern *p) {
   p->nchunk = (t->nblock + CHUNK - 1) / CHUNK;
   p->ready = malloc((p->nchunk + 1) * sizeof *p->ready);
@@ -133,11 +138,23 @@ static corot_status plan_chunks(int nnode, const element_set *t, pattern *p) {
       for (int l = 0; l < W; l++)
         if (nodes_at(t, b, 0)[l] < p->ready[c]) p->ready[c] = nodes_at(t, b, 0)[l];
   }
-  for (int c = 0; c < p->nchunk; c++)
-    for (int n = p->ready[c]; n < p->ready[c + 1]; n++) {
-      int back = chunk_end(t, c) - p->slot[p->first[n]] / block_slots(t);
-      if (back > p->window) p->window = back;
-    }
+  return COROT_OK;
+}
+
+/* Sorts the nodes by their last chunk, and finds how far back each one's tets reach from there. */
+static corot_status plan_sums(int nnode, const element_set *t, pattern *p) {
+  p->due = calloc(p->nchunk + 2, sizeof *p->due);
+  p->turn = malloc(nnode * sizeof *p->turn);
+  if (!p->due || !p->turn) return corot_fail(COROT_ENOMEM, "no memory for the order of the sums");
+  int *next = p->due + 1; /* shifted by one while filling, in place after */
+  for (int n = 0; n < nnode; n++) next[last_chunk(t, p, n) + 1]++;
+  for (int c = 0; c < p->nchunk; c++) next[c + 1] += next[c];
+  for (int n = 0; n < nnode; n++) {
+    int c = last_chunk(t, p, n);
+    int back = chunk_end(t, c) - p->slot[p->first[n]] / block_slots(t);
+    if (back > p->window) p->window = back;
+    p->turn[next[c]++] = n;
+  }
   return COROT_OK;
 }
 
@@ -154,6 +171,7 @@ corot_status corot_pattern_create(int nnode, const element_set *t, const dilatat
   if (!status) status = list_blocks(nnode, t, d, more, &p);
   if (!status) status = place_tets(t, &p);
   if (!status) status = plan_chunks(nnode, t, &p);
+  if (!status) status = plan_sums(nnode, t, &p);
   if (status) {
     corot_pattern_clear(&p);
     return status;
@@ -168,6 +186,8 @@ void corot_pattern_clear(pattern *p) {
   free(p->row);
   free(p->place);
   free(p->ready);
+  free(p->due);
+  free(p->turn);
   free(p->first);
   free(p->slot);
   *p = (pattern){0};

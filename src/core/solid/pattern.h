@@ -19,7 +19,11 @@ typedef struct pattern {
   int (*place)[W]; /* [elements.nblock][kind->npair] the block that each pair of nodes of each
                       element is added to */
   int nchunk;
-  int *ready; /* [nchunk + 1] chunk c completes the nodes ready[c] to ready[c + 1] - 1 */
+  int *ready; /* [nchunk + 1] chunk c completes the columns of nodes ready[c] to ready[c + 1] - 1 */
+  /* Forces are summed up as soon as a node has no tet in later chunks: those of chunk c at the
+     nodes turn[due[c]] to turn[due[c + 1] - 1]. */
+  int *due;   /* [nchunk + 1] */
+  int *turn;  /* [nnode] */
   int window; /* so many blocks back reach the tets of the nodes that a chunk completes */
   int *first; /* [nnode + 1] each node's part of `slot` */
   int *slot; /* [kind->nnode ntet] element forces of a node, in the order of the elements: where the

@@ -48,7 +48,8 @@ size_t corot_solid_bytes(const solid *body) {
   if (t->role) bytes += (size_t)t->nblock * t->kind->nnode * sizeof *t->role;
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
   return bytes +
-         (2 * (size_t)p->nnode + 2 + p->nblock + p->nchunk + 1 + p->first[p->nnode]) * sizeof(int) +
+         (3 * (size_t)p->nnode + 2 + p->nblock + 2 * p->nchunk + 3 + p->first[p->nnode]) *
+             sizeof(int) +
          (size_t)t->nblock * t->kind->npair * sizeof *p->place;
 }
 
