@@ -81,6 +81,16 @@ expect 0 check pull.yaml --set integrator.method=arkode; no_err; grep -q warning
 has locking check pull.yaml --set material.lambda=1.1e6
 lacks locking check pull.yaml --set material.lambda=0.9e6
 lacks locking check pull.yaml --set material.lambda=1.1e6 --set dilatation=nodal
+has locking check pull.yaml --set material.lambda=1.1e6 --set dilatation=element # a linear tet's own
+ten="--set mesh.order=2"
+has locking check pull.yaml $ten --set material.lambda=5.1e6
+lacks locking check pull.yaml $ten --set material.lambda=4.9e6
+lacks locking check pull.yaml $ten --set material.lambda=1e9 --set dilatation=element
+lacks locking check pull.yaml $ten --set material.lambda=1e9 --set dilatation=nodal
+block --order 2 -o ten.msh || complain "no ten-node box"
+lacks locking check pull.yaml --set 'mesh={file: ten.msh}' --set 'boundary=[]' --set 'loads=[]' --set material.lambda=4.9e6 # its order is the file's
+expect 0 check pull.yaml $ten --set material.lambda=5.1e6
+out "nu = 0.4904: ten-node tets"; out "dilatation: element is the remedy [locking]"
 
 has parts check blocks.yaml; has unheld check blocks.yaml
 has parts mesh info two.msh; json '[p["nodes"] for p in d["parts"]] == [8, 8] and d["parts"][1]["first"] == 8'

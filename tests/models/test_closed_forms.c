@@ -94,7 +94,7 @@ static void a_spinning_tet_keeps_its_shape(void **state) {
 
 /* A bar of length one that can only move along itself: a one-dimensional wave of the speed
    sqrt((lambda + 2 mu) / rho), held at one end. */
-static body guided_bar(int cells, double traction, corot_mass mass) {
+static body guided_bar(int order, int cells, double traction, corot_mass mass) {
   corot_box box = {.size = {0.1, 0.1, 1}, .cells = {1, 1, cells}};
   corot_mesh *mesh;
   assert_ok(corot_mesh_box(&box, &mesh));
@@ -105,7 +105,7 @@ static body guided_bar(int cells, double traction, corot_mass mass) {
   def.nmaterial = 1, def.material = &elastic;
   def.nfix = 2, def.fix = fix, def.nload = 1, def.load = &load;
   def.mass = mass;
-  return make_body(mesh, def);
+  return make_body(given_order(mesh, order), def);
 }
 
 static double wave_speed(void) { return sqrt((elastic.lambda + 2 * elastic.mu) / elastic.density); }
@@ -127,7 +127,7 @@ static void the_bar_frequency_converges_with_order_two(void **state) {
   double exact = pi / 2 * wave_speed(), error[4];
   for (int k = 0; k < 4; k++) {
     int cells = 4 << k;
-    body b = guided_bar(cells, 0, COROT_MASS_LUMPED);
+    body b = guided_bar(1, cells, 0, COROT_MASS_LUMPED);
     double kh = pi / 2 / cells, *x = sine(&b);
     error[k] = 1 - lowest_mode(&b, x) / exact;
     assert_close(error[k], kh * kh / 24, 0.25, 0);
@@ -146,7 +146,7 @@ static void consistent_mass_shifts_the_bar_frequency_up(void **state) {
   double exact = pi / 2 * wave_speed(), error[4];
   for (int k = 0; k < 4; k++) {
     int cells = 4 << k;
-    body b = guided_bar(cells, 0, COROT_MASS_CONSISTENT);
+    body b = guided_bar(1, cells, 0, COROT_MASS_CONSISTENT);
     double kh = pi / 2 / cells, s = sin(kh / 2);
     double one_dimensional = 2 * wave_speed() * cells * s / sqrt(1 - 2. / 3 * s * s);
     double *x = sine(&b), *y = x + b.n, *zero = y + b.n;
@@ -167,10 +167,37 @@ static void consistent_mass_shifts_the_bar_frequency_up(void **state) {
   }
 }
 
+/* Frequencies by elements of order p and consistent mass err by h^(2 p). They are no higher than
+   those of one-dimensional elements, whose fields the tets have, too: these err by (k h)^2 / 24 and
+   (k h)^4 / 1440, and terms that are smaller by some (k h)^2. Fields that vary across the bar gain
+   a part of that, which tends to a fifth and to nearly a half. Terms of the next order move the
+   slope by some (k h)^2 of the coarser mesh, 0.15 and 0.04. */
+static void frequencies_converge_with_twice_the_order(void **state) {
+  (void)state;
+  double exact = pi / 2 * wave_speed(), error[3];
+  for (int order = 1; order <= 2; order++)
+    for (int k = 0; k < 3; k++) {
+      int cells = 4 << k;
+      body b = guided_bar(order, cells, 0, COROT_MASS_CONSISTENT);
+      double kh = pi / 2 / cells, *x = sine(&b);
+      double one_dimensional = order == 1 ? kh * kh / 24 : pow(kh, 4) / 1440;
+      error[k] = lowest_mode(&b, x) / exact - 1;
+      assert_below(error[k], one_dimensional * (1 + kh * kh));
+      assert_above(error[k], one_dimensional / 2);
+      if (k > 0) {
+        double slope = order_of(error[k - 1], error[k], 2);
+        print_message("order %d, %2d cells: error %.4e, slope %.3f\n", order, cells, error[k],
+                      slope);
+        assert_close(slope, 2 * order, 0, 1.3 * pow(pi / cells, 2));
+      }
+      free(x), drop_body(&b);
+    }
+}
+
 static void a_mode_of_the_bar_swings_at_its_frequency(void **state) {
   (void)state;
   for (corot_mass mass = COROT_MASS_LUMPED; mass <= COROT_MASS_CONSISTENT; mass++) {
-    body b = guided_bar(16, 0, mass);
+    body b = guided_bar(1, 16, 0, mass);
     double *x = sine(&b), *u = x + b.n, *v = u + b.n, omega = lowest_mode(&b, x);
     double amplitude = 1e-6; /* so that no frame turns: uneven end masses bend it a little */
     double size = amplitude / norm_max(b.n, x);
@@ -199,7 +226,7 @@ static void a_step_load_overshoots_twofold(void **state) {
   double traction = 120, c = wave_speed(), travel = 1 / c;
   double still = traction / (elastic.lambda + 2 * elastic.mu), highest = 0, at = 0;
   double share = still / cells; /* of one cell: the wave front is about as wide */
-  body b = guided_bar(cells, traction, COROT_MASS_LUMPED);
+  body b = guided_bar(1, cells, traction, COROT_MASS_LUMPED);
   const int(*dof)[3] = corot_model_dof(b.model);
   int tip = dof[4 * cells][2], middle = dof[4 * (cells / 2)][2];
   double *u = calloc(2 * b.n, sizeof *u), *v = u + b.n;
@@ -289,6 +316,7 @@ int main(void) {
       cmocka_unit_test(a_spinning_tet_keeps_its_shape),
       cmocka_unit_test(the_bar_frequency_converges_with_order_two),
       cmocka_unit_test(consistent_mass_shifts_the_bar_frequency_up),
+      cmocka_unit_test(frequencies_converge_with_twice_the_order),
       cmocka_unit_test(a_mode_of_the_bar_swings_at_its_frequency),
       cmocka_unit_test(a_step_load_overshoots_twofold),
       cmocka_unit_test(bending_converges_to_the_beam),
