@@ -40,6 +40,7 @@ static inline bar bar_create(const bar_def *def) {
   corot_mesh *mesh;
   assert_ok(corot_mesh_box(&box, &mesh));
   int corner = mesh->nnode - 1;
+  mesh = of_order(mesh);
   double(*Qx)[3] = malloc(mesh->nnode * sizeof *Qx);
   for (int n = 0; n < mesh->nnode; n++) apply(def->Q, mesh->x[n], Qx[n]);
   memcpy(mesh->x, Qx, mesh->nnode * sizeof *Qx);

@@ -121,6 +121,7 @@ enum { NHOST = sizeof hosts / sizeof *hosts };
 static corot_pencil_counts run(int k, const char *solver, long first, long last,
                                corot_status status, bar *b, double *u, host *h, int *flag) {
   *h = (host){.data = {b->model, b->state, NULL}};
+  assert_ok(corot_mass_solver_create(b->model, &h->data.mass));
   assert_ok(corot_pencil_create(b->model, b->state, SOLVER(solver), &h->pencil));
   make_faulty(h->pencil, first, last, status);
   assert_int_equal(sun_context_create(&h->ctx), 0);
@@ -137,6 +138,7 @@ static corot_pencil_counts run(int k, const char *solver, long first, long last,
   N_VDestroy(h->y), N_VDestroy(h->rate);
   SUNContext_Free(&h->ctx);
   corot_pencil_destroy(h->pencil);
+  corot_mass_solver_destroy(h->data.mass);
   return counts;
 }
 

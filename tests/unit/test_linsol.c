@@ -64,12 +64,16 @@ static bool is(const problem *p, const char *name) { return strcmp(p->s.ops->nam
 static void set(problem *p, double a, double b, double c) {
   const corot_model *m = p->bar.model;
   const double(*K)[9] = (const double(*)[9])p->K, (*D)[9] = (const double(*)[9])p->D;
-  const double *mass = corot_model_mass(m);
   corot_csc_combine(m, p->s.csc, a, b, D, c, K, p->s.value);
   corot_block_multiply(m, K, p->x, p->b);
   corot_block_multiply(m, D, p->x, p->y);
-  for (int i = 0; i < p->bar.n; i++) p->b[i] = a * mass[i] * p->x[i] + b * p->y[i] + c * p->b[i];
+  for (int i = 0; i < p->bar.n; i++) p->b[i] = b * p->y[i] + c * p->b[i];
+  corot_mass_multiply(m, p->x, p->y);
+  for (int i = 0; i < p->bar.n; i++) p->b[i] += a * p->y[i];
 }
+
+/* Ten-node tets have a condition number a few times that of the four-node ones. */
+static double worse(void) { return order_of_test() == 1 ? 1 : 10; }
 
 /* The largest error of the solution found for p->b. */
 static double error(problem *p) {
@@ -97,7 +101,7 @@ static void solve_to_rounding(void **state) {
       set(&p, abc[i][0], abc[i][1], abc[i][2]);
       assert_ok(p.s.ops->factor(p.s.solver, p.s.value, &fresh));
       assert_true(fresh || i > 0);
-      assert_below(error(&p), 1e-11);
+      assert_below(error(&p), 1e-11 * worse());
     }
     problem_destroy(&p);
   }
@@ -116,13 +120,13 @@ static void factors_with_old_and_new_pivots_agree(void **state) {
     set(&p, 1, 1e-2, 1e-4);
     assert_ok(p.s.ops->factor(p.s.solver, p.s.value, &fresh));
     if (is(&p, "klu")) assert_false(fresh);
-    assert_below(error(&p), 1e-12);
+    assert_below(error(&p), 1e-12 * worse());
 
     set(&q, 1, 1e-2, 1e-4);
     assert_ok(q.s.ops->factor(q.s.solver, q.s.value, &fresh));
     assert_true(fresh);
-    assert_below(error(&q), 1e-12);
-    assert_below(difference_of(p.bar.n, p.y, q.y), 1e-12);
+    assert_below(error(&q), 1e-12 * worse());
+    assert_below(difference_of(p.bar.n, p.y, q.y), 1e-12 * worse());
     problem_destroy(&p), problem_destroy(&q);
   }
 }
@@ -173,7 +177,7 @@ static void a_singular_matrix_is_refused(void **state) {
     assert_int_not_equal(factor(&p), COROT_OK);
     set(&p, 1, 1e-2, 1e-4);
     assert_ok(factor(&p));
-    assert_below(error(&p), 1e-12);
+    assert_below(error(&p), 1e-12 * worse());
     problem_destroy(&p);
   }
 }
@@ -227,7 +231,7 @@ static void a_matrix_singular_to_rounding_is_refused(void **state) {
 
 static void an_indefinite_matrix_is_for_klu_only(void **state) {
   (void)state;
-  for (int large = 0; large < 2; large++)
+  for (int large = 0; large < (order_of_test() == 1 ? 2 : 1); large++)
     for (int k = 0; k < NSOLVER; k++) {
       problem p;
       if (!problem_create(&table[k], large ? 5 : 1, large ? 20 : 3, &p)) continue;
@@ -239,7 +243,7 @@ static void an_indefinite_matrix_is_for_klu_only(void **state) {
         assert_fails(factor(&p), COROT_RETRY, "not positive definite");
         set(&p, 1, 0, 1);
         assert_ok(factor(&p));
-        assert_below(error(&p), 1e-11);
+        assert_below(error(&p), 1e-11 * worse());
       }
       problem_destroy(&p);
     }
@@ -253,7 +257,7 @@ static void there_is_no_solution_without_a_factor(void **state) {
     set(&p, 1, 1e-2, 1e-4);
     assert_fails(p.s.ops->solve(p.s.solver, p.b), COROT_EINVAL, "there is no factor");
     assert_ok(factor(&p));
-    assert_below(error(&p), 1e-12);
+    assert_below(error(&p), 1e-12 * worse());
     set(&p, NAN, 0, 0);
     assert_int_not_equal(factor(&p), COROT_OK);
     assert_fails(p.s.ops->solve(p.s.solver, p.b), COROT_EINVAL, "there is no factor");
@@ -516,7 +520,7 @@ static corot_status make(const corot_linear_def *def, const corot_csc *lower, pr
 static void failed_allocations_are_reported(void **state) {
   (void)state;
   struct SuiteSparse_config_struct saved = SuiteSparse_config;
-  for (int large = 0; large < 2; large++)
+  for (int large = 0; large < (order_of_test() == 1 ? 2 : 1); large++)
     for (int s = 0; s < NSOLVER; s++) {
       problem p;
       if (strcmp(table[s].solver, "pcg") == 0) continue; /* its memory is not SuiteSparse's */
@@ -537,7 +541,7 @@ static void failed_allocations_are_reported(void **state) {
           if (!strstr(corot_error(), "memory")) fail_msg("%s: %s", p.s.name, corot_error());
           continue; /* or the solver could do without it, as where a shorter block will do */
         }
-        assert_below(difference_of(p.bar.n, p.y, p.x), 1e-12);
+        assert_below(difference_of(p.bar.n, p.y, p.x), 1e-12 * worse());
         if (memory.count < k) break;
       }
       assert_true(memory.count > 10);

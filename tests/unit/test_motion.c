@@ -296,7 +296,8 @@ static void a_turned_boundary_makes_stress_in_cauchy_only(void **state) {
     free(seen), free(node);
 
     body b = moved_body(mesh, measures[m], 1, &all);
-    assert_int_equal(b.n, 3 * (order_of_test() == 1 ? 8 : 5 * 5 * 5));
+    /* 24 of the edges inside are of tets with all corners on the skin, which belong to it */
+    assert_int_equal(b.n, 3 * (order_of_test() == 1 ? 8 : 5 * 5 * 5 - 24));
     double *u = calloc(3 * b.n, sizeof *u), *v = u + b.n, *r = v + b.n;
     for (int n = 0; n < mesh->nnode; n++)
       for (int c = 0; c < 3; c++) {

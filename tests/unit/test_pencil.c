@@ -22,12 +22,12 @@ static void product(const bar *b, corot_tangent tangent, const double abc[3], co
                     double *y) {
   int nblock = corot_model_nblock(b->model);
   double(*K)[9] = malloc(2 * nblock * sizeof *K), (*D)[9] = K + nblock;
-  double *Dx = malloc(b->n * sizeof *Dx);
+  double *Dx = malloc(2 * b->n * sizeof *Dx), *Mx = Dx + b->n;
   assert_ok(corot_jacobian(b->model, b->state, 0, b->u, b->v, tangent, K, D));
   corot_block_multiply(b->model, (const double(*)[9])K, x, y);
   corot_block_multiply(b->model, (const double(*)[9])D, x, Dx);
-  const double *mass = corot_model_mass(b->model);
-  for (int i = 0; i < b->n; i++) y[i] = abc[0] * mass[i] * x[i] + abc[1] * Dx[i] + abc[2] * y[i];
+  corot_mass_multiply(b->model, x, Mx);
+  for (int i = 0; i < b->n; i++) y[i] = abc[0] * Mx[i] + abc[1] * Dx[i] + abc[2] * y[i];
   free(K), free(Dx);
 }
 

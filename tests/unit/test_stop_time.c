@@ -31,6 +31,7 @@ static void bare_start(bare *b) {
   assert_int_equal(sun_context_create(&b->ctx), 0);
   b->y = N_VMake_Serial(2 * b->bar.n, b->bar.u, b->ctx);
   b->data = (corot_sun_data){b->bar.model, b->bar.state, NULL};
+  assert_ok(corot_mass_solver_create(b->bar.model, &b->data.mass));
   assert_ok(corot_pencil_create(b->bar.model, b->bar.state, SOLVER("klu"), &b->pencil));
   b->A = corot_sun_matrix(b->pencil, b->ctx);
   b->LS = corot_sun_linsol(b->pencil, b->ctx);
@@ -49,6 +50,7 @@ static void bare_end(bare *b) {
   corot_pencil_destroy(b->pencil);
   N_VDestroy(b->y);
   SUNContext_Free(&b->ctx);
+  corot_mass_solver_destroy(b->data.mass);
   bar_destroy(&b->bar);
 }
 

@@ -111,6 +111,7 @@ static void find_reach(explicit_limit *l) {
   double ratio = l->damping / l->frequency;
   if (fabs(ratio - l->ratio) <= 0.02 * ratio) return;
   double reach = 0.02;
+  while (reach > 1e-12 && grows(l, reach / l->frequency)) reach /= 2;
   while (reach < 100 && !grows(l, 1.02 * reach / l->frequency)) reach *= 1.02;
   l->reach = reach;
   l->ratio = ratio;
