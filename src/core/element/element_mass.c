@@ -34,43 +34,24 @@ static bool is_straight(const corot_mesh *mesh, const int node[KIND_NODES]) {
   return true;
 }
 
-/* The ten shape functions, and their gradients in the reference element. */
-static void shape_at(const double L[4], double N[10], double slope[10][3]) {
-  static const double dL[4][3] = {{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (int i = 0; i < 4; i++) {
-    N[i] = L[i] * (2 * L[i] - 1);
-    for (int c = 0; c < 3; c++) slope[i][c] = (4 * L[i] - 1) * dL[i][c];
-  }
-  for (int k = 0; k < 6; k++) {
-    int i = corot_tet_edge[k][0], j = corot_tet_edge[k][1];
-    N[4 + k] = 4 * L[i] * L[j];
-    for (int c = 0; c < 3; c++) slope[4 + k][c] = 4 * (L[i] * dL[j][c] + L[j] * dL[i][c]);
-  }
-}
-
-static double determinant_at(const corot_mesh *mesh, const int node[KIND_NODES],
-                             double slope[10][3]) {
-  double J[3][3] = {{0}};
-  for (int a = 0; a < 10; a++)
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++) J[i][j] += mesh->x[node[a]][i] * slope[a][j];
-  return J[0][0] * (J[1][1] * J[2][2] - J[1][2] * J[2][1]) -
-         J[0][1] * (J[1][0] * J[2][2] - J[1][2] * J[2][0]) +
-         J[0][2] * (J[1][0] * J[2][1] - J[1][1] * J[2][0]);
+static void shapes_at(const double L[4], double N[10]) {
+  for (int i = 0; i < 4; i++) N[i] = L[i] * (2 * L[i] - 1);
+  for (int k = 0; k < 6; k++) N[4 + k] = 4 * L[corot_tet_edge[k][0]] * L[corot_tet_edge[k][1]];
 }
 
 /* mass[i][j] = density times the integral of N_i N_j, by roles. */
 static void integrate(const corot_mesh *mesh, const int node[KIND_NODES], double density,
                       double mass[KIND_NODES][KIND_NODES]) {
+  const double(*x)[3] = (const double(*)[3])mesh->x;
   memset(mass, 0, KIND_NODES * sizeof *mass);
   for (int p = 0; p < GAUSS * GAUSS * GAUSS; p++) {
     int i = p % GAUSS, j = p / GAUSS % GAUSS, k = p / GAUSS / GAUSS;
     double r = gauss_point[i], s = gauss_point[j], t = gauss_point[k];
-    double L[4] = {0, r, (1 - r) * s, (1 - r) * (1 - s) * t}, N[10], slope[10][3];
+    double L[4] = {0, r, (1 - r) * s, (1 - r) * (1 - s) * t}, N[10];
     L[0] = 1 - L[1] - L[2] - L[3];
-    shape_at(L, N, slope);
+    shapes_at(L, N);
     double w = gauss_weight[i] * gauss_weight[j] * gauss_weight[k] * (1 - r) * (1 - r) * (1 - s);
-    w *= density * fabs(determinant_at(mesh, node, slope));
+    w *= density * fabs(corot_curved_determinant(x, node, node + 4, L));
     for (int a = 0; a < 10; a++)
       for (int b = 0; b < 10; b++) mass[a][b] += w * N[a] * N[b];
   }
