@@ -128,10 +128,55 @@ COROT_INLINE void add_block(point_lanes at, mat3 block, mat3 *sum, double (*A)[9
     scatter(A, place, block);
 }
 
+/* Adds the blocks of one point to the sums over the points before it, and at the last point those
+   to the matrices, either of which may be NULL: block k of lane l at place[k][lane + l]. */
+COROT_INLINE void add_point(const element_kind *kind, const strain_measure *s, const solid *body,
+                            solid_state *state, corot_tangent tangent, const element *e,
+                            const int (*place)[W], int lane, double (*K)[9], double (*D)[9],
+                            pair_sums *of_K, pair_sums *of_D) {
+  /* coefficients, and what the point gives to all pairs */
+  bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
+  vd lambda = weight_of(e->at) * e->mat->lambda, mu = weight_of(e->at) * e->mat->mu;
+  vd dlambda = weight_of(e->at) * e->mat->damping_lambda,
+     dmu = weight_of(e->at) * e->mat->damping_mu;
+  bool averaged = body->dilatation.npool;
+  vd theta =
+      averaged ? vd_at(state->dilatation, index_of(e->at)) : dilatation_of(s->pressure, e->F, e->R);
+  vd local = weight_of(e->at) * e->mat->lambda_local;
+  tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e->F, e->R);
+  node_vectors n;
+  find_node_vectors(e->at, &t, &n);
+  if (averaged) store_slopes(e->at, &n, state->slope);
+  bool objective = D && body->objective && s->frame == FRAME_POLAR;
+  node_rates rates;
+  if (objective) find_node_rates(e->at, e->F, e->R, &rates);
+
+  /* pair by pair, column by column */
+  vec3 Zg;
+  mat3 Hs;
+  for (int k = 0; k < kind->npair; k++) {
+    int a = kind->pair[k][0], c = kind->pair[k][1];
+    if (k == 0 || kind->pair[k - 1][1] != c) { /* a new column */
+      if (s->pressure == BY_GRADIENT) Zg = mat3_apply(t.Z, n.g[c]);
+      if (turning) Hs = mat3_mul(t.H, mat3_skew(n.s[c]));
+    }
+    vd gg = vec3_dot(n.g[a], n.g[c]);
+    mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
+    if (s->pressure == BY_GRADIENT) A = mat3_add_identity(A, vec3_dot(n.g[a], Zg));
+    if (turning) A = add_skew_transposed(A, n.s[a], Hs);
+    if (K) add_block(e->at, A, &of_K->of[k], K, place[k] + lane);
+    if (objective)
+      add_block(e->at, objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]),
+                &of_D->of[k], D, place[k] + lane);
+    else if (D)
+      add_block(e->at, constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]),
+                &of_D->of[k], D, place[k] + lane);
+  }
+}
+
 COROT_INLINE int tangent_loop(const element_kind *kind, const strain_measure *s, const solid *body,
                               solid_state *state, nodal_field u, corot_tangent tangent, int chunk,
                               double (*K)[9], double (*D)[9]) {
-  bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
   pair_sums of_K, of_D;
   for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
@@ -141,41 +186,7 @@ COROT_INLINE int tangent_loop(const element_kind *kind, const strain_measure *s,
     EACH_POINT (kind, q) {
       element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
       inverted |= e.inverted;
-
-      vd lambda = weight_of(e.at) * e.mat->lambda, mu = weight_of(e.at) * e.mat->mu;
-      vd dlambda = weight_of(e.at) * e.mat->damping_lambda,
-         dmu = weight_of(e.at) * e.mat->damping_mu;
-      bool averaged = body->dilatation.npool;
-      vd theta = averaged ? vd_at(state->dilatation, index_of(e.at))
-                          : dilatation_of(s->pressure, e.F, e.R);
-      vd local = weight_of(e.at) * e.mat->lambda_local;
-      tangent_terms t = tangent_terms_of(s, tangent, local, lambda * theta, mu, e.F, e.R);
-      node_vectors n;
-      find_node_vectors(e.at, &t, &n);
-      if (averaged) store_slopes(e.at, &n, state->slope);
-      bool objective = D && body->objective && s->frame == FRAME_POLAR;
-      node_rates rates;
-      if (objective) find_node_rates(e.at, e.F, e.R, &rates);
-      vec3 Zg;
-      mat3 Hs;
-      for (int k = 0; k < npair; k++) {
-        int a = kind->pair[k][0], c = kind->pair[k][1];
-        if (k == 0 || kind->pair[k - 1][1] != c) { /* a new column */
-          if (s->pressure == BY_GRADIENT) Zg = mat3_apply(t.Z, n.g[c]);
-          if (turning) Hs = mat3_mul(t.H, mat3_skew(n.s[c]));
-        }
-        vd gg = vec3_dot(n.g[a], n.g[c]);
-        mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
-        if (s->pressure == BY_GRADIENT) A = mat3_add_identity(A, vec3_dot(n.g[a], Zg));
-        if (turning) A = add_skew_transposed(A, n.s[a], Hs);
-        if (K) add_block(e.at, A, &of_K.of[k], K, place[k] + lane);
-        if (objective)
-          add_block(e.at, objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]),
-                    &of_D.of[k], D, place[k] + lane);
-        else if (D)
-          add_block(e.at, constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]),
-                    &of_D.of[k], D, place[k] + lane);
-      }
+      add_point(kind, s, body, state, tangent, &e, place, lane, K, D, &of_K, &of_D);
     }
     if (vi_any(inverted)) return first_inverted(body, b, inverted);
   }
