@@ -166,7 +166,7 @@ static const schema_key keys[] = {
   {"statics",                 MAP,             OPTIONAL, ANY,          "",        "{}", 0, "how an equilibrium is found, by corot static and for start: equilibrium"},
   {"statics.frames",          CHOICE,          OPTIONAL, ANY,          "",        "exact", "exact|held", "exact: Newton's iteration; held: solved for frames that are held, found anew, and so on"},
   {"statics.tolerance",       NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-10", 0, "residual to reach, relative to the largest force on a node"},
-  {"statics.max_iterations",  INTEGER,         OPTIONAL, POSITIVE,     "",        "20", 0, "of Newton in a load step, or updates of held frames"},
+  {"statics.max_iterations",  INTEGER,         OPTIONAL, POSITIVE,     "",        "20", 0, "of Newton in a load step, or updates of held frames; with strain: warp, whose stiffness leaves out how its frames vary, ten-node tets that bend far want 100 and more, or another strain"},
   {"statics.first_step",      NUMBER,          OPTIONAL, POSITIVE,     "",        "1.0", 0, "fraction of the load to begin with; halved where there is no equilibrium"},
   {"statics.min_step",        NUMBER,          OPTIONAL, POSITIVE,     "",        "1.0e-4", 0, "give up where a shorter step is needed"},
   {"statics.max_step",        NUMBER,          OPTIONAL, POSITIVE,     "",        "1.0", 0, "no longer step: short ones follow the path of the load where there are several equilibria"},

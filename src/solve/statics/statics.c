@@ -122,13 +122,26 @@ static corot_status lose_stability(corot_statics *s, double unstable) {
                     0.5 * (s->factor + unstable));
 }
 
+/* Whether K leaves out how frames vary: an iteration then gains a factor, which the bend takes
+ * away.
+ */
+static bool leaves_out_frames(const corot_model *model) {
+  const corot_strain_kind *kind = corot_strain_find(corot_model_strain(model));
+  return kind && kind->frames && !kind->polar;
+}
+
 /* `indefinite`: trials met a stiffness that is not positive definite. */
 static corot_status give_up(const corot_statics *s, bool indefinite) {
-  return corot_fail(COROT_EINTEGRATE,
-                    "no equilibrium found beyond load factor %.6g: %s%s; min_step = %g", s->factor,
-                    s->e.reason,
-                    indefinite ? " (the stiffness is not positive definite there: buckling)" : "",
-                    s->def.min_step);
+  return corot_fail(
+      COROT_EINTEGRATE, "no equilibrium found beyond load factor %.6g: %s%s; min_step = %g%s",
+      s->factor, s->e.reason,
+      indefinite ? " (the stiffness is not positive definite there: buckling)" : "",
+      s->def.min_step,
+      leaves_out_frames(s->e.model)
+          ? "; strain warp, whose stiffness leaves out how the frames vary, takes the "
+            "more iterations the further the body bends: raise max_iterations, or "
+            "take strain polar"
+          : "");
 }
 
 static void report(const corot_statics *s, double target, int rejected, corot_stability stability,
