@@ -70,6 +70,11 @@ typedef struct corot_modes corot_modes;
 corot_status corot_modes_find(const corot_modes_def *def, const corot_model *model, double t,
                               const double *u, corot_modes **modes);
 
+/* What corot_modes_find refuses without a look at u: COROT_EINVAL, but for what u or the supports are
+   at fault for. For who has an equilibrium to find first. */
+corot_status corot_modes_check(const corot_modes_def *def, const corot_model *model, double t,
+                               bool at_rest);
+
 /* Takes NULL. */
 void corot_modes_destroy(corot_modes *modes);
 

@@ -287,18 +287,22 @@ int static_scenario(const scenario *s, const run_options *options) {
   return run_in_c_locale(search, s, options);
 }
 
-corot_status static_start(const scenario *s, const corot_refinement *refinement,
-                          const corot_model *model, double *u) {
+corot_status static_find(const scenario *s, const corot_refinement *refinement,
+                         const corot_model *model, double t, double *u) {
   corot_statics *statics = NULL;
   corot_statics_def def = s->statics;
   def.stop = is_stopped;
   def.linear.refinement = refinement;
-  corot_status status = corot_statics_create(&def, model, 0, NULL, &statics);
+  corot_status status = corot_statics_create(&def, model, t, NULL, &statics);
   if (status == COROT_OK) status = corot_statics_solve(statics);
-  if (status == COROT_OK)
-    corot_statics_at(statics, u);
-  else
-    corot_fail(status, "%s: start: equilibrium: %s", s->path, corot_error());
+  if (status == COROT_OK) corot_statics_at(statics, u);
   corot_statics_destroy(statics);
   return status;
+}
+
+corot_status static_start(const scenario *s, const corot_refinement *refinement,
+                          const corot_model *model, double *u) {
+  corot_status status = static_find(s, refinement, model, 0, u);
+  if (status == COROT_OK) return COROT_OK;
+  return corot_fail(status, "%s: start: equilibrium: %s", s->path, corot_error());
 }

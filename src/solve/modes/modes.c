@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/model/model.h"
-#include "eigen.h"
+#include "eigenproblem.h"
 #include "solve/pencil/wall_clock.h"
 #include "solve/statics/rigid.h"
 
@@ -77,7 +77,8 @@ static corot_status check_stiffness(const corot_model *model, bool rest) {
   return COROT_OK;
 }
 
-static corot_status check(const corot_modes_def *d, const corot_model *model, double t, bool rest) {
+corot_status corot_modes_check(const corot_modes_def *d, const corot_model *model, double t,
+                               bool rest) {
   if (!corot_modes_available())
     return corot_fail(COROT_EINVAL,
                       "modes: this corot was built without ARPACK, which finds "
@@ -221,7 +222,7 @@ corot_status corot_modes_find(const corot_modes_def *def, const corot_model *mod
                               const double *u, corot_modes **modes) {
   double start = clock_wall(), *rigid = NULL;
   int nrigid = 0;
-  COROT_TRY(check(def, model, t, !u));
+  COROT_TRY(corot_modes_check(def, model, t, !u));
   corot_modes *m = calloc(1, sizeof *m);
   if (!m) return corot_fail(COROT_ENOMEM, "no memory for modes");
   m->def = *def, m->t = t, m->rest = !u;

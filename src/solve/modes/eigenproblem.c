@@ -1,5 +1,5 @@
 /* The shift, the factor, and the M-orthonormal basis of what was found. */
-#include "eigen.h"
+#include "eigenproblem.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* The eigenproblem K x = lambda M x: its matrices, the factor of K - shift M, and what was found.
  */
-#ifndef COROT_SOLVE_MODES_EIGEN_H
-#define COROT_SOLVE_MODES_EIGEN_H
+#ifndef COROT_SOLVE_MODES_EIGENPROBLEM_H
+#define COROT_SOLVE_MODES_EIGENPROBLEM_H
 
 #include <corot/modes.h>
 
