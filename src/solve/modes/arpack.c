@@ -14,10 +14,10 @@ static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
 
 /* The arguments of dsaupd, under ARPACK's names. */
 typedef struct arpack {
-  int nev, ncv, lworkl, info;
-  int iparam[11], ipntr[11];
+  int nev, ncv, lworkl;
+  a_int info, iparam[11], ipntr[11];
   double *resid, *v, *workd, *workl; /* [n], [ncv][n], [3 n], [lworkl] */
-  int *select;                       /* [ncv] */
+  a_int *select;                     /* [ncv] */
   double *d;                         /* [nev] */
 } arpack;
 
@@ -64,7 +64,7 @@ static corot_status allocate(const eigen *e, int count, arpack *a) {
 }
 
 /* What ARPACK asks for: ido 1 and -1: y = (K - s M)^-1 M x, with M x at hand or not; 2: y = M x. */
-static corot_status answer(eigen *e, const arpack *a, int ido) {
+static corot_status answer(eigen *e, const arpack *a, a_int ido) {
   const double *x = a->workd + a->ipntr[0] - 1;
   double *y = a->workd + a->ipntr[1] - 1;
   if (ido == 1)
@@ -81,13 +81,13 @@ static corot_status judge(const eigen *e, const arpack *a, const char *function)
   if (a->info == 0) return COROT_OK;
   if (a->info == 1)
     return corot_fail(COROT_EINTEGRATE, "arpack: %d of %d modes after %d restarts; allow more",
-                      a->iparam[4], a->nev, e->def->max_restarts);
+                      (int)a->iparam[4], a->nev, e->def->max_restarts);
   return corot_fail(COROT_EINTEGRATE, "arpack: %s ended with info = %d (%d modes of %d unknowns)",
-                    function, a->info, a->nev, e->n);
+                    function, (int)a->info, a->nev, e->n);
 }
 
 static corot_status iterate(eigen *e, arpack *a) {
-  int ido = 0;
+  a_int ido = 0;
   do {
     dsaupd_c(&ido, "G", e->n, "LA", a->nev, e->def->tolerance, a->resid, a->ncv, a->v, e->n,
              a->iparam, a->ipntr, a->workd, a->workl, a->lworkl, &a->info);

@@ -8,12 +8,6 @@
 
 #include "solve/pencil/wall_clock.h"
 
-static double dot(int n, const double *a, const double *b) {
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += a[i] * b[i];
-  return sum;
-}
-
 corot_status corot_eigen_create(const corot_modes_def *def, const corot_model *model, int capacity,
                                 eigen *e) {
   size_t n = (size_t)corot_model_ndof(model), room = (size_t)capacity;

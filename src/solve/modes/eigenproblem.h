@@ -25,6 +25,12 @@ typedef struct eigen {
   corot_modes_facts facts;
 } eigen;
 
+static inline double dot(int n, const double *a, const double *b) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
 /* K from its blocks, which the caller fills, and room for so many vectors. What is half made is
    released by clear. */
 corot_status corot_eigen_create(const corot_modes_def *def, const corot_model *model, int capacity,

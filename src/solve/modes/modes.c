@@ -181,12 +181,6 @@ static void put_in_order(eigen *e) {
   }
 }
 
-static double dot(int n, const double *a, const double *b) {
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += a[i] * b[i];
-  return sum;
-}
-
 /* -dr/du between modes, less K: the largest over their eigenvalues. */
 static corot_status measure_asymmetry(corot_modes *m) {
   eigen *e = &m->e;
