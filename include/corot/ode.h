@@ -118,6 +118,12 @@ typedef enum corot_tangent {
 corot_status corot_jacobian(const corot_model *model, corot_state *state, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
 
+/* K [corot_model_nblock()] += the loads' own part of -dr/du, by which a pressure turns and grows with
+   the surface it acts on: its symmetric part, K of corot_jacobian being symmetric. Where the pressed
+   surface is closed, or its edge is held, there is no other (Hibbitt 1979). It cannot fail. */
+void corot_load_stiffness(const corot_model *model, corot_state *state, double t, const double *u,
+                          double (*K)[9]);
+
 /* Whether K leaves out so much that it does not tell whether an equilibrium is stable: that of a
    hierarchy does. */
 bool corot_model_approximate_stiffness(const corot_model *model);

@@ -41,6 +41,8 @@ typedef struct corot_statics_def {
   double max_step;         /* > 0, at most 1. Where there are several equilibria, as beyond a load
                               that buckles, only short steps are sure to find the one that the path
                               of the load leads to */
+  bool follow_unstable; /* go on along the path of the load where stability is lost, by full Newton
+                           steps: the linear solver is taken to be klu, and no equilibrium is judged */
   bool (*stop)(void *data); /* asked in every iteration; true: end with COROT_EINTEGRATE. Or NULL */
   void *stop_data;
 } corot_statics_def;

@@ -22,6 +22,7 @@ static const char help[] =
     "\n"
     "  run MODEL.yaml       integrate a scenario and write its tables and fields\n"
     "  static MODEL.yaml    find its equilibrium under the full loads instead\n"
+    "  modes MODEL.yaml     find its eigenfrequencies and modes\n"
     "  check MODEL.yaml     say what is wrong with a scenario, or what it amounts to\n"
     "  study STUDY.yaml     run a scenario many times along axes, and compare: errors and costs\n"
     "  budget MODEL.yaml    how wrong a run is, and because of what\n"
@@ -85,10 +86,19 @@ static void leave_at_once_if_limited(int code) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},     {"static", command_static},   {"check", command_check},
-      {"study", command_study}, {"budget", command_budget},   {"find-limit", command_find_limit},
-      {"plot", command_plot},   {"report", command_report},   {"schema", command_schema},
-      {"mesh", command_mesh},   {"--version", print_version}, {0},
+      {"run", command_run},
+      {"static", command_static},
+      {"modes", command_modes},
+      {"check", command_check},
+      {"study", command_study},
+      {"budget", command_budget},
+      {"find-limit", command_find_limit},
+      {"plot", command_plot},
+      {"report", command_report},
+      {"schema", command_schema},
+      {"mesh", command_mesh},
+      {"--version", print_version},
+      {0},
   };
   hold_standard_streams();
   keep_to_one_thread(argv);

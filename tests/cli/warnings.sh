@@ -229,6 +229,21 @@ for method in cvode ida arkode; do # a free fall, without stress
   lacks bending $(run block.yaml) --set boundary=[] --set integrator.method=$method
 done
 
+# Modes: of a damped body and not of one that is not; of a column beyond what buckles it; of a block
+# pressed on one side, which has a free edge, and not of one pressed all around.
+if ! "$corot" modes pull.yaml -o modes 2>stderr && grep -q "built without ARPACK" stderr; then
+  printf '%s\n' undamped unstable symmetric >>fired
+else
+  about='-n 2 -o modes --quiet --about equilibrium'
+  has undamped modes pull.yaml -n 2 -o modes --quiet --set material.damping.mu=1
+  lacks undamped modes pull.yaml -n 2 -o modes --quiet --set material.damping=null
+  column='--set mesh.box.size=[0.1,0.1,1] --set mesh.box.cells=[1,1,8] --set mesh.order=2 --set strain=green'
+  has unstable modes pull.yaml $about $column --set 'loads=[{group: zmax, traction: [0, 0, -900]}]'
+  lacks unstable modes pull.yaml $about $column --set 'loads=[{group: zmax, traction: [0, 0, 900]}]'
+  has symmetric modes pull.yaml $about --set 'loads=[{group: xmax, pressure: 500}]'
+  lacks symmetric modes pull.yaml $about
+fi
+
 # No code without its case, and no case of another code.
 expect 0 check --warnings; no_err
 cut -d ' ' -f 1 stdout | sort >table

@@ -87,6 +87,8 @@ CASES = {
     "run-gives-up": Case(None, "run model.yaml -o out/run --set integrator.max_steps=2", False, 4),
     "static-gives-up": Case(None, "static model.yaml -o out/static --set statics.max_iterations=1", False, 4),
     "static": Case(None, "static model.yaml -o out/static", False),
+    "modes": Case(None, "modes model.yaml -n 3 -o out/modes", False),
+    "modes-loaded": Case(None, "modes model.yaml -n 3 --about equilibrium -o out/modes", False),
     "check": Case(None, "check model.yaml", False),
     "mesh-box": Case(None, "mesh box --size 0.1,0.1,0.2 --cells 1,1,2 -o box.msh", False),
     "mesh-info": Case("mesh-box", "mesh info box.msh", False),

@@ -12,6 +12,7 @@
    returns the exit code. */
 int command_run(int argc, char **argv);
 int command_static(int argc, char **argv);
+int command_modes(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_schema(int argc, char **argv);
 int command_mesh(int argc, char **argv);

@@ -89,11 +89,14 @@ corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], has
   return COROT_OK;
 }
 
-void hashes_static(hashes *h) {
+static void rename_work(hashes *h, const char *work) {
   char identity[HASH_SIZE + 16];
-  snprintf(identity, sizeof identity, "static\n%s\n", h->run);
+  snprintf(identity, sizeof identity, "%s\n%s\n", work, h->run);
   hash_text(identity, h->run);
 }
+
+void hashes_static(hashes *h) { rename_work(h, "static"); }
+void hashes_modes(hashes *h) { rename_work(h, "modes"); }
 
 corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out) {
   char digest[HASH_SIZE];

@@ -11,7 +11,7 @@ typedef struct hashes {
   char scenario[HASH_SIZE]; /* of the resolved scenario as compact JSON with sorted keys */
   char mesh[HASH_SIZE];     /* of counts, coordinates, tets and groups as they stand in memory */
   char run[HASH_SIZE]; /* of "corot VERSION\nSCENARIO\nMESH\n"; of a search for the equilibrium,
-                          of "static\nRUN\n" with that sum */
+                          of "static\nRUN\n" with that sum; of modes, of "modes\nRUN\n" */
 } hashes;
 
 corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out);
@@ -23,6 +23,7 @@ corot_status hash_solution(const json_t *resolved, char digest[HASH_SIZE]);
 /* Makes the identity of a run that of corot static of the same scenario and mesh, which is other
    work. */
 void hashes_static(hashes *h);
+void hashes_modes(hashes *h);
 
 /* The same in parts, for who has many scenarios of one mesh. */
 void hash_mesh(const corot_mesh *mesh, char digest[HASH_SIZE]);

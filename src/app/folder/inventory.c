@@ -5,19 +5,13 @@
 
 const inventory_file inventory[INVENTORY_SIZE] = {
     /* name                writer       cleaned listed */
-    {"result.json", "run", true, false},
-    {"result.json.tmp", "run", false, false},
-    {"probes.csv", "run", true, true},
-    {"energy.csv", "run", true, true},
-    {"steps.csv", "run", true, true},
-    {"history.csv", "run", true, true},
-    {"compare.csv", "run", true, true},
-    {"reactions.csv", "static", true, true},
-    {"groups.json", "run", true, true},
-    {"groups.json.tmp", "run", false, false},
-    {"states.bin", "run", true, true},
-    {"fields.pvd", "run", true, true},
-    {INVENTORY_FIELDS "/frame.tmp", "run", false, false},
+    {"result.json", "run", true, false},      {"result.json.tmp", "run", false, false},
+    {"probes.csv", "run", true, true},        {"energy.csv", "run", true, true},
+    {"steps.csv", "run", true, true},         {"history.csv", "run", true, true},
+    {"compare.csv", "run", true, true},       {"reactions.csv", "static", true, true},
+    {"modes.csv", "modes", true, true},       {"groups.json", "run", true, true},
+    {"groups.json.tmp", "run", false, false}, {"states.bin", "run", true, true},
+    {"fields.pvd", "run", true, true},        {INVENTORY_FIELDS "/frame.tmp", "run", false, false},
     {"report.html", "report", true, false},
 };
 

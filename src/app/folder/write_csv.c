@@ -1,6 +1,7 @@
 /* One function opens each table with its header, another adds a row. */
 #include "write_csv.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -285,4 +286,22 @@ corot_status steps_add(table *steps, const step_row *row) {
     for (int i = 0; i < 4; i++) add_text(steps, "");
   }
   return end_row(steps);
+}
+
+corot_status modes_open(const char *dir, table **modes) {
+  return open_with_header(dir, "modes.csv",
+                          "mode,frequency,angular_frequency,growth,eigenvalue,mass_x,mass_y,"
+                          "mass_z,residual",
+                          ROW, modes);
+}
+
+corot_status modes_row(table *modes, int number, const corot_mode *mode) {
+  add_integer(modes, number);
+  add_number(modes, mode->frequency);
+  add_number(modes, mode->eigenvalue > 0 ? sqrt(mode->eigenvalue) : 0);
+  add_number(modes, mode->growth);
+  add_number(modes, mode->eigenvalue);
+  for (int c = 0; c < 3; c++) add_number(modes, mode->effective_mass[c]);
+  add_number(modes, mode->residual);
+  return end_row(modes);
 }

@@ -8,6 +8,7 @@
 #define COROT_APP_FOLDER_WRITE_CSV_H
 
 #include <corot/integrate.h>
+#include <corot/modes.h>
 
 typedef struct table table;
 
@@ -117,6 +118,19 @@ corot_status reactions_open(const char *dir, int ngroup, const char *const *name
 
 /* force: [ngroup] */
 corot_status reactions_row(table *reactions, double t, int ngroup, const double (*force)[3]);
+
+/* modes.csv: one row a mode, by ascending w^2
+
+     mode               from 1
+     frequency          w / 2 pi [Hz]; 0: a rigid motion, or an unstable mode
+     angular_frequency  w [rad/s]
+     growth             of an unstable mode, as e^(growth t) [1/s]; else 0
+     eigenvalue         w^2 [1/s^2]
+     mass_x, mass_y, mass_z   effective mass along each axis [kg]
+     residual           |K x - w^2 M x| / |K x|, see corot/modes.h */
+
+corot_status modes_open(const char *dir, table **modes);
+corot_status modes_row(table *modes, int number, const corot_mode *mode);
 
 /* Reports an error that shows up on closing. Takes NULL; the table is gone either way. */
 corot_status table_close(table *table);

@@ -21,6 +21,7 @@ typedef enum section { FIELD, POINT, CELL, POINTS, CELLS } section;
 enum {
   TIME,
   DISPLACEMENT,
+  MODE,
   VELOCITY,
   FRAME,
   STRAIN,
@@ -38,27 +39,32 @@ enum {
   NARRAY
 };
 
+/* Arrays that are not in all files: those of a motion, of modes, of a mesh of order 2. */
+enum { OF_MOTION = 1, OF_MODES = 2, OF_ORDER_2 = 4 };
+
 static const struct layout {
   const char *name, *type;
   section section;
   int values;  /* a node, a tet */
   size_t item; /* bytes of a component */
   const char *attributes;
-  bool order_2; /* only there */
+  unsigned only; /* a sum of OF_s */
 } layout[NARRAY] = {
     [TIME] = {"TimeValue", "Float64", FIELD, 1, 8, " NumberOfTuples=\"1\""},
     [DISPLACEMENT] = {"displacement", "Float64", POINT, 3, 8, ""},
-    [VELOCITY] = {"velocity", "Float64", POINT, 3, 8, ""},
-    [FRAME] = {"frame", "Float64", CELL, 9, 8, ""},
+    [VELOCITY] = {"velocity", "Float64", POINT, 3, 8, "", OF_MOTION},
+    [MODE] = {"mode", "Float64", POINT, 3, 8, "", OF_MODES},
+    [FRAME] = {"frame", "Float64", CELL, 9, 8, "", OF_MOTION},
     [STRAIN] = {"strain", "Float64", CELL, 6, 8,
                 " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\""
-                " ComponentName3=\"XY\" ComponentName4=\"YZ\" ComponentName5=\"XZ\""},
-    [VON_MISES] = {"von_mises", "Float64", CELL, 1, 8, ""},
-    [DET] = {"det", "Float64", CELL, 1, 8, ""},
-    [FRAME_AT] = {"frame_points", "Float64", CELL, 36, 8, "", true},
-    [STRAIN_AT] = {"strain_points", "Float64", CELL, 24, 8, "", true},
-    [VON_MISES_AT] = {"von_mises_points", "Float64", CELL, 4, 8, "", true},
-    [DET_AT] = {"det_points", "Float64", CELL, 4, 8, "", true},
+                " ComponentName3=\"XY\" ComponentName4=\"YZ\" ComponentName5=\"XZ\"",
+                OF_MOTION},
+    [VON_MISES] = {"von_mises", "Float64", CELL, 1, 8, "", OF_MOTION},
+    [DET] = {"det", "Float64", CELL, 1, 8, "", OF_MOTION},
+    [FRAME_AT] = {"frame_points", "Float64", CELL, 36, 8, "", OF_MOTION | OF_ORDER_2},
+    [STRAIN_AT] = {"strain_points", "Float64", CELL, 24, 8, "", OF_MOTION | OF_ORDER_2},
+    [VON_MISES_AT] = {"von_mises_points", "Float64", CELL, 4, 8, "", OF_MOTION | OF_ORDER_2},
+    [DET_AT] = {"det_points", "Float64", CELL, 4, 8, "", OF_MOTION | OF_ORDER_2},
     [MATERIAL] = {"material", "Int32", CELL, 1, 4, ""},
     [REST] = {"Points", "Float64", POINTS, 3, 8, ""},
     [NODES] = {"connectivity", "Int32", CELLS, 1, 4, ""}, /* values: those of the mesh */
@@ -76,12 +82,16 @@ static const struct {
     [CELLS] = {"<Cells>\n", "</Cells>\n"},
 };
 
+/* Modes have no other cell data. */
+static const char open_cells_of_modes[] = "<CellData Scalars=\"material\">\n";
+
 static const char pvd_head[] =
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
 static const char pvd_tail[] = "</Collection>\n</VTKFile>\n";
 static const char file_tail[] = "\n</AppendedData>\n</VTKFile>\n";
 
 struct vtu {
+  unsigned is; /* OF_MOTION or OF_MODES, with OF_ORDER_2 */
   char *image; /* [size] the file of the next frame: header, arrays, closing tags */
   size_t size;
   char *array[NARRAY]; /* in the image */
@@ -116,9 +126,7 @@ static const element_kind *kind_of(const corot_mesh *mesh) {
   return &element_kinds[corot_mesh_order(mesh) == 2 ? TET10 : TET4];
 }
 
-static bool is_there(int i, const corot_mesh *mesh) {
-  return !layout[i].order_2 || corot_mesh_order(mesh) == 2;
-}
+static bool is_there(int i, const vtu *w) { return (layout[i].only & ~w->is) == 0; }
 
 static size_t array_bytes(int i, const corot_mesh *mesh) {
   const struct layout *a = &layout[i];
@@ -130,8 +138,8 @@ static size_t array_bytes(int i, const corot_mesh *mesh) {
 }
 
 /* Bytes of an array in the file: its size, then the data. */
-static size_t room_of(int i, const corot_mesh *mesh) {
-  return is_there(i, mesh) ? 8 + padded(array_bytes(i, mesh)) : 0;
+static size_t room_of(int i, const vtu *w, const corot_mesh *mesh) {
+  return is_there(i, w) ? 8 + padded(array_bytes(i, mesh)) : 0;
 }
 
 /* Appends to text [HEADER], which is known to be long enough. */
@@ -144,7 +152,7 @@ static void append(char *text, const char *format, ...) {
 }
 
 /* The XML before the data; padded with blanks so that the data begins at a multiple of 8. */
-static void make_header(const corot_mesh *mesh, char text[HEADER]) {
+static void make_header(const vtu *w, const corot_mesh *mesh, char text[HEADER]) {
   const uint16_t one = 1;
   bool little = *(const char *)&one == 1;
   text[0] = '\0';
@@ -155,13 +163,15 @@ static void make_header(const corot_mesh *mesh, char text[HEADER]) {
   size_t offset = 0;
   for (int i = 0; i < NARRAY; i++) {
     const struct layout *a = &layout[i];
-    if (i == 0 || layout[i - 1].section != a->section) append(text, "%s", tag[a->section].open);
-    if (is_there(i, mesh))
+    if (i == 0 || layout[i - 1].section != a->section)
+      append(text, "%s",
+             w->is & OF_MODES && a->section == CELL ? open_cells_of_modes : tag[a->section].open);
+    if (is_there(i, w))
       append(text,
              "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"%s format=\"appended\""
              " offset=\"%zu\"/>\n",
              a->type, a->name, a->values, a->attributes, offset);
-    offset += room_of(i, mesh);
+    offset += room_of(i, w, mesh);
     if (i + 1 < NARRAY && layout[i + 1].section == a->section) continue;
     append(text, "%s", tag[a->section].close);
     if (a->section == FIELD)
@@ -189,10 +199,10 @@ static void put_mesh(vtu *w, const corot_mesh *mesh, const int *material) {
 static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *material) {
   char header[HEADER];
   /* header, a size and the data of each array, tail */
-  make_header(mesh, header);
+  make_header(w, mesh, header);
   size_t at = strlen(header);
   w->size = at + sizeof file_tail - 1;
-  for (int i = 0; i < NARRAY; i++) w->size += room_of(i, mesh);
+  for (int i = 0; i < NARRAY; i++) w->size += room_of(i, w, mesh);
   w->image = calloc(1, w->size);
   if (!w->image)
     return corot_fail(COROT_ENOMEM, "%zu bytes for the fields: out of memory", w->size);
@@ -200,11 +210,11 @@ static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *materi
   /* what frames the arrays, and where they are */
   memcpy(w->image, header, at);
   for (int i = 0; i < NARRAY; i++) {
-    if (!is_there(i, mesh)) continue;
+    if (!is_there(i, w)) continue;
     uint64_t bytes = array_bytes(i, mesh);
     memcpy(w->image + at, &bytes, 8);
     w->array[i] = w->image + at + 8;
-    at += room_of(i, mesh);
+    at += room_of(i, w, mesh);
   }
   memcpy(w->image + at, file_tail, sizeof file_tail - 1);
 
@@ -244,13 +254,15 @@ static corot_status open_files(vtu *w, const char *dir) {
   return extend_list(w, pvd_head);
 }
 
-corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out) {
+static corot_status create(const char *dir, const corot_mesh *mesh, const int *material,
+                           unsigned what, vtu **out) {
   if (mesh->ntet > INT32_MAX / kind_of(mesh)->nnode)
     return corot_fail(COROT_EINVAL, "%d tets are too many for the fields' 32-bit indices",
                       mesh->ntet);
   vtu *w = calloc(1, sizeof *w);
   if (!w) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
   w->pvd = -1;
+  w->is = corot_mesh_order(mesh) == 2 ? what | OF_ORDER_2 : what;
   corot_status status = make_image(w, mesh, material);
   if (status == COROT_OK) status = open_files(w, dir);
   if (status != COROT_OK) {
@@ -261,10 +273,20 @@ corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *mate
   return COROT_OK;
 }
 
+corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out) {
+  return create(dir, mesh, material, OF_MOTION, out);
+}
+
+corot_status vtu_create_modes(const char *dir, const corot_mesh *mesh, const int *material,
+                              vtu **out) {
+  return create(dir, mesh, material, OF_MODES, out);
+}
+
 vtu_fields vtu_arrays(vtu *w) {
   return (vtu_fields){
       .displacement = (void *)w->array[DISPLACEMENT],
       .velocity = (void *)w->array[VELOCITY],
+      .mode = (void *)w->array[MODE],
       .frame = (void *)w->array[FRAME],
       .strain = (void *)w->array[STRAIN],
       .von_mises = (void *)w->array[VON_MISES],

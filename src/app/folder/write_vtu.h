@@ -18,6 +18,12 @@
                             k (see corot_element_fields)
      field data  TimeValue [s]
 
+   Of modes there is one frame each, whose TimeValue is the mode's number from 1:
+
+     point data  displacement  to what the modes are about and on by the mode, made MODE_SHOWN [m]
+                 mode          as it is, with x' M x = 1 kg m^2 [m]
+     cell data   material
+
    Numbers are Float64 as they stand in memory ("appended raw", UInt64 sizes), each array at a
    multiple of 8 bytes. A frame appears as a whole, by renaming, and is listed after that: whenever
    the program is killed, the folder can be opened. */
@@ -32,7 +38,8 @@ typedef struct vtu vtu;
  */
 typedef struct vtu_fields {
   double (*displacement)[3], (*velocity)[3]; /* [nnode] */
-  double (*frame)[9], (*strain)[6];          /* [ntet] */
+  double (*mode)[3];                         /* [nnode] of modes, which lack velocity */
+  double (*frame)[9], (*strain)[6];          /* [ntet] and all of these */
   double *von_mises, *det;                   /* [ntet] */
   /* [ntet] at the points of a mesh of order 2; NULL: it is of order 1 */
   double (*frame_at)[4][9], (*strain_at)[4][6];
@@ -41,6 +48,12 @@ typedef struct vtu_fields {
 
 /* Makes DIR/fields and an empty DIR/fields.pvd. material: [ntet]. All memory is taken here. */
 corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out);
+
+corot_status vtu_create_modes(const char *dir, const corot_mesh *mesh, const int *material,
+                              vtu **out);
+
+/* The largest displacement of a mode as it is shown, over the length of the model. */
+#define MODE_SHOWN 0.1
 
 vtu_fields vtu_arrays(vtu *w);
 

@@ -15,8 +15,7 @@ typedef struct fields {
 
 static bool wants_fields(const scenario *s) { return s->write_fields; }
 
-/* material [ntet]: the entry of the scenario's list that fills each tet. */
-static void number_materials(const corot_model_def *def, const corot_mesh *mesh, int *material) {
+void fields_number_materials(const corot_model_def *def, const corot_mesh *mesh, int *material) {
   for (int i = 0; i < def->nmaterial; i++)
     if (!def->material[i].group)
       for (int e = 0; e < mesh->ntet; e++) material[e] = i;
@@ -39,7 +38,7 @@ static corot_status begin(fields *f, const writer_source *source) {
   const corot_mesh *mesh = corot_model_mesh(f->model);
   int *material = calloc((size_t)mesh->ntet, sizeof *material);
   if (!material) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", source->dir);
-  number_materials(&source->scenario->model, mesh, material);
+  fields_number_materials(&source->scenario->model, mesh, material);
   corot_status status = vtu_create(source->dir, mesh, material, &f->file);
   free(material);
   COROT_TRY(status);

@@ -7,4 +7,7 @@
 
 extern const writer_ops fields_writer;
 
+/* material [ntet]: the entry of the scenario's list that fills each tet. */
+void fields_number_materials(const corot_model_def *def, const corot_mesh *mesh, int *material);
+
 #endif

@@ -23,7 +23,7 @@ static json_t *vector(const double x[3]) {
   return json_pack("[o, o, o]", json_text_real(x[0]), json_text_real(x[1]), json_text_real(x[2]));
 }
 
-static json_t *mesh_part(const scenario *s, const corot_model *model) {
+json_t *result_mesh(const scenario *s, const corot_model *model) {
   const corot_mesh *mesh = corot_model_mesh(model);
   return json_pack("{s:o, s:i, s:i, s:i, s:i}", "file", text(s->mesh_file), "order",
                    corot_mesh_order(mesh), "nodes", mesh->nnode, "tets", mesh->ntet, "dofs",
@@ -166,7 +166,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
       json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
       warnings_json(run->warnings), "strain", corot_model_strain(run->model), "mesh",
-      mesh_part(s, run->model), "frames", run->statics ? json_null() : frames_part(s, run),
+      result_mesh(s, run->model), "frames", run->statics ? json_null() : frames_part(s, run),
       "integrator", run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",

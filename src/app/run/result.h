@@ -51,8 +51,9 @@ typedef struct run_summary {
 /* The caller's to json_decref. */
 corot_status result_make(const scenario *s, const outputs *o, const run_summary *run, json_t **out);
 
-/* A part of result.json; NULL: no memory. */
+/* Parts of result.json; NULL: no memory. */
 json_t *result_versions(void);
+json_t *result_mesh(const scenario *s, const corot_model *model);
 
 /* The text of it, as it stands in the file; the caller's to free. */
 corot_status result_text(const json_t *result, char **text);

@@ -165,9 +165,13 @@ corot_status run_write_result(const scenario *s, const outputs *o, const run_sum
                               const run_options *options) {
   json_t *result = NULL;
   COROT_TRY(result_make(s, o, summary, &result));
+  bool hasty = summary->exit_code > EXIT_SIGNAL; /* who interrupts a run waits for its end */
+  return run_write_document(result, hasty, options);
+}
+
+corot_status run_write_document(json_t *result, bool hasty, const run_options *options) {
   json_t *files = NULL;
   char *text = NULL;
-  bool hasty = summary->exit_code > EXIT_SIGNAL; /* who interrupts a run waits for its end */
   corot_status status = folder_files(options->dir, hasty, &files);
   if (status == COROT_OK && json_object_set_new(result, "files", files))
     status = corot_fail(COROT_ENOMEM, "result.json: out of memory");

@@ -57,6 +57,9 @@ corot_status run_warn_after(const scenario *s, const corot_model *model, corot_s
                             const outputs *o, bool statics, const run_options *options, warnings *w,
                             observed *seen);
 
+/* A document as result.json, with the list of the folder's files added. It is taken over. */
+corot_status run_write_document(json_t *result, bool hasty, const run_options *options);
+
 /* result.json, to the folder and, if the options say so, to stdout. */
 corot_status run_write_result(const scenario *s, const outputs *o, const run_summary *summary,
                               const run_options *options);

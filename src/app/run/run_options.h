@@ -6,12 +6,21 @@
 
 #include "app/scenario/scenario.h"
 
+/* What modes are about: where a run starts; rest; or the equilibrium of corot static. */
+typedef enum modes_about {
+  MODES_ABOUT_START,
+  MODES_ABOUT_REST,
+  MODES_ABOUT_EQUILIBRIUM
+} modes_about;
+
 typedef struct run_options {
   const char *dir; /* made if need be; files of an earlier run in it are replaced */
   bool force;      /* files of others, too, where they have the names of a run's */
   bool progress;   /* a line on stderr while it runs, if that is a terminal */
   bool quiet;      /* nothing on stderr but the reason of a failure */
   bool json;       /* result.json on stdout, too */
+  int nmode;       /* of corot modes */
+  modes_about about;
 } run_options;
 
 #endif

@@ -287,18 +287,42 @@ int static_scenario(const scenario *s, const run_options *options) {
   return run_in_c_locale(search, s, options);
 }
 
-corot_status static_start(const scenario *s, const corot_refinement *refinement,
-                          const corot_model *model, double *u) {
+/* *lost: there is no stable one, and where the path loses its stability is known. */
+static corot_status solve_at(const scenario *s, const corot_refinement *refinement,
+                             const corot_model *model, double t, bool follow, double *u,
+                             bool *lost) {
   corot_statics *statics = NULL;
   corot_statics_def def = s->statics;
+  double stable = NAN, unstable = NAN;
   def.stop = is_stopped;
   def.linear.refinement = refinement;
-  corot_status status = corot_statics_create(&def, model, 0, NULL, &statics);
-  if (status == COROT_OK) status = corot_statics_solve(statics);
-  if (status == COROT_OK)
-    corot_statics_at(statics, u);
-  else
-    corot_fail(status, "%s: start: equilibrium: %s", s->path, corot_error());
+  def.follow_unstable = follow;
+  corot_status status = corot_statics_create(&def, model, t, NULL, &statics);
+  if (status == COROT_OK) {
+    status = corot_statics_solve(statics);
+    corot_statics_critical(statics, &stable, &unstable);
+  }
+  if (status == COROT_OK) corot_statics_at(statics, u);
   corot_statics_destroy(statics);
+  *lost = !isnan(unstable);
   return status;
+}
+
+corot_status static_find(const scenario *s, const corot_refinement *refinement,
+                         const corot_model *model, double t, double *u) {
+  bool lost;
+  corot_status status = solve_at(s, refinement, model, t, false, u, &lost);
+  if (status == COROT_OK || !lost) return status;
+  char reason[512];
+  snprintf(reason, sizeof reason, "%s", corot_error());
+  corot_status followed = solve_at(s, refinement, model, t, true, u, &lost);
+  return followed == COROT_OK ? COROT_OK : corot_fail(status, "%s", reason);
+}
+
+corot_status static_start(const scenario *s, const corot_refinement *refinement,
+                          const corot_model *model, double *u) {
+  bool lost;
+  corot_status status = solve_at(s, refinement, model, 0, false, u, &lost);
+  if (status == COROT_OK) return COROT_OK;
+  return corot_fail(status, "%s: start: equilibrium: %s", s->path, corot_error());
 }

@@ -11,6 +11,11 @@
    also if nothing holds the body; 4: there is no equilibrium within reach, or it is unstable. */
 int static_scenario(const scenario *s, const run_options *options);
 
+/* u [n] = the equilibrium under the loads as they are at t, also if it is unstable, where the path
+   of the load leads to one. Failures as of corot_statics_create and corot_statics_step. */
+corot_status static_find(const scenario *s, const corot_refinement *refinement,
+                         const corot_model *model, double t, double *u);
+
 /* u [n] = the equilibrium under the loads as they are at t = 0, where a run begins if the scenario
    says `start: equilibrium`. Mesh, refinement and model are
    those of scenario_build. COROT_EINTEGRATE, COROT_ESINGULAR: there is none. */

@@ -22,6 +22,9 @@ const warning_kind warning_kinds[WARNING_CODES] = {
     [WARNING_INVERTED] = {"inverted", "tets are turned inside out, which cauchy does not see"},
     [WARNING_BENDING] = {"bending", "the stress jumps between tets: the mesh is too coarse"},
     [WARNING_STEP] = {"step", "a constant step is long for the motion"},
+    [WARNING_UNDAMPED] = {"undamped", "modes are those without the damping that the scenario has"},
+    [WARNING_UNSTABLE] = {"unstable", "a mode grows: the equilibrium is unstable"},
+    [WARNING_SYMMETRIC] = {"symmetric", "modes leave out what of a pressure has no potential"},
     [WARNING_OUTPUT] = {"output", "output times are too far apart for the motion"},
 };
 

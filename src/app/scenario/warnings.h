@@ -5,6 +5,8 @@
 #ifndef COROT_APP_SCENARIO_WARNINGS_H
 #define COROT_APP_SCENARIO_WARNINGS_H
 
+#include <corot/modes.h>
+
 #include "scenario.h"
 
 typedef struct observed observed;
@@ -26,6 +28,10 @@ typedef enum warning_code {
   WARNING_BENDING,
   WARNING_STEP,
   WARNING_OUTPUT,
+  /* Of modes. */
+  WARNING_UNDAMPED,
+  WARNING_UNSTABLE,
+  WARNING_SYMMETRIC,
   WARNING_CODES /* how many */
 } warning_code;
 
@@ -64,6 +70,9 @@ corot_status warnings_before(const scenario *s, const corot_model *model, bool s
 /* What came of a run, or of a search for an equilibrium (`statics`): see outputs.h. */
 corot_status warnings_after(const scenario *s, const corot_model *model, const observed *seen,
                             bool statics, warnings *w);
+
+/* What modes leave out, and what they show. */
+corot_status warnings_of_modes(const scenario *s, const corot_modes *modes, warnings *w);
 
 /* [{"code", "text"}, ...], the caller's to json_decref; NULL: no memory. */
 json_t *warnings_json(const warnings *w);

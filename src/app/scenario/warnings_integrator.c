@@ -32,7 +32,7 @@
 
 static bool is_zero(const double x[3]) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
 
-static bool is_undamped(const scenario *s) {
+bool warnings_undamped(const scenario *s) {
   for (int i = 0; i < s->model.nmaterial; i++) {
     const corot_material *m = &s->model.material[i];
     if (m->damping_lambda > 0 || m->damping_mu > 0 || m->damping_mass > 0) return false;
@@ -74,7 +74,7 @@ corot_status warnings_find_integrator(const scenario *s, const corot_model *mode
       s->frames.frames != COROT_FRAMES_EXACT)
     return COROT_OK;
 
-  bool is_free, undamped = is_undamped(s);
+  bool is_free, undamped = warnings_undamped(s);
   COROT_TRY(all_parts_free(model, &is_free));
   if (!(is_free || undamped) || !will_move(s, is_free)) return COROT_OK;
 

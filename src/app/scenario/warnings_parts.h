@@ -18,4 +18,7 @@ double warnings_atol(const scenario *s, const corot_model *model);
 corot_status warnings_find_rtol(const scenario *s, const corot_model *model, double displacement,
                                 warnings *w);
 
+/* Whether no material has any damping. */
+bool warnings_undamped(const scenario *s);
+
 #endif

@@ -298,3 +298,41 @@ void corot_loads_derivative(const corot_model *m, const instant *now, const doub
     }
   }
 }
+
+/* K of one point of a face. Where u moves node j by e, the area a x b / 2 changes by e x w_j, and
+   the force of node i by its share of that; the symmetric part between nodes i and j is e x z. */
+static void add_turning(const corot_model *m, const load *l, const int *face, int q,
+                        const double (*u)[4], double factor, double (*K)[9]) {
+  const face_kind *kind = faces_of(m);
+  double a[3], b[3], w[FACE_NODES][3], share[FACE_NODES];
+  tangents(m, u, face, q, a, b);
+  memset(w, 0, sizeof w);
+  for (int i = 0; i < kind->nnode; i++) {
+    share[i] = pressure_share(l, kind, q, i, factor);
+    if (i == 0) continue;
+    for (int c = 0; c < 3; c++) {
+      w[i][c] = 0.5 * (kind->slope[q][i - 1][0] * b[c] - kind->slope[q][i - 1][1] * a[c]);
+      w[0][c] -= w[i][c];
+    }
+  }
+  for (int i = 0; i < kind->nnode; i++)
+    for (int j = 0; j < kind->nnode; j++) {
+      if (face[i] <= face[j]) continue; /* on the diagonal there is none */
+      double z[3], *block = K[corot_pattern_find(&solid_of(m)->pattern, face[i], face[j])];
+      for (int c = 0; c < 3; c++) z[c] = 0.5 * (share[i] * w[j][c] - share[j] * w[i][c]);
+      block[1] -= z[2], block[2] += z[1], block[3] += z[2];
+      block[5] -= z[0], block[6] -= z[1], block[7] += z[0];
+    }
+}
+
+void corot_loads_stiffness(const corot_model *m, const instant *now, const double (*u)[4],
+                           double (*K)[9]) {
+  const face_kind *kind = faces_of(m);
+  for (int k = 0; k < m->nload; k++) {
+    const load *l = &m->load[k];
+    double factor = factor_of(l, now);
+    if (factor == 0) continue;
+    for (int at = 0; at < l->nface * kind->npoint; at++)
+      add_turning(m, l, l->face[at / kind->npoint], at % kind->npoint, u, factor, K);
+  }
+}

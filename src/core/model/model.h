@@ -142,6 +142,10 @@ bool corot_loads_follow(const corot_model *m);
 void corot_loads_derivative(const corot_model *m, const instant *now, const double (*u)[4],
                             const double (*du)[4], double *f);
 
+/* K [pattern.nblock] -= the symmetric part of that change as a matrix. */
+void corot_loads_stiffness(const corot_model *m, const instant *now, const double (*u)[4],
+                           double (*K)[9]);
+
 /* m->motion from the definition; marks the nodes' components in `held`. */
 corot_status corot_motions_create(const corot_model_def *def, corot_model *m, char (*held)[3]);
 void corot_motions_destroy(corot_model *m);

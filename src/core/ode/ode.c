@@ -106,6 +106,13 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
   return COROT_OK;
 }
 
+void corot_load_stiffness(const corot_model *m, corot_state *s, double t, const double *u,
+                          double (*K)[9]) {
+  const instant now = corot_state_at(s, t);
+  if (!corot_loads_follow(m)) return;
+  corot_loads_stiffness(m, &now, corot_state_displace(m, s, &now, u), K);
+}
+
 /* s->du and s->dv = a direction, on all nodes: held ones stay. */
 static nodal_field spread(const corot_model *m, const double *direction, double (*all)[4]) {
   corot_model_spread(m, direction, all[0], 4);

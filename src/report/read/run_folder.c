@@ -72,6 +72,11 @@ static corot_status read_all(run_folder *f) {
                {"history.csv", &f->history},     {"steps.csv", &f->steps},
                {"reactions.csv", &f->reactions}, {"compare.csv", &f->compare}};
   COROT_TRY(lookup_read(f->dir, "result.json", &f->result));
+  if (json_is_object(lookup(f->result, "modes")))
+    return corot_fail(COROT_EFORMAT,
+                      "%s: holds the modes of corot modes: their shapes are in fields.pvd, for "
+                      "ParaView; reports are of runs, equilibria and studies",
+                      f->dir);
   COROT_TRY(claim_budget(f));
   COROT_TRY(verify(f, "groups.json"));
   COROT_TRY(read_if_there(f->dir, "groups.json", &f->groups));

@@ -112,7 +112,7 @@ static corot_status factor_definite(equilibrium *e) {
   corot_pencil_combine(e->pencil, 0, 0, 1);
   corot_status status = corot_pencil_factor(e->pencil);
   const linsol_ops *ops = e->pencil->chosen.ops;
-  if (!status && ops->count_negative) {
+  if (!status && ops->count_negative && !e->def->follow_unstable) {
     double start = clock_wall();
     COROT_TRY(ops->count_negative(e->pencil->csc, e->pencil->S, &negative));
     e->pencil->counts.factor_s += clock_wall() - start;
@@ -360,7 +360,7 @@ corot_status corot_equilibrium_search(equilibrium *e, double factor) {
 /* --- Stability --- */
 
 corot_status corot_equilibrium_judge(equilibrium *e, corot_stability *stability) {
-  if (corot_model_approximate_stiffness(e->model)) {
+  if (corot_model_approximate_stiffness(e->model) || e->def->follow_unstable) {
     *stability = COROT_STABILITY_UNKNOWN;
     return COROT_OK;
   }

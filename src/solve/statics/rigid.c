@@ -244,6 +244,51 @@ corot_status corot_model_parts(const corot_model *model, int *npart, corot_part 
   return list_parts(corot_model_mesh(model), model, npart, part);
 }
 
+/* x [n] of one motion of a part; the rest of the body stays. */
+static void displace(const corot_model *model, const part_shape *p, const double motion[6],
+                     double *x) {
+  const corot_mesh *mesh = corot_model_mesh(model);
+  const int(*dof)[3] = corot_model_dof(model);
+  double row[6];
+  for (int k = 0; k < p->nnode; k++)
+    for (int c = 0; c < 3; c++) {
+      int at = dof[p->node[k]][c];
+      if (at < 0) continue;
+      component_row(p, mesh->x[p->node[k]], c, row);
+      for (int i = 0; i < 6; i++) x[at] += row[i] * motion[i];
+    }
+}
+
+/* Adds those of each part to x [][n], or only counts them where that is NULL. */
+static int move_parts(const corot_model *model, const partition *p, double *x) {
+  size_t n = (size_t)corot_model_ndof(model);
+  int count = 0;
+  for (int k = 0; k < p->npart; k++) {
+    double motion[6][6];
+    const int *node = p->node + p->begin[k];
+    part_shape shape = measure(corot_model_mesh(model), p->begin[k + 1] - p->begin[k], node);
+    int nfree = free_motions(model, &shape, motion);
+    for (int i = 0; x && i < nfree; i++)
+      displace(model, &shape, motion[i], x + (size_t)(count + i) * n);
+    count += nfree;
+  }
+  return count;
+}
+
+corot_status corot_rigid_motions(const corot_model *model, int *count, double **motion) {
+  size_t n = (size_t)corot_model_ndof(model);
+  partition p = {0};
+  COROT_TRY(partition_create(corot_model_mesh(model), &p));
+  int nfree = move_parts(model, &p, NULL);
+  double *x = nfree ? calloc((size_t)nfree * n, sizeof *x) : NULL;
+  if (x) move_parts(model, &p, x);
+  partition_free(&p);
+  if (nfree && !x) return corot_fail(COROT_ENOMEM, "no memory for %d rigid motions", nfree);
+  *count = nfree;
+  *motion = x;
+  return COROT_OK;
+}
+
 corot_status corot_rigid_check(const corot_model *model) {
   int npart;
   corot_part *part;

@@ -19,6 +19,10 @@ corot_status corot_mesh_parts(const corot_mesh *mesh, int *npart, corot_part **p
    moves holds its nodes as well as one at rest. */
 corot_status corot_model_parts(const corot_model *model, int *npart, corot_part **part);
 
+/* The same motions as displacements of the free degrees of freedom, part by part: *count of them,
+   at most six a part, *motion [*count][n], the caller's to free. NULL without one. */
+corot_status corot_rigid_motions(const corot_model *model, int *count, double **motion);
+
 /* COROT_ESINGULAR if a part has such a motion; the message names the first. */
 corot_status corot_rigid_check(const corot_model *model);
 

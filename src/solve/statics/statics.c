@@ -77,6 +77,10 @@ corot_status corot_statics_create(const corot_statics_def *def, const corot_mode
   corot_statics *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "no memory for statics");
   s->def = *def;
+  if (def->follow_unstable) { /* which factors K as it is */
+    s->def.linear = corot_linear_defaults();
+    s->def.linear.solver = "klu";
+  }
   s->length = fmin(def->first_step, def->max_step);
   s->stable = s->unstable = NAN;
   s->ceiling = INFINITY;
