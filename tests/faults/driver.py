@@ -114,6 +114,7 @@ CASES = {
 # is reported, so that it can go. SUNDIALS 6.4 and libfyaml 0.7.12, of Debian 12.
 KNOWN_CRASHES = {
     "fy_parse_input_append": "uses an input that it could not allocate",
+    "dseupd_c": "uses an array that it could not allocate",
     "N_VClone": "uses the clone of a vector that it could not allocate",
     "arkAllocVec": "uses the clone of a vector that it could not allocate",
     "ARKodeButcherTable_LoadDIRK": "fills a table that it could not allocate",
