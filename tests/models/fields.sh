@@ -18,4 +18,4 @@ integrator: {rtol: 1.0e-3}
 probes: {corner: {point: [0.1, 0.1, 0.6]}, middle: {point: [0.05, 0.05, 0.3]}}
 END
 "$1" run bent.yaml -o bent --quiet
-exec $python "$here/check_fields.py" bent 0.5
+exec $python -B "$here/check_fields.py" bent 0.5

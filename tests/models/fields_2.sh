@@ -18,4 +18,4 @@ time: {end: 0.5, output: 0.25}
 integrator: {rtol: 1.0e-3}
 END
 "$1" run quarter.yaml -o quarter --quiet
-exec $python "$here/check_fields_2.py" quarter
+exec $python -B "$here/check_fields_2.py" quarter

@@ -47,4 +47,17 @@ typedef struct refusal {
   const char *message; /* from LINE:COLUMN on */
 } refusal;
 
+/* Of scenarios that are read, and refused where mesh and model are made. */
+static inline void refuse_builds(const refusal *r, size_t n) {
+  for (size_t i = 0; i < n; i++) {
+    corot_mesh *mesh = NULL;
+    corot_refinement *refinement = NULL;
+    corot_model *model = NULL;
+    scenario *s = accept(r[i].text);
+    assert_fails(scenario_build(s, &mesh, &refinement, &model), COROT_EFORMAT, r[i].message);
+    assert_true(!mesh && !refinement && !model);
+    scenario_destroy(s);
+  }
+}
+
 #endif

@@ -716,15 +716,7 @@ static void build_refusals(void **state) {
        "5:1: boundary: all components of all 12 nodes are held: nothing can move"},
       {MINIMAL "probes: {a: {node: 12}}", "4:20: probes.a.node: the mesh has 12 nodes"},
   };
-  for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
-    corot_mesh *mesh = NULL;
-    corot_refinement *refinement = NULL;
-    corot_model *model = NULL;
-    scenario *s = accept(r[i].text);
-    assert_fails(scenario_build(s, &mesh, &refinement, &model), COROT_EFORMAT, r[i].message);
-    assert_true(!mesh && !refinement && !model);
-    scenario_destroy(s);
-  }
+  refuse_builds(r, sizeof r / sizeof *r);
 }
 
 /* --- Memory that runs out --- */

@@ -133,15 +133,7 @@ static void refusals(void **state) {
        "4:10: groups.a: group 'a': no corner of a tet is there"},
       {BOX("order: 2") "probes: {a: {node: 45}}", "4:20: probes.a.node: the mesh has 45 nodes"},
   };
-  for (size_t i = 0; i < sizeof built / sizeof *built; i++) {
-    corot_mesh *mesh = NULL;
-    corot_refinement *refinement = NULL;
-    corot_model *model = NULL;
-    scenario *s = accept(built[i].text);
-    assert_fails(scenario_build(s, &mesh, &refinement, &model), COROT_EFORMAT, built[i].message);
-    assert_true(!mesh && !refinement && !model);
-    scenario_destroy(s);
-  }
+  refuse_builds(built, sizeof built / sizeof *built);
 }
 
 /* A key that is not given is not in the resolved scenario, so that runs keep their hashes. */

@@ -69,15 +69,7 @@ static void refusals_of_a_build(void **state) {
        "4:10: groups.a: group 'a': no node is there"},
       {REFINED("1") "probes: {a: {node: 45}}", "4:20: probes.a.node: the mesh has 45 nodes"},
   };
-  for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
-    corot_mesh *mesh = NULL;
-    corot_refinement *refinement = NULL;
-    corot_model *model = NULL;
-    scenario *s = accept(r[i].text);
-    assert_fails(scenario_build(s, &mesh, &refinement, &model), COROT_EFORMAT, r[i].message);
-    assert_true(!mesh && !refinement && !model);
-    scenario_destroy(s);
-  }
+  refuse_builds(r, sizeof r / sizeof *r);
 }
 
 static int blocks_of(const char *text) {

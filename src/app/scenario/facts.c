@@ -12,15 +12,9 @@
 
 /* --- Finding --- */
 
-static double tet_volume(const corot_mesh *mesh, int e) {
-  const double(*x)[3] = (const double(*)[3])mesh->x;
-  return mesh->mid ? corot_curved_volume(x, mesh->tet[e], mesh->mid[e])
-                   : corot_tet_volume(x, mesh->tet[e]);
-}
-
 static double group_volume(const corot_mesh *mesh, const corot_group *group) {
   double volume = 0;
-  for (int i = 0; i < group->ntet; i++) volume += tet_volume(mesh, group->tet[i]);
+  for (int i = 0; i < group->ntet; i++) volume += corot_mesh_volume_of(mesh, group->tet[i]);
   return volume;
 }
 

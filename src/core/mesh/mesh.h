@@ -104,4 +104,11 @@ static inline double corot_tet_volume(const double (*x)[3], const int v[4]) {
          6;
 }
 
+/* Volume of tet e, of either order. */
+static inline double corot_mesh_volume_of(const corot_mesh *mesh, int e) {
+  const double(*x)[3] = (const double(*)[3])mesh->x;
+  return mesh->mid ? corot_curved_volume(x, mesh->tet[e], mesh->mid[e])
+                   : corot_tet_volume(x, mesh->tet[e]);
+}
+
 #endif

@@ -84,8 +84,8 @@ static double shape(const double *const x[4], const double normal[4][3], double 
 static void measure_tet(const corot_mesh *mesh, int e, corot_mesh_quality *q) {
   const int *v = mesh->tet[e];
   const double *const x[4] = {mesh->x[v[0]], mesh->x[v[1]], mesh->x[v[2]], mesh->x[v[3]]};
-  double flat = corot_tet_volume((const double(*)[3])mesh->x, v), volume = flat, normal[4][3];
-  if (mesh->mid) volume = corot_curved_volume((const double(*)[3])mesh->x, v, mesh->mid[e]);
+  double flat = corot_tet_volume((const double(*)[3])mesh->x, v), normal[4][3];
+  double volume = corot_mesh_volume_of(mesh, e);
   for (int k = 0; k < 4; k++) { /* outward, of length twice the area */
     const int *f = corot_tet_face[k];
     double a[3], b[3];
