@@ -39,11 +39,12 @@ static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *me
   return COROT_OK;
 }
 
+/* Level 0 has four-node tets, and order 2 is the last level. */
 static corot_status check_hierarchy(const scenario *s, const corot_mesh *mesh) {
-  if (!s->model.hierarchy || (s->order != 2 && !mesh->mid)) return COROT_OK;
-  return config_fail(place(s, s->order == 2 ? "mesh.order" : "hierarchy"),
-                     "a hierarchy of ten-node tets is not provided for%s",
-                     s->order == 2 ? "" : ": mesh.order: 1 makes them four-node ones");
+  if (!s->model.hierarchy || !mesh->mid || s->order == 1) return COROT_OK;
+  return config_fail(place(s, "hierarchy"),
+                     "level 0 has to be of four-node tets, and the file's have ten nodes already: "
+                     "mesh.order: 1 makes them four-node ones");
 }
 
 /* *refinement, if it is not NULL, gets the level that order 2 adds. */
