@@ -97,7 +97,9 @@ static void order_2_is_a_level(void **state) {
   } c[] = {
       {BOX("order: 2") "linear_solver: {preconditioner: multigrid}\n", 1},
       {BOX("order: 2, refine: 1") "linear_solver: {preconditioner: hierarchical}\n", 2},
-      {READ("two_2.msh41.msh", ", refine: 1") "linear_solver: {preconditioner: multigrid}\n", 1},
+      {READ("two_2.msh41.msh", "") "linear_solver: {preconditioner: multigrid}\n", 1},
+      {READ("two_2.msh41.msh", ", order: 2") "linear_solver: {preconditioner: hierarchical}\n", 1},
+      {READ("two_2.msh41.msh", ", refine: 1") "linear_solver: {preconditioner: multigrid}\n", 2},
   };
   for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
     corot_refinement *r = NULL;
@@ -164,8 +166,8 @@ static void refusals(void **state) {
       {READ("two_2.msh41.msh", ", order: 2") "hierarchy: {}\n",
        "hierarchy: level 0 has to be of four-node tets, and the file's have ten nodes already: "
        "mesh.order: 1"},
-      {READ("two_2.msh41.msh", ", order: 2") "linear_solver: {preconditioner: multigrid}\n",
-       "linear_solver.preconditioner: multigrid needs mesh.refine: the file's tets have ten nodes"},
+      {READ("two.msh41.msh", "") "linear_solver: {preconditioner: multigrid}\n",
+       "4:33: linear_solver.preconditioner: multigrid needs mesh.refine"},
       {BOX("order: 2") "groups: {a: {plane: {axis: z, at: 0.5}}}",
        "4:10: groups.a: group 'a': no corner of a tet is there"},
       {BOX("order: 2") "probes: {a: {node: 45}}", "4:20: probes.a.node: the mesh has 45 nodes"},

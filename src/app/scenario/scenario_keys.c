@@ -152,7 +152,7 @@ static const schema_key keys[] = {
   {"linear_solver.name",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod|pcg", "klu: sparse LU; cholmod: sparse Cholesky; pcg: conjugate gradients; auto: by size"},
   {"linear_solver.ordering",  CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|amd|metis", "klu, cholmod: of the mesh's nodes, against fill"},
   {"linear_solver.factor",    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|simplicial|supernodal", "cholmod: entry by entry, or in dense blocks"},
-  {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky|hierarchical|multigrid", "pcg: what it is preconditioned with; with mesh.refine also by its levels, the unrefined one factored: their hierarchical basis, or V-cycles"},
+  {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky|hierarchical|multigrid", "pcg: what it is preconditioned with; with mesh.refine or ten-node tets also by levels, of which the corners of ten-node tets are one, the coarsest factored: their hierarchical basis, or V-cycles"},
   {"linear_solver.tolerance", NUMBER,          OPTIONAL, SCHEMA_FRACTION, "",     "1.0e-10", 0, "pcg: residual to reach, relative to the right-hand side"},
 
   {"start",                   SCHEMA_STATES,   OPTIONAL, ANY,          "",        "rest", "rest|equilibrium", "where a run begins: undeformed, or in equilibrium under the loads of t = 0, at rest in both; or a map, or a list of maps, with velocities: each sets those of its nodes, a later one in place of an earlier"},

@@ -31,6 +31,11 @@ static corot_status check_middles(const corot_refinement *r, const corot_mesh *m
 corot_status corot_system_check(const corot_hierarchy_def *def, const corot_mesh *mesh) {
   const corot_refinement *r = def->refinement;
   if (!r) return corot_fail(COROT_EINVAL, "the hierarchy has no refinement");
+  if (r->node)
+    return corot_fail(
+        COROT_EINVAL,
+        "hierarchy: level 0 is of the corners of ten-node tets, not of a mesh that was "
+        "refined or raised");
   if (r->nnode[r->nlevel] != mesh->nnode || r->ntet[r->nlevel] != mesh->ntet)
     return corot_fail(COROT_EINVAL,
                       "hierarchy: the refinement is of %d nodes and %d tets, the mesh has %d and "
