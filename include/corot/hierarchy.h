@@ -6,7 +6,8 @@
 
    in short u = T y. Differences of affine fields are zero.
 
-   Values are vectors at all nodes of the finest level, [nnode[nlevel]][3]. All four functions work
+   Values are vectors at all nodes of the finest level, [nnode[nlevel]][3], in the order of the
+   refinement: that of the mesh unless it has a list of nodes. All four functions work
    in place, in one sweep over the nodes. They need no memory, and cannot fail.
 
    A complete program: tests/examples/hierarchy.c. */

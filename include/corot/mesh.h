@@ -213,6 +213,8 @@ typedef struct corot_refinement {
   int (*parent)[2]; /* [nnode[nlevel] - nnode[0]] ends of the edge of which node nnode[0] + i is the
                        middle: nodes of a coarser level, ascending; of order 2 the ends of the edge
                        on which it is, corners of its own level, which are the nodes of the coarser */
+  int *node; /* [nnode[nlevel]] the mesh's number of each node, where all that is said here of nodes
+                is said of places in this list (corot_refinement_lower); NULL: the numbers are these */
 } corot_refinement;
 
 /* Refines `nlevel` >= 0 times; 0 copies. Neighbouring tets still share whole faces.
@@ -246,6 +248,14 @@ corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel, corot_diagona
    on the tets enter the ten-node ones: a multigrid method or a hierarchical basis needs no more.
    COROT_EINVAL: `raised` is not that. COROT_ENOMEM. The refinement is as it was then. */
 corot_status corot_refinement_raise(corot_refinement *refinement, const corot_mesh *raised);
+
+/* Adds a level below: that of the corners of level 0, `mesh`, which is of order 2. They are the nodes
+   of the new level 0, in ascending order, and the nodes on its edges those of the next, with the ends
+   of the edges as parents. However the mesh numbers both, the refinement's nodes stand in the order of
+   the levels: `node` has the mesh's numbers. A refinement that has that list already cannot be lowered,
+   nor be a hierarchy's (corot/model.h). COROT_EINVAL: `mesh` is not that. COROT_ENOMEM. The refinement is as
+   it was then. */
+corot_status corot_refinement_lower(corot_refinement *refinement, const corot_mesh *mesh);
 
 /* Takes NULL. */
 void corot_refinement_destroy(corot_refinement *refinement);

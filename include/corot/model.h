@@ -73,7 +73,8 @@ typedef struct corot_amplitude {
    elements with a node on it are lumped. What that changes is of third order in their size, unless the
    body moves relative to the support as little as in bending: then of fifth. AUTO: lumped for
    four-node tets, consistent for ten-node ones, which need it for their order of accuracy: lumped, the
-   frequencies of torsion of a bar come out several per cent too low. */
+   frequencies of torsion of a bar come out several per cent too low; with COROT_COUPLING_ONE_WAY
+   lumped in either case. */
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT, COROT_MASS_AUTO } corot_mass;
 
 /* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda
@@ -152,7 +153,8 @@ typedef struct corot_motion {
      E(u) = E_fine(u; R) + sum_c V_c [psi_coarse(Fm_c) - psi_model(Fm_c; R_c)],
      Fm_c = 1/V_c sum_i V_i F_i over the descendants i of c,
 
-   which the means of u over the faces of c decide. NODES: by its own nodes,
+   which the means of u over the faces of c decide; of ten-node tets, the mean over their points.
+   NODES: by its own nodes,
 
      E(u) = E_fine(u; R) + E_coarse(u_0) - E_linear(u_0),
 
@@ -182,6 +184,12 @@ typedef enum corot_coupling {
    mesh; with the same measure on both, and frame level = nlevel, E is that of the plain model on
    the refined mesh. With nlevel = 0 any is the plain model of the coarse measure.
 
+   The last level may be that of ten-node tets, by corot_refinement_raise: the detail is then
+   quadratic on the same tets, and each of their points is linear in the frame of the tet above it,
+   or, of frame level nlevel, in its own. Without octasection level 0 has the same tets with four
+   nodes. With ONE_WAY the mass is then the lumped one, also for AUTO: as 1/36 of a tet's mass at a
+   corner and half of 4/27 on each of three edges make a quarter, level 0 has that of four-node tets.
+
    With MEAN and frames of level 0, E = sum_c V_c psi_coarse(Fm_c) + E_detail, where E_detail is
    quadratic in the detail F_i - Fm_c and not negative: such a body is as stable as one of the
    coarse measure alone. With NODES, E_coarse - E_linear is of third order in the strain, of either
@@ -190,8 +198,9 @@ typedef enum corot_coupling {
    with MEAN the energy is convex about the state up to a shear strain of 1.5, the largest tried,
    with one level and with two and for every frame level, like plain green; with NODES to 0.2 with
    one level and 0.06 with two, and not far beyond, the nodes of level 0 leave their surroundings,
-   and tets invert. Pressed together, either gives up at the latest where a level 0 of green alone
-   would; polar there does not.
+   and tets invert. With ten-node tets as the only level, and after one octasection, it is 1.5 with
+   MEAN, too, and with NODES 0.10 and 0.04. Pressed together, either gives up at the latest where
+   a level 0 of green alone would; polar there does not.
 
    With MEAN the matrices are those of E_fine with the frames held, on the plain model's pattern: K
    lacks what the coarse measure adds, a part of the size of its strains, as well as the turning of
@@ -204,8 +213,9 @@ typedef enum corot_coupling {
    level 0 does to the finer nodes. Not with consistent mass, nor under a pressure, which acts on a
    surface that level 0 does not have. */
 typedef struct corot_hierarchy_def {
-  const corot_refinement *refinement; /* how the model's mesh was made, by corot_mesh_refine; the
-                                         descendants of a tet of level 0 have one material */
+  const corot_refinement *refinement; /* how the model's mesh was made, by corot_mesh_refine from
+                                         one of order 1, and raised by corot_refinement_raise or
+                                         not; the descendants of a tet of level 0 have one material */
   const char *coarse_strain;          /* any */
   int frame_level;                    /* 0 to nlevel; 0: one frame for a tet of level 0; for warp,
                                          whose frames depend on a tet's edges, 0 only */

@@ -8,8 +8,9 @@
 
 typedef struct choice {
   const char *coarse, *fine;
-  int nlevel, frame_level;
+  int nlevel, frame_level; /* refined so many times */
   bool conservative;
+  bool raised; /* then given ten nodes a tet, which is one more level */
 } choice;
 
 typedef struct solid {
@@ -51,13 +52,23 @@ static inline corot_model_def definition(const choice *c, corot_coupling couplin
   return def;
 }
 
+/* The mesh refined as often as the choice says, and raised if it says so. */
+static inline void refine_to(const choice *c, const corot_mesh *coarse, corot_mesh **mesh,
+                             corot_refinement **refinement) {
+  assert_ok(corot_mesh_refine(coarse, c->nlevel, COROT_DIAGONAL_CONSISTENT, mesh, refinement));
+  if (!c->raised) return;
+  corot_mesh *linear = *mesh;
+  assert_ok(corot_mesh_change_order(linear, 2, mesh));
+  assert_ok(corot_refinement_raise(*refinement, *mesh));
+  corot_mesh_destroy(linear);
+}
+
 static inline solid make_solid(const choice *c, corot_coupling coupling,
                                const corot_material *material, bool held) {
   solid s = {.coarse = linear_box(1, 1, 2)};
   corot_hierarchy_def hierarchy;
   corot_model_def def = definition(c, coupling, material, held, &hierarchy);
-  assert_ok(
-      corot_mesh_refine(s.coarse, c->nlevel, COROT_DIAGONAL_CONSISTENT, &s.mesh, &s.refinement));
+  refine_to(c, s.coarse, &s.mesh, &s.refinement);
   def.mesh = s.mesh, hierarchy.refinement = s.refinement;
   assert_ok(corot_model_create(&def, &s.model));
   assert_ok(corot_state_create(s.model, &s.state));

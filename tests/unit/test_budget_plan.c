@@ -6,7 +6,7 @@
 static budget_plan plan_of(const char *text) {
   scenario *s = accept(text);
   budget_plan plan;
-  budget_plan_make(s, &plan);
+  budget_plan_make(s, s->order == 2 ? 2 : 1, &plan);
   scenario_destroy(s);
   return plan;
 }
@@ -34,6 +34,9 @@ static void parts_are_the_approximations_made(void **state) {
   assert_kinds("mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 1}\n" MATERIAL TIME
                "hierarchy: {coarse_strain: green}\nframes: {policy: step}\n",
                "algebraic solver, frame age, time integration, hierarchy, strain measure, space");
+  assert_kinds("mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, order: 2}\n" MATERIAL TIME
+               "hierarchy: {}\n",
+               "algebraic solver, time integration, hierarchy, strain measure, space");
 }
 
 /* Fine steps in time would take the error of such frames away with that of time. */
@@ -88,6 +91,11 @@ static void settings_make_scenarios(void **state) {
       MINIMAL "integrator: {method: ida, rtol: 1e-9}\n",
       "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 2}\n" MATERIAL TIME
       "hierarchy: {coarse_strain: green, frame_level: 1}\nframes: {policy: hold, interval: 0.1}\n",
+      "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, order: 2}\n" MATERIAL TIME
+      "hierarchy: {coarse_strain: green}\nframes: {policy: hold, interval: 0.1}\n",
+      MINIMAL "mass: lumped\n",
+      "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}, refine: 1}\n" MATERIAL TIME
+      "mass: lumped\nhierarchy: {coupling: one-way}\n",
   };
   for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
     print_message("%s", texts[i]);
@@ -160,7 +168,7 @@ static void equilibria_have_no_time(void **state) {
     scenario *s = accept(cases[i].text);
     budget_plan plan;
     char found[256] = "";
-    budget_plan_make_static(s, &plan);
+    budget_plan_make_static(s, 1, &plan);
     for (int k = 0; k < plan.npart; k++) {
       if (k) strcat(found, ", ");
       strcat(found, budget_names[plan.part[k].kind]);
@@ -198,6 +206,44 @@ static void references_are_tightened_to_an_end(void **state) {
   }
 }
 
+/* Four-node tets are judged by ten-node ones, and these by their octasections. */
+static void space_is_judged_by_what_is_better(void **state) {
+  (void)state;
+#define WITH(more) "mesh: {box: {size: [1, 1, 2], cells: [1, 1, 2]}" more "}\n" MATERIAL TIME
+  static const struct {
+    const char *text, *remedy;
+    const char *set[2][3]; /* of the next level, and of the one after it; NULL: no more */
+  } cases[] = {
+      {WITH(""), "mesh.order 2", {{"mesh.order=2"}, {"mesh.order=2", "mesh.refine=1"}}},
+      {WITH(", refine: 1"), "mesh.order 2", {{"mesh.order=2"}, {"mesh.order=2", "mesh.refine=2"}}},
+      {WITH(", order: 1") "mass: lumped\n",
+       "mesh.order 2",
+       {{"mesh.order=2", "mass=consistent"}, {"mesh.order=2", "mesh.refine=1", "mass=consistent"}}},
+      {WITH(", order: 2") "mass: lumped\n",
+       "mesh.refine one more",
+       {{"mesh.refine=1"}, {"mesh.refine=2"}}},
+      {WITH(", order: 2, refine: 1"),
+       "mesh.refine one more",
+       {{"mesh.refine=2"}, {"mesh.refine=3"}}},
+  };
+#undef WITH
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    scenario *s = accept(cases[i].text);
+    budget_plan plan;
+    budget_plan_make(s, s->order == 2 ? 2 : 1, &plan);
+    assert_string_equal(budget_remedy(&plan, BUDGET_SPACE, false), cases[i].remedy);
+    for (int level = 1; level <= 2; level++) {
+      const char *const *expected = cases[i].set[level - 1];
+      budget_part part = {0};
+      budget_plan_finer(&plan, s, level, &part);
+      for (int k = 0; k < part.nset; k++) assert_string_equal(part.set[k], expected[k]);
+      assert_true(part.nset == 3 || !expected[part.nset]);
+      assert_part_accepted(cases[i].text, &part);
+    }
+    scenario_destroy(s);
+  }
+}
+
 /* What takes hours is not done unasked. */
 static void dear_levels_are_left_out(void **state) {
   (void)state;
@@ -216,6 +262,7 @@ int main(void) {
       cmocka_unit_test(no_error_of_time_is_three_digits_less),
       cmocka_unit_test(equilibria_have_no_time),
       cmocka_unit_test(references_are_tightened_to_an_end),
+      cmocka_unit_test(space_is_judged_by_what_is_better),
       cmocka_unit_test(dear_levels_are_left_out),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,8 +74,8 @@ static void a_model_and_its_state(void **state) {
 /* A hierarchy has models of its own, two or three, and so has its state. */
 static void a_hierarchy(void **state) {
   corot_coupling coupling = coupling_of(state);
-  for (int level = 0; level < 3; level++) {
-    const choice c = {"green", "polar", 2, level, true};
+  for (int k = 0; k < 6; k++) { /* the second level is an octasection, or that of order 2 */
+    const choice c = {"green", "polar", 2 - k / 3, k % 3, true, .raised = k / 3};
     solid s = make_solid(&c, coupling, &soft, true);
     corot_hierarchy_def hierarchy;
     corot_model_def def = definition(&c, coupling, &soft, true, &hierarchy);

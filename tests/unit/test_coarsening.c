@@ -19,10 +19,11 @@ static make_coarsening *maker(corot_coupling coupling) {
   return coupling == COROT_COUPLING_MEAN ? corot_coarsening_by_means : corot_coarsening_by_values;
 }
 
-static view make_view(int level, corot_coupling coupling) {
+/* `raised`: the second level is that of ten-node tets. */
+static view make_view(int level, corot_coupling coupling, bool raised) {
   view v = {0};
   corot_mesh *box = crooked_box(2, 1, 1);
-  assert_ok(corot_mesh_refine(box, 2, COROT_DIAGONAL_CONSISTENT, &v.mesh, &v.refinement));
+  refine_to(&(choice){.nlevel = raised ? 1 : 2, .raised = raised}, box, &v.mesh, &v.refinement);
   corot_mesh_destroy(box);
   assert_ok(maker(coupling)(v.mesh, v.refinement, level, &v.c, &v.part));
   assert_int_equal(v.c.nnode, v.part->nnode);
@@ -46,10 +47,13 @@ static void fill_nodal(const view *v, uint64_t seed) {
     for (int c = 0; c < 3; c++) v->u[n][c] = noise(&seed);
 }
 
-/* G = sum of V grad over the tet with corners x and values w: V grad is the sum over the faces of
-   mean value times area vector. */
-static void add_gradient(const double *const x[4], const double *const w[4], double G[9]) {
-  static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}; /* outward */
+/* G = sum of V grad over the tet with corners x and values w, in the order of faces and of their
+   nodes: V grad is the sum over the faces of mean value times area vector. The mean is that of the
+   corners, or of the middles of the edges for a field that is quadratic on the face. */
+static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}; /* outward */
+static const int edges_of[4][3] = {{1, 5, 4}, {3, 5, 2}, {0, 4, 3}, {2, 1, 0}};
+
+static void add_gradient(const double *const x[4], const double *const w[4][3], double G[9]) {
   for (int f = 0; f < 4; f++) {
     const int *v = face[f];
     double a[3], b[3];
@@ -58,43 +62,48 @@ static void add_gradient(const double *const x[4], const double *const w[4], dou
                       a[0] * b[1] - a[1] * b[0]};
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)
-        G[3 * i + j] += (w[v[0]][i] + w[v[1]][i] + w[v[2]][i]) / 3 * area[j] / 2;
+        G[3 * i + j] += (w[f][0][i] + w[f][1][i] + w[f][2][i]) / 3 * area[j] / 2;
   }
 }
 
-static void means_are_those_of_the_descendants(void **state) {
-  (void)state;
+/* Of tet e of a mesh with the values u. */
+static void add_gradient_of(const corot_mesh *m, int e, const double (*u)[4], double G[9]) {
+  const double *x[4], *w[4][3];
+  for (int k = 0; k < 4; k++) x[k] = m->x[m->tet[e][k]];
+  for (int f = 0; f < 4; f++)
+    for (int a = 0; a < 3; a++)
+      w[f][a] = u[m->mid ? m->mid[e][edges_of[f][a]] : m->tet[e][face[f][a]]];
+  add_gradient(x, w, G);
+}
+
+static void assert_means(bool raised) {
   for (int level = 0; level < 2; level++) {
-    view v = make_view(level, COROT_COUPLING_MEAN);
+    view v = make_view(level, COROT_COUPLING_MEAN, raised);
     int below = v.mesh->ntet / v.part->ntet;
     fill_nodal(&v, 3);
     coarsen(&v);
     for (int e = 0; e < v.part->ntet; e++) {
       double found[9] = {0}, expected[9] = {0};
-      const double *x[4], *w[4];
-      for (int k = 0; k < 4; k++) {
-        int n = v.part->tet[e][k];
-        x[k] = v.part->x[n], w[k] = v.w[n];
-      }
-      add_gradient(x, w, found); /* times a volume that is minus a 27th */
-      for (int k = 0; k < 9; k++) found[k] *= -v.c.volume;
-      for (int d = below * e; d < below * (e + 1); d++) {
-        for (int k = 0; k < 4; k++) {
-          int n = v.mesh->tet[d][k];
-          x[k] = v.mesh->x[n], w[k] = v.u[n];
-        }
-        add_gradient(x, w, expected);
-      }
+      add_gradient_of(v.part, e, (const double(*)[4])v.w, found);
+      for (int k = 0; k < 9; k++) found[k] *= -v.c.volume; /* its volume is minus a 27th */
+      for (int d = below * e; d < below * (e + 1); d++)
+        add_gradient_of(v.mesh, d, (const double(*)[4])v.u, expected);
       assert_below(distance(found, expected), 1e-14); /* values and areas are of the order of one */
     }
     drop_view(&v);
   }
 }
 
+static void means_are_those_of_the_descendants(void **state) {
+  (void)state;
+  assert_means(false);
+  assert_means(true);
+}
+
 /* An affine field has its own values at the part's nodes, whichever they are. */
 static void affine_fields_are_seen_as_they_are(void **state) {
-  for (int level = 0; level < 2; level++) {
-    view v = make_view(level, coupling_of(state));
+  for (int k = 0; k < 4; k++) {
+    view v = make_view(k / 2, coupling_of(state), k % 2);
     uint64_t seed = 11;
     double A[9];
     random_gradient(&seed, 1, A);
@@ -111,8 +120,8 @@ static void affine_fields_are_seen_as_they_are(void **state) {
 
 /* g . L u = u . L' g */
 static void forces_are_transposed(void **state) {
-  for (int level = 0; level < 2; level++) {
-    view v = make_view(level, coupling_of(state));
+  for (int which = 0; which < 4; which++) {
+    view v = make_view(which / 2, coupling_of(state), which % 2);
     int n = v.c.nnode;
     double(*g)[4] = calloc(n, sizeof *g), (*f)[4] = calloc(v.mesh->nnode, sizeof *f);
     double left = 0, right = 0;
@@ -130,7 +139,7 @@ static void forces_are_transposed(void **state) {
 
 static void a_missing_middle_is_named(void **state) {
   (void)state;
-  view v = make_view(0, COROT_COUPLING_NODES);
+  view v = make_view(0, COROT_COUPLING_NODES, false);
   int *parent = v.refinement->parent[0], a = parent[0], b = parent[1];
   char words[64];
   coarsening c;

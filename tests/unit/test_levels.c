@@ -31,10 +31,22 @@ static double gradient_error(const choice *c, corot_coupling coupling, corot_fra
 static void test_force_is_the_gradient_of_the_energy(void **state) {
   corot_coupling coupling = coupling_of(state);
   const choice choices[] = {
-      {"green", "polar", 1, 0, true},  {"green", "polar", 2, 0, true},
-      {"green", "polar", 2, 1, true},  {"green", "polar", 2, 2, true},
-      {"polar", "polar", 2, 1, true},  {"hybrid", "polar", 1, 0, true},
-      {"green", "cauchy", 1, 0, true}, {"cauchy", "polar", 1, 1, true},
+      {"green", "polar", 1, 0, true},
+      {"green", "polar", 2, 0, true},
+      {"green", "polar", 2, 1, true},
+      {"green", "polar", 2, 2, true},
+      {"polar", "polar", 2, 1, true},
+      {"hybrid", "polar", 1, 0, true},
+      {"green", "cauchy", 1, 0, true},
+      {"cauchy", "polar", 1, 1, true},
+      {"green", "polar", 0, 0, true, .raised = true},
+      {"green", "polar", 0, 1, true, .raised = true},
+      {"green", "polar", 1, 0, true, .raised = true},
+      {"green", "polar", 1, 1, true, .raised = true},
+      {"green", "polar", 1, 2, true, .raised = true},
+      {"polar", "polar", 0, 0, true, .raised = true},
+      {"hybrid", "polar", 0, 0, true, .raised = true},
+      {"green", "cauchy", 0, 0, true, .raised = true},
   };
   for (size_t k = 0; k < sizeof choices / sizeof *choices; k++)
     assert_below(gradient_error(&choices[k], coupling, COROT_FRAMES_EXACT), 1e-6);
@@ -43,12 +55,16 @@ static void test_force_is_the_gradient_of_the_energy(void **state) {
 /* As in the paper: not a gradient, unless the frames are held. */
 static void test_force_without_the_turning_of_frames(void **state) {
   corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 0, false}, warp = {"green", "warp", 2, 0, false};
-  assert_above(gradient_error(&c, coupling, COROT_FRAMES_EXACT), 1e-4);
-  assert_below(gradient_error(&c, coupling, COROT_FRAMES_HELD), 1e-6);
-  assert_below(gradient_error(&warp, coupling, COROT_FRAMES_HELD), 1e-6);
-  c.conservative = true;
-  assert_below(gradient_error(&c, coupling, COROT_FRAMES_HELD), 1e-6);
+  for (int raised = 0; raised < 2; raised++) {
+    int nlevel = raised ? 0 : 2;
+    choice c = {"green", "polar", nlevel, 0, false, raised};
+    choice warp = {"green", "warp", nlevel, 0, false, raised};
+    assert_above(gradient_error(&c, coupling, COROT_FRAMES_EXACT), 1e-4);
+    assert_below(gradient_error(&c, coupling, COROT_FRAMES_HELD), 1e-6);
+    assert_below(gradient_error(&warp, coupling, COROT_FRAMES_HELD), 1e-6);
+    c.conservative = true;
+    assert_below(gradient_error(&c, coupling, COROT_FRAMES_HELD), 1e-6);
+  }
 }
 
 /* Sum of the forces and of their moments about the origin, on the displaced body; relative. */
@@ -73,9 +89,13 @@ static void resultants(const solid *s, const double *u, const double *r, double 
 
 static void test_forces_on_a_free_body_balance(void **state) {
   corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 1, true};
-  for (int k = 0; k < 2; k++) {
-    c.conservative = k == 0;
+  choice choices[] = {{"green", "polar", 2, 1, true},
+                      {"green", "polar", 0, 0, true, .raised = true},
+                      {"green", "polar", 1, 1, true, .raised = true},
+                      {"green", "polar", 1, 0, true, .raised = true}};
+  for (int k = 0; k < 8; k++) {
+    choice c = choices[k / 2];
+    c.conservative = k % 2 == 0;
     solid s = make_solid(&c, coupling, &undamped, false);
     double *u = vectors(3, s.n), *zero = u + s.n, *r = zero + s.n, force, moment;
     bend(&s, 0.6, 0.01, u);
@@ -95,8 +115,11 @@ static void test_a_turned_body_feels_turned_forces(void **state) {
   corot_coupling coupling = coupling_of(state);
   const choice choices[] = {{"green", "polar", 2, 0, true},
                             {"green", "warp", 1, 0, false},
-                            {"hybrid", "polar", 2, 1, false}};
-  for (int k = 0; k < 3; k++) {
+                            {"hybrid", "polar", 2, 1, false},
+                            {"green", "polar", 0, 0, true, .raised = true},
+                            {"green", "warp", 0, 0, false, .raised = true},
+                            {"green", "polar", 1, 1, true, .raised = true}};
+  for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) {
     solid s = make_solid(&choices[k], coupling, &undamped, false);
     double *u = vectors(5, s.n), *zero = u + s.n, *r = zero + s.n, *Qu = r + s.n, *Qr = Qu + s.n;
     double axis[3] = {1, -2, 0.5}, Q[9];
@@ -148,8 +171,12 @@ static void test_coarse_motion_feels_coarse_forces(void **state) {
   const choice choices[] = {{"green", "polar", 2, 0, true},
                             {"polar", "polar", 1, 1, true},
                             {"hybrid", "warp", 2, 0, false},
-                            {"green", "cauchy", 1, 0, true}};
-  for (int k = 0; k < 4; k++) {
+                            {"green", "cauchy", 1, 0, true},
+                            {"green", "polar", 0, 0, true, .raised = true},
+                            {"hybrid", "warp", 0, 0, false, .raised = true},
+                            {"green", "polar", 1, 1, true, .raised = true},
+                            {"green", "polar", 1, 0, true, .raised = true}};
+  for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) {
     solid s = make_solid(&choices[k], coupling, &soft, false);
     solid zero_level =
         make_solid(&(choice){choices[k].coarse, "polar", 0, 0, true}, coupling, &soft, false);
@@ -179,11 +206,9 @@ static void test_coarse_motion_feels_coarse_forces(void **state) {
   }
 }
 
-/* One strain everywhere: no force on a node inside, coarse or fine. */
-static void test_affine_motion_has_no_force_inside(void **state) {
-  corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 0, true};
-  solid s = make_solid(&c, coupling, &undamped, false);
+static void assert_affine_motion_has_no_force_inside(const choice *c, corot_coupling coupling,
+                                                     int least) {
+  solid s = make_solid(c, coupling, &undamped, false);
   double *u = vectors(3, s.n), *zero = u + s.n, *r = zero + s.n, F[9];
   uint64_t seed = 9;
   random_gradient(&seed, 0.2, F);
@@ -194,24 +219,40 @@ static void test_affine_motion_has_no_force_inside(void **state) {
   assert_ok(corot_mesh_boundary(s.mesh, &ntri, &tri));
   for (int k = 0; k < ntri; k++)
     for (int a = 0; a < 3; a++) surface[tri[k][a]] = 1;
+  int(*mid)[6] = NULL;
+  if (c->raised) assert_ok(corot_mesh_face_nodes(s.mesh, ntri, (const int(*)[3])tri, &mid));
+  for (int k = 0; mid && k < ntri; k++)
+    for (int a = 3; a < 6; a++) surface[mid[k][a]] = 1;
   double scale = norm_max(s.n, r);
   for (int n = 0; n < s.mesh->nnode; n++) {
     if (surface[n]) continue;
     inside++;
     assert_below(norm_max(3, r + 3 * n), 1e-12 * scale);
   }
-  assert_true(inside > 20);
-  free(surface), free(tri), free(u);
+  assert_true(inside > least);
+  free(surface), free(tri), free(mid), free(u);
   drop_solid(&s);
+}
+
+/* One strain everywhere: no force on a node inside, coarse or fine. */
+static void test_affine_motion_has_no_force_inside(void **state) {
+  corot_coupling coupling = coupling_of(state);
+  assert_affine_motion_has_no_force_inside(&(choice){"green", "polar", 2, 0, true}, coupling, 20);
+  for (int nlevel = 0; nlevel < 2; nlevel++)
+    assert_affine_motion_has_no_force_inside(
+        &(choice){"green", "polar", nlevel, 0, true, .raised = true}, coupling, nlevel ? 20 : 2);
 }
 
 static void test_one_measure_in_its_own_frames_is_the_plain_model(void **state) {
   corot_coupling coupling = coupling_of(state);
-  const char *const strains[] = {"cauchy", "polar"};
-  for (int k = 0; k < 2; k++) {
-    choice c = {strains[k], strains[k], 1, 1, true};
-    solid s = make_solid(&c, coupling, &soft, true);
-    body b = plain_body(&s, strains[k], &soft, true);
+  const choice choices[] = {{"cauchy", "cauchy", 1, 1, true},
+                            {"polar", "polar", 1, 1, true},
+                            {"cauchy", "cauchy", 0, 1, true, .raised = true},
+                            {"polar", "polar", 0, 1, true, .raised = true},
+                            {"polar", "polar", 1, 2, true, .raised = true}};
+  for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) {
+    solid s = make_solid(&choices[k], coupling, &soft, true);
+    body b = plain_body(&s, choices[k].fine, &soft, true);
     double *u = vectors(4, s.n), *v = u + s.n, *r = v + s.n, *plain = r + s.n;
     bend(&s, 0.6, 0.01, u);
     fill_noise(s.n, 3, 1, v);
@@ -227,11 +268,9 @@ static void test_one_measure_in_its_own_frames_is_the_plain_model(void **state) 
 
 /* --- Forces on supports, statics, inversion -------------------------------------------------- */
 
-static void test_force_on_all_nodes(void **state) {
-  corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 1, true};
-  solid held = make_solid(&c, coupling, &undamped, true),
-        free_one = make_solid(&c, coupling, &undamped, false);
+static void assert_force_on_all_nodes(const choice *c, corot_coupling coupling) {
+  solid held = make_solid(c, coupling, &undamped, true),
+        free_one = make_solid(c, coupling, &undamped, false);
   int n = free_one.n, nnode = held.mesh->nnode;
   double *u = vectors(4, n), *all = u + n, *zero = all + n, *r = zero + n;
   double(*f)[3] = calloc(nnode, sizeof *f);
@@ -250,6 +289,12 @@ static void test_force_on_all_nodes(void **state) {
   drop_solid(&held);
 }
 
+static void test_force_on_all_nodes(void **state) {
+  corot_coupling coupling = coupling_of(state);
+  assert_force_on_all_nodes(&(choice){"green", "polar", 2, 1, true}, coupling);
+  assert_force_on_all_nodes(&(choice){"green", "polar", 1, 1, true, .raised = true}, coupling);
+}
+
 static void test_standing_still_has_no_viscous_force(void **state) {
   corot_coupling coupling = coupling_of(state);
   choice c = {"green", "polar", 1, 0, true};
@@ -265,23 +310,34 @@ static void test_standing_still_has_no_viscous_force(void **state) {
   drop_solid(&s);
 }
 
-static void test_inverted_tets_are_named(void **state) {
-  corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 0, true};
-  solid s = make_solid(&c, coupling, &soft, false);
+static bool has_node(const corot_mesh *mesh, int tet, int node) {
+  bool found = false;
+  for (int k = 0; k < 4; k++) found |= mesh->tet[tet][k] == node;
+  for (int k = 0; mesh->mid && k < 6; k++) found |= mesh->mid[tet][k] == node;
+  return found;
+}
+
+static void assert_inverted_tets_are_named(const choice *c, corot_coupling coupling) {
+  solid s = make_solid(c, coupling, &soft, false);
   double *u = vectors(3, s.n), *zero = u + s.n, *r = zero + s.n;
   u[0] = u[1] = u[2] = 3; /* a corner of the body, and its tets, beyond the opposite one */
   corot_hierarchy_apply(s.refinement, (double(*)[3])u);
   assert_fails(corot_residual(s.model, s.state, 0, u, zero, r), COROT_RETRY, "of level 0");
-  assert_int_equal(corot_state_inverted(s.state) % 64, 0);
+  assert_int_equal(corot_state_inverted(s.state) % (s.mesh->ntet / s.coarse->ntet), 0);
   memset(u, 0, s.n * sizeof *u);
   int last = s.mesh->nnode - 1;
   u[3 * last] = 3;
   assert_fails(corot_residual(s.model, s.state, 0, u, zero, r), COROT_RETRY, "is inverted");
-  const int *tet = s.mesh->tet[corot_state_inverted(s.state)];
-  assert_true(tet[0] == last || tet[1] == last || tet[2] == last || tet[3] == last);
+  assert_true(has_node(s.mesh, corot_state_inverted(s.state), last));
   free(u);
   drop_solid(&s);
+}
+
+static void test_inverted_tets_are_named(void **state) {
+  corot_coupling coupling = coupling_of(state);
+  assert_inverted_tets_are_named(&(choice){"green", "polar", 2, 0, true}, coupling);
+  assert_inverted_tets_are_named(&(choice){"green", "polar", 0, 0, true, .raised = true}, coupling);
+  assert_inverted_tets_are_named(&(choice){"green", "polar", 1, 0, true, .raised = true}, coupling);
 }
 
 /* --- Refusals -------------------------------------------------------------------------------- */
@@ -353,13 +409,17 @@ static corot_status make_and_drop(void *context) {
 
 static void test_failed_allocations(void **state) {
   corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 1, true};
-  solid s = make_solid(&c, coupling, &soft, true);
-  corot_hierarchy_def hierarchy;
-  corot_model_def def = definition(&c, coupling, &soft, true, &hierarchy);
-  def.mesh = s.mesh, hierarchy.refinement = s.refinement;
-  assert_true(assert_survives_failed_allocations(make_and_drop, &def) > 60);
-  drop_solid(&s);
+  const choice choices[] = {{"green", "polar", 2, 1, true},
+                            {"green", "polar", 1, 1, true, .raised = true},
+                            {"green", "polar", 0, 1, true, .raised = true}};
+  for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) {
+    solid s = make_solid(&choices[k], coupling, &soft, true);
+    corot_hierarchy_def hierarchy;
+    corot_model_def def = definition(&choices[k], coupling, &soft, true, &hierarchy);
+    def.mesh = s.mesh, hierarchy.refinement = s.refinement;
+    assert_true(assert_survives_failed_allocations(make_and_drop, &def) > 60);
+    drop_solid(&s);
+  }
 }
 
 /* The corners of one tet are moved so that it turns inside out, while each of its eight

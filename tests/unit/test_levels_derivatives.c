@@ -19,10 +19,20 @@ static void difference(const solid *s, const double *u, const double *v, const d
 static void test_product_with_the_derivative(void **state) {
   corot_coupling coupling = coupling_of(state);
   const choice choices[] = {
-      {"green", "polar", 2, 0, true},  {"green", "polar", 2, 1, true},
-      {"polar", "polar", 1, 1, true},  {"hybrid", "polar", 1, 0, false},
-      {"green", "warp", 2, 0, false},  {"warp", "warp", 1, 0, false},
+      {"green", "polar", 2, 0, true},
+      {"green", "polar", 2, 1, true},
+      {"polar", "polar", 1, 1, true},
+      {"hybrid", "polar", 1, 0, false},
+      {"green", "warp", 2, 0, false},
+      {"warp", "warp", 1, 0, false},
       {"green", "cauchy", 1, 0, true},
+      {"green", "polar", 0, 0, true, .raised = true},
+      {"green", "polar", 0, 1, true, .raised = true},
+      {"green", "polar", 1, 0, true, .raised = true},
+      {"green", "polar", 1, 1, true, .raised = true},
+      {"hybrid", "polar", 0, 0, false, .raised = true},
+      {"green", "warp", 0, 0, false, .raised = true},
+      {"green", "cauchy", 0, 0, true, .raised = true},
   };
   for (size_t k = 0; k < sizeof choices / sizeof *choices; k++)
     for (int held = 0; held < 2; held++) {
@@ -53,8 +63,12 @@ static void test_matrices(void **state) {
   const choice choices[] = {{"green", "polar", 1, 0, true},
                             {"green", "polar", 2, 1, true},
                             {"polar", "warp", 1, 0, false},
-                            {"green", "cauchy", 2, 0, true}};
-  for (int k = 0; k < 4; k++) {
+                            {"green", "cauchy", 2, 0, true},
+                            {"green", "polar", 0, 0, true, .raised = true},
+                            {"green", "polar", 1, 1, true, .raised = true},
+                            {"green", "polar", 1, 2, true, .raised = true},
+                            {"green", "warp", 0, 0, false, .raised = true}};
+  for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) {
     choice other = choices[k];
     if (coupling == COROT_COUPLING_MEAN) other.coarse = other.fine;
     solid s = make_solid(&choices[k], coupling, &soft, true);
@@ -87,10 +101,8 @@ static void test_matrices(void **state) {
 
 /* A model says that its matrices depend on the frames alone; then, and only then, held frames give
    the same ones wherever the body is. */
-static void test_matrices_by_frames(void **state) {
-  corot_coupling coupling = coupling_of(state);
-  const choice c = {"green", "polar", 2, 0, true};
-  solid s = make_solid(&c, coupling, &soft, true);
+static void assert_matrices_by_frames(const choice *c, corot_coupling coupling) {
+  solid s = make_solid(c, coupling, &soft, true);
   double *u = vectors(2, s.n), *zero = u + s.n;
   int nblock = corot_model_nblock(s.model);
   double(*K)[9] = calloc(2 * nblock, sizeof *K), (*bent)[9] = K + nblock;
@@ -105,11 +117,15 @@ static void test_matrices_by_frames(void **state) {
   drop_solid(&s);
 }
 
-/* Under exact frames, what is left out is of the size of the strain times the difference. */
-static void test_exact_tangent_at_rest(void **state) {
+static void test_matrices_by_frames(void **state) {
   corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 0, true};
-  solid s = make_solid(&c, coupling, &undamped, true);
+  assert_matrices_by_frames(&(choice){"green", "polar", 2, 0, true}, coupling);
+  assert_matrices_by_frames(&(choice){"green", "polar", 0, 0, true, .raised = true}, coupling);
+}
+
+/* Under exact frames, what is left out is of the size of the strain times the difference. */
+static void assert_exact_tangent_at_rest(const choice *c, corot_coupling coupling) {
+  solid s = make_solid(c, coupling, &undamped, true);
   double *u = vectors(5, s.n), *zero = u + s.n, *du = zero + s.n, *y = du + s.n, *jv = y + s.n;
   double(*K)[9] = calloc(corot_model_nblock(s.model), sizeof *K);
   fill_noise(s.n, 4, 1, du);
@@ -120,6 +136,12 @@ static void test_exact_tangent_at_rest(void **state) {
   assert_near(s.n, y, jv, 1e-12);
   free(K), free(u);
   drop_solid(&s);
+}
+
+static void test_exact_tangent_at_rest(void **state) {
+  corot_coupling coupling = coupling_of(state);
+  assert_exact_tangent_at_rest(&(choice){"green", "polar", 2, 0, true}, coupling);
+  assert_exact_tangent_at_rest(&(choice){"green", "polar", 0, 0, true, .raised = true}, coupling);
 }
 
 /* --- Frames ---------------------------------------------------------------------------------- */
@@ -142,9 +164,31 @@ static void test_frames_are_handed_down(void **state) {
   }
 }
 
-static void test_update_of_held_frames(void **state) {
+/* At all four points of a ten-node tet stands the frame of the tet above it; on the level of these
+   tets each point has its own. */
+static void test_frames_are_handed_down_to_points(void **state) {
   corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 1, true};
+  for (int level = 0; level < 3; level++) {
+    choice c = {"green", "polar", 1, level, true, .raised = true};
+    solid s = make_solid(&c, coupling, &undamped, true);
+    int ntet = s.mesh->ntet, below = level == 0 ? 8 : 1;
+    double *u = vectors(1, s.n), (*R)[4][9] = calloc(ntet, sizeof *R);
+    corot_element_fields fields = {.frame_at = R};
+    bend(&s, 0.6, 0.01, u);
+    assert_ok(corot_elements(s.model, s.state, 0, u, &fields));
+    for (int e = 0; e < ntet; e++)
+      for (int k = 0; k < 4; k++) {
+        double off = distance(R[e][k], R[e / below * below][0]);
+        assert_true(level < 2 ? off == 0 : k == 0 || off > 1e-3);
+      }
+    assert_true(distance(R[0][0], R[8][0]) > 1e-3);
+    free(R), free(u);
+    drop_solid(&s);
+  }
+}
+
+static void assert_update_of_held_frames(const choice *of, corot_coupling coupling, double angle) {
+  choice c = *of;
   solid s = make_solid(&c, coupling, &undamped, true);
   double *u = vectors(5, s.n), *zero = u + s.n, *r = zero + s.n, *exact = r + s.n;
   bend(&s, 0.6, 0.01, u);
@@ -158,7 +202,7 @@ static void test_update_of_held_frames(void **state) {
   assert_close(change.energy, after - before, 1e-12, 0);
   assert_close(drift.energy, change.energy, 0, 0);
   assert_close(drift.angle_max, change.angle_max, 0, 0);
-  assert_close(change.angle_max, 0.95, 0, 0.1); /* 0.66 at the top, and half the shear there */
+  assert_close(change.angle_max, angle, 0, 0.1);
   assert_int_equal(change.angle_tet % 8, 0);
   assert_ok(corot_frames_drift(s.model, s.state, 0, u, &drift));
   assert_below(drift.angle_max, 1e-15);
@@ -178,11 +222,18 @@ static void test_update_of_held_frames(void **state) {
   drop_solid(&s);
 }
 
-/* A body that turns as a whole, seen 0.1 s later. */
-static void test_extrapolated_frames(void **state) {
+/* The angle is 0.66 at the top, and half the shear there, as far as the tets of the frame level are
+   there. */
+static void test_update_of_held_frames(void **state) {
   corot_coupling coupling = coupling_of(state);
-  choice c = {"green", "polar", 2, 1, true};
-  solid s = make_solid(&c, coupling, &undamped, false);
+  assert_update_of_held_frames(&(choice){"green", "polar", 2, 1, true}, coupling, 0.95);
+  assert_update_of_held_frames(&(choice){"green", "polar", 1, 0, true, .raised = true}, coupling,
+                               0.8);
+}
+
+/* A body that turns as a whole, seen 0.1 s later. */
+static void assert_extrapolated_frames(const choice *c, corot_coupling coupling) {
+  solid s = make_solid(c, coupling, &undamped, false);
   double *u = vectors(4, s.n), *v = u + s.n, *zero = v + s.n, *r = zero + s.n;
   double axis[3] = {0, 0, 1}, Q[9], spin;
   rotation(axis, 0.2, Q);
@@ -208,6 +259,12 @@ static void test_extrapolated_frames(void **state) {
   drop_solid(&s);
 }
 
+static void test_extrapolated_frames(void **state) {
+  corot_coupling coupling = coupling_of(state);
+  assert_extrapolated_frames(&(choice){"green", "polar", 2, 1, true}, coupling);
+  assert_extrapolated_frames(&(choice){"green", "polar", 0, 0, true, .raised = true}, coupling);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       each_coupling_unit_test(test_product_with_the_derivative),
@@ -215,6 +272,7 @@ int main(void) {
       each_coupling_unit_test(test_matrices_by_frames),
       coupled_unit_test(test_exact_tangent_at_rest),
       each_coupling_unit_test(test_frames_are_handed_down),
+      each_coupling_unit_test(test_frames_are_handed_down_to_points),
       coupled_unit_test(test_update_of_held_frames),
       each_coupling_unit_test(test_extrapolated_frames),
   };

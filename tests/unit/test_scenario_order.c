@@ -97,7 +97,9 @@ static void order_2_is_a_level(void **state) {
   } c[] = {
       {BOX("order: 2") "linear_solver: {preconditioner: multigrid}\n", 1},
       {BOX("order: 2, refine: 1") "linear_solver: {preconditioner: hierarchical}\n", 2},
-      {READ("two_2.msh41.msh", ", refine: 1") "linear_solver: {preconditioner: multigrid}\n", 1},
+      {READ("two_2.msh41.msh", "") "linear_solver: {preconditioner: multigrid}\n", 1},
+      {READ("two_2.msh41.msh", ", order: 2") "linear_solver: {preconditioner: hierarchical}\n", 1},
+      {READ("two_2.msh41.msh", ", refine: 1") "linear_solver: {preconditioner: multigrid}\n", 2},
   };
   for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
     corot_refinement *r = NULL;
@@ -111,6 +113,36 @@ static void order_2_is_a_level(void **state) {
   }
 }
 
+/* It is the last level of a hierarchy, too. */
+static void order_2_is_the_finest_level_of_a_hierarchy(void **state) {
+  (void)state;
+  static const struct {
+    const char *text, *strain;
+    corot_mass mass;
+  } c[] = {
+      {BOX("order: 2") "hierarchy: {}\n", "green+polar", COROT_MASS_CONSISTENT},
+      {BOX("order: 2") "hierarchy: {frame_level: 1}\n", "green+polar", COROT_MASS_CONSISTENT},
+      {BOX("order: 2") "strain: warp\nhierarchy: {coarse_strain: hybrid, force: paper}\n",
+       "hybrid+warp", COROT_MASS_CONSISTENT},
+      {BOX("order: 2, refine: 1") "hierarchy: {coupling: nodes, frame_level: 2}\n", "green+polar",
+       COROT_MASS_CONSISTENT},
+      {BOX("order: 2") "hierarchy: {coupling: one-way}\n", "green+polar", COROT_MASS_LUMPED},
+      {READ("two.msh41.msh", ", order: 2") "hierarchy: {}\n", "green+polar", COROT_MASS_CONSISTENT},
+      {READ("two_2.msh41.msh", ", order: 1") "hierarchy: {}\n", "green", COROT_MASS_LUMPED},
+  };
+  for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+    scenario *s = accept(c[i].text);
+    corot_mesh *mesh = NULL;
+    corot_model *model = NULL;
+    assert_ok(scenario_build(s, &mesh, NULL, &model));
+    assert_string_equal(corot_model_strain(model), c[i].strain);
+    assert_int_equal(corot_model_mass_kind(model), c[i].mass);
+    corot_model_destroy(model);
+    corot_mesh_destroy(mesh);
+    scenario_destroy(s);
+  }
+}
+
 static void refusals(void **state) {
   (void)state;
   static const refusal read[] = {
@@ -120,15 +152,22 @@ static void refusals(void **state) {
       {BOX("order: 1.5"), "1:70: mesh.order: "},
       {BOX("order: 1") "linear_solver: {preconditioner: multigrid}\n",
        "4:33: linear_solver.preconditioner: multigrid needs mesh.refine"},
+      {BOX("order: 2") "hierarchy: {frame_level: 2}\n",
+       "4:26: hierarchy.frame_level: frame level 2, where the levels are 0 to 1"},
+      {BOX("order: 2") "mass: consistent\nhierarchy: {coupling: one-way}\n",
+       "4:7: mass: a consistent mass would couple the finer nodes of a one-way hierarchy"},
+      {BOX("order: 2") "dilatation: element\nhierarchy: {}\n",
+       "4:13: dilatation.name: averages of the dilatation are not provided for in a hierarchy"},
   };
   for (size_t i = 0; i < sizeof read / sizeof *read; i++) refuse(read[i].text, read[i].message);
   static const refusal built[] = {
-      {BOX("order: 2, refine: 1") "hierarchy: {}\n",
-       "1:70: mesh.order: a hierarchy of ten-node tets is not provided for"},
       {READ("two_2.msh41.msh", ", refine: 1") "hierarchy: {}\n",
-       "hierarchy: a hierarchy of ten-node tets is not provided for: mesh.order: 1 makes them"},
-      {READ("two_2.msh41.msh", ", order: 2") "linear_solver: {preconditioner: multigrid}\n",
-       "linear_solver.preconditioner: multigrid needs mesh.refine: the file's tets have ten nodes"},
+       "hierarchy: level 0 has to be of four-node tets, and the file's have ten nodes already"},
+      {READ("two_2.msh41.msh", ", order: 2") "hierarchy: {}\n",
+       "hierarchy: level 0 has to be of four-node tets, and the file's have ten nodes already: "
+       "mesh.order: 1"},
+      {READ("two.msh41.msh", "") "linear_solver: {preconditioner: multigrid}\n",
+       "4:33: linear_solver.preconditioner: multigrid needs mesh.refine"},
       {BOX("order: 2") "groups: {a: {plane: {axis: z, at: 0.5}}}",
        "4:10: groups.a: group 'a': no corner of a tet is there"},
       {BOX("order: 2") "probes: {a: {node: 45}}", "4:20: probes.a.node: the mesh has 45 nodes"},
@@ -173,6 +212,7 @@ int main(void) {
       cmocka_unit_test(curved_files_stay_curved),
       cmocka_unit_test(groups_know_nodes_on_edges),
       cmocka_unit_test(order_2_is_a_level),
+      cmocka_unit_test(order_2_is_the_finest_level_of_a_hierarchy),
       cmocka_unit_test(refusals),
       cmocka_unit_test(the_default_is_not_resolved),
       cmocka_unit_test(failed_allocations),

@@ -133,8 +133,10 @@ static void test_hierarchical(void **state) {
   const choice choices[] = {{"green", "polar", 2, 0, true},
                             {"hybrid", "polar", 1, 1, true},
                             {"green", "warp", 2, 0, false},
-                            {"polar", "cauchy", 1, 0, true}};
-  for (int k = 0; k < 4; k++) {
+                            {"polar", "cauchy", 1, 0, true},
+                            {"green", "polar", 0, 0, true, .raised = true},
+                            {"green", "polar", 1, 0, true, .raised = true}};
+  for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) {
     solid s = make_solid(&choices[k], coupling_of(state), &soft, true);
     compare_widths(choices[k].fine, &s, false);
     drop_solid(&s);

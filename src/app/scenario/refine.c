@@ -40,6 +40,16 @@ corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
   return COROT_OK;
 }
 
+corot_status refine_by_levels(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
+                              corot_refinement **refinement) {
+  corot_mesh *coarse = NULL;
+  if ((*mesh)->mid) COROT_TRY(corot_mesh_copy(*mesh, &coarse));
+  corot_status status = refine_mesh(nlevel, diagonal, mesh, refinement);
+  if (status == COROT_OK && coarse) status = corot_refinement_lower(*refinement, coarse);
+  corot_mesh_destroy(coarse);
+  return status;
+}
+
 static corot_status check_room(const corot_mesh *mesh, int order, double memory) {
   double bytes = mesh->ntet * bytes_per_tet[2];
   if (order != 2 || mesh->mid || bytes <= memory) return COROT_OK;

@@ -9,6 +9,10 @@
 corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
                          corot_refinement **refinement);
 
+/* The same, where the corners of ten-node tets are a level below. */
+corot_status refine_by_levels(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
+                              corot_refinement **refinement);
+
 /* Replaces the mesh by its copy of order 1 or 2. `refinement` (or NULL) of the mesh gets the level
    that is new at order 2. COROT_EINVAL: as corot_mesh_change_order, or too little memory. */
 corot_status change_order(int order, corot_mesh **mesh, corot_refinement *refinement);

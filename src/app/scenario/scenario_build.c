@@ -39,11 +39,12 @@ static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *me
   return COROT_OK;
 }
 
+/* Level 0 has four-node tets, and order 2 is the last level. */
 static corot_status check_hierarchy(const scenario *s, const corot_mesh *mesh) {
-  if (!s->model.hierarchy || (s->order != 2 && !mesh->mid)) return COROT_OK;
-  return config_fail(place(s, s->order == 2 ? "mesh.order" : "hierarchy"),
-                     "a hierarchy of ten-node tets is not provided for%s",
-                     s->order == 2 ? "" : ": mesh.order: 1 makes them four-node ones");
+  if (!s->model.hierarchy || !mesh->mid || s->order == 1) return COROT_OK;
+  return config_fail(place(s, "hierarchy"),
+                     "level 0 has to be of four-node tets, and the file's have ten nodes already: "
+                     "mesh.order: 1 makes them four-node ones");
 }
 
 /* *refinement, if it is not NULL, gets the level that order 2 adds. */
@@ -54,17 +55,18 @@ static corot_status set_order(const scenario *s, corot_mesh **mesh, corot_refine
   return config_fail(place(s, "mesh.order"), "%s", corot_error());
 }
 
+/* A file's four-node tets may be all that there is. */
 static corot_status check_levels(const scenario *s, const corot_refinement *refinement) {
   if (!scenario_solves_by_levels(s) || refinement->nlevel > 0) return COROT_OK;
-  return config_fail(place(s, "linear_solver.preconditioner"),
-                     "%s needs mesh.refine: the file's tets have ten nodes already",
+  return config_fail(place(s, "linear_solver.preconditioner"), "%s needs mesh.refine",
                      s->integrator.linear.preconditioner);
 }
 
 static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
   bool needed = s->model.hierarchy || scenario_solves_by_levels(s);
   if (s->refine == 0 && !needed) return COROT_OK;
-  corot_status status = refine_mesh(s->refine, s->diagonal, mesh, needed ? refinement : NULL);
+  corot_status status = needed ? refine_by_levels(s->refine, s->diagonal, mesh, refinement)
+                               : refine_mesh(s->refine, s->diagonal, mesh, NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
 }

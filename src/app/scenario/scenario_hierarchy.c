@@ -1,6 +1,8 @@
 /* A strain measure of its own for the unrefined mesh. */
 #include "scenario_parts.h"
 
+int scenario_levels(const scenario *s) { return s->refine + (s->order == 2); }
+
 void scenario_read_hierarchy(scenario *s) {
   config_node *node = config_find(s->source->root, "hierarchy");
   if (!node) return;

@@ -132,7 +132,8 @@ static corot_status read_integrator(scenario *s) {
   COROT_TRY(read_stages(node, &def));
   COROT_TRY(read_constant_step(node, &def));
   s->integrator = def;
-  if (s->refine == 0 && s->order != 2 && scenario_solves_by_levels(s))
+  bool by_file = s->mesh_file && s->order == 0; /* which may be of ten-node tets */
+  if (s->refine == 0 && s->order != 2 && !by_file && scenario_solves_by_levels(s))
     return config_fail(config_find(root, "linear_solver.preconditioner"), "%s needs mesh.refine",
                        def.linear.preconditioner);
   return COROT_OK;

@@ -21,6 +21,9 @@ corot_status scenario_read_method(scenario *s);
 /* Whether the linear solver may have to know the levels of mesh.refine. */
 bool scenario_solves_by_levels(const scenario *s);
 
+/* The levels above the mesh as it is given: of mesh.refine, and of mesh.order: 2 one more. */
+int scenario_levels(const scenario *s);
+
 /* hierarchy */
 void scenario_read_hierarchy(scenario *s);
 

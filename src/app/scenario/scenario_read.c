@@ -223,7 +223,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(read_time(s));
   COROT_TRY(scenario_read_method(s));
   scenario_read_hierarchy(s);
-  COROT_TRY(scenario_told(s, NULL, corot_definition_check(&s->model, s->refine)));
+  COROT_TRY(scenario_told(s, NULL, corot_definition_check(&s->model, scenario_levels(s))));
   COROT_TRY(scenario_read_statics(s));
   COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));

@@ -163,16 +163,22 @@ static void find_lowest(const corot_mesh *mesh, int together, int *lowest) {
 
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
                                int together, int with_rest_basis, element_set *out) {
+  return corot_tets_create_ordered(mesh, mesh, nmaterial, material, together, with_rest_basis, out);
+}
+
+corot_status corot_tets_create_ordered(const corot_mesh *mesh, const corot_mesh *order_of,
+                                       int nmaterial, const int *material, int together,
+                                       int with_rest_basis, element_set *out) {
   element_set e = {.kind = &element_kinds[mesh->mid ? TET10 : TET4]};
   if (mesh->ntet > INT_MAX / (e.kind->nnode * 3) - W * nmaterial) /* slots in the force buffer */
     return corot_fail(COROT_EINVAL, "%d tets exceed 32-bit counts", mesh->ntet);
-  int ntet = mesh->ntet, nkey = mesh->nnode > nmaterial ? mesh->nnode : nmaterial;
+  int ntet = mesh->ntet, nkey = order_of->nnode > nmaterial ? order_of->nnode : nmaterial;
   int *lowest = calloc(ntet, sizeof *lowest), *count = malloc((nkey + 1) * sizeof *count);
   int *by_node = malloc(ntet * sizeof *by_node), *order = malloc(ntet * sizeof *order);
   if (!lowest || !count || !by_node || !order) goto no_memory;
 
-  find_lowest(mesh, together, lowest);
-  sort_tets(mesh, lowest, mesh->nnode, NULL, count, by_node);
+  find_lowest(order_of, together, lowest);
+  sort_tets(mesh, lowest, order_of->nnode, NULL, count, by_node);
   sort_tets(mesh, material, nmaterial, by_node, count, order);
 
   /* blocks: W tets in order, a new one where the material changes */

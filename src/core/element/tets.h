@@ -92,6 +92,12 @@ COROT_INLINE void gather_node(point_lanes p, int a, const double (*x)[4], vd out
    block has tets of two such groups. */
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
                                int together, int with_rest_basis, element_set *out);
+
+/* The same, where the tets stand in the order that those of another mesh, of as many, would have.
+ */
+corot_status corot_tets_create_ordered(const corot_mesh *mesh, const corot_mesh *order_of,
+                                       int nmaterial, const int *material, int together,
+                                       int with_rest_basis, element_set *out);
 void corot_tets_clear(element_set *e);
 
 /* The nodes of a tet of the mesh by their roles: its corners ascending, then, if it has any, the

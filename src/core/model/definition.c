@@ -81,8 +81,9 @@ static corot_status check_finest(const corot_model_def *def) {
                          "level 0",
                          h->frame_level);
   if (def->dilatation != COROT_DILATATION_LOCAL)
-    return corot_fail_at("model", 0, "dilatation",
-                         "dilatations averaged at nodes are not provided for in a hierarchy");
+    return corot_fail_at("model", 0, "dilatation", "%s are not provided for in a hierarchy",
+                         def->dilatation == COROT_DILATATION_NODAL ? "dilatations averaged at nodes"
+                                                                   : "averages of the dilatation");
   return COROT_OK;
 }
 

@@ -112,7 +112,8 @@ static corot_status couple(corot_model *m, const bool *jolted) {
 }
 
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m) {
-  bool automatic = def->mass == COROT_MASS_AUTO && m->mesh->mid;
+  bool one_way = m->system.term[0].from > 0;
+  bool automatic = def->mass == COROT_MASS_AUTO && m->mesh->mid && !one_way;
   COROT_TRY(lump(def, m));
   if (!automatic && def->mass != COROT_MASS_CONSISTENT) return COROT_OK;
   bool *jolted = mark_jolted(m);

@@ -23,7 +23,9 @@ static corot_status average(solid *body, int nmaterial) {
 corot_status corot_solid_fill(solid *body, int nmaterial, const int *of_tet, int together,
                               double volume, const pattern *more) {
   bool warp = strain_measures[body->strain].frame == FRAME_WARP;
-  COROT_TRY(corot_tets_create(body->mesh, nmaterial, of_tet, together, warp, &body->elements));
+  const corot_mesh *order_of = body->order_of ? body->order_of : body->mesh;
+  COROT_TRY(corot_tets_create_ordered(body->mesh, order_of, nmaterial, of_tet, together, warp,
+                                      &body->elements));
   for (int k = 0; volume != 1 && k < points_of(&body->elements); k++)
     body->elements.weight[k] *= volume;
   COROT_TRY(average(body, nmaterial));

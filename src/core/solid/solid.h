@@ -22,11 +22,13 @@ typedef struct material {
 
 typedef struct solid {
   const corot_mesh *mesh;
-  const material *material; /* of the blocks' numbers */
-  int strain;               /* index into strain_measures */
-  bool damped;              /* some viscous coefficient is not zero */
-  bool objective;           /* viscous law on the stretch's own rate */
-  bool by_element;          /* averages are those of each element, not at corners */
+  const corot_mesh *order_of; /* its elements stand in the order that its tets would have in this
+                                 mesh of as many; NULL: its own */
+  const material *material;   /* of the blocks' numbers */
+  int strain;                 /* index into strain_measures */
+  bool damped;                /* some viscous coefficient is not zero */
+  bool objective;             /* viscous law on the stretch's own rate */
+  bool by_element;            /* averages are those of each element, not at corners */
   element_set elements;
   dilatation dilatation; /* averages, where some material has them */
   pattern pattern;

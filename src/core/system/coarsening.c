@@ -7,7 +7,8 @@
 
 /* --- Making it ------------------------------------------------------------------------------- */
 
-/* The tets of a level: node k of tet e is node k of its child 8 e + k, and so on down. */
+/* The tets of a level: node k of tet e is node k of its child 8 e + k, and so on down; where tets
+   have only been given more nodes, of tet e itself. */
 static corot_status level_tets(const corot_mesh *fine, const corot_refinement *r, int level,
                                int (**out)[4]) {
   int ntet = r->ntet[level], (*tet)[4];
@@ -15,7 +16,8 @@ static corot_status level_tets(const corot_mesh *fine, const corot_refinement *r
   for (int e = 0; e < ntet; e++)
     for (int k = 0; k < 4; k++) {
       int child = e;
-      for (int l = level; l < r->nlevel; l++) child = 8 * child + k;
+      for (int l = level; l < r->nlevel; l++)
+        if (r->ntet[l + 1] > r->ntet[l]) child = 8 * child + k;
       tet[e][k] = fine->tet[child][k];
     }
   *out = tet;
@@ -25,9 +27,15 @@ static corot_status level_tets(const corot_mesh *fine, const corot_refinement *r
 corot_status corot_coarsening_by_values(const corot_mesh *fine, const corot_refinement *r,
                                         int level, coarsening *c, corot_mesh **mesh) {
   int(*tet)[4] = NULL;
+  corot_status status = COROT_OK;
+  if (level == r->nlevel) {
+    COROT_TRY(corot_mesh_copy(fine, mesh));
+    *c = (coarsening){.nnode = fine->nnode, .volume = 1};
+    return COROT_OK;
+  }
   COROT_TRY(level_tets(fine, r, level, &tet));
-  corot_status status = corot_mesh_create(r->nnode[level], (const double(*)[3])fine->x,
-                                          r->ntet[level], (const int(*)[4])tet, mesh);
+  status = corot_mesh_create(r->nnode[level], (const double(*)[3])fine->x, r->ntet[level],
+                             (const int(*)[4])tet, mesh);
   free(tet);
   COROT_TRY(status);
   *c = (coarsening){.nnode = r->nnode[level], .volume = 1};
@@ -74,12 +82,18 @@ static corot_status list_points(const corot_refinement *r, int level, int n, int
 }
 
 /* A point is a corner of one of the n^2 triangles if it is one of the face, of 3 on its edges, of 6
-   inside. */
-static void find_weights(int n, double *weight) {
-  static const int triangles[] = {6, 3, 1};
+   inside. At order 2 the triangles are as wide as two points, and the mean over each is that of the
+   middles of its edges (Strang 1973): a middle belongs to one if it is on an edge of the face, else
+   to two. */
+static void find_weights(int n, int order, double *weight) {
+  static const int triangles[3][3] = {{0}, {6, 3, 1}, {2, 1, 0}};
+  int wide = n / order;
   for (int j = 0; j <= n; j++)
-    for (int i = 0; i + j <= n; i++)
-      weight[place_of(n, i, j)] = triangles[(i == 0) + (j == 0) + (i + j == n)] / (3.0 * n * n);
+    for (int i = 0; i + j <= n; i++) {
+      int edges = (i == 0) + (j == 0) + (i + j == n);
+      bool corner = order == 2 && i % 2 == 0 && j % 2 == 0;
+      weight[place_of(n, i, j)] = corner ? 0 : triangles[order][edges] / (3.0 * wide * wide);
+    }
 }
 
 /* The faces as nodes, each once: opposite[e][k] is the face of tet e opposite to its node k. */
@@ -106,30 +120,42 @@ static corot_status mesh_of_faces(const corot_mesh *fine, int ntet, const corot_
   return COROT_OK;
 }
 
-static corot_status points_of_faces(const corot_refinement *r, int level, const int (*corner)[3],
-                                    coarsening *c) {
-  int n = 1 << (r->nlevel - level);
-  c->npoint = (n + 1) * (n + 2) / 2;
-  COROT_TRY(COROT_ALLOC(c->weight, c->npoint));
-  COROT_TRY(COROT_ALLOC(c->point, (size_t)c->nnode * c->npoint));
-  find_weights(n, c->weight);
-  for (int f = 0; f < c->nnode; f++) {
-    int *point = c->point + (size_t)f * c->npoint;
-    point[place_of(n, 0, 0)] = corner[f][0];
-    point[place_of(n, n, 0)] = corner[f][1];
-    point[place_of(n, 0, n)] = corner[f][2];
-    COROT_TRY(list_points(r, level, n, point));
-  }
-  return COROT_OK;
-}
-
 /* What is made on the way, for one place to free it. */
 typedef struct draft {
   int (*tet)[4], (*corner)[3];
   corot_face *side;
+  int *point;     /* all points of a face */
+  double *weight; /* of these */
   corot_mesh *mesh;
   coarsening c;
 } draft;
+
+/* The weights that are not zero, of the `all` points of a face. */
+static corot_status keep_weights(int all, draft *d) {
+  for (int k = 0; k < all; k++) d->c.npoint += d->weight[k] > 0;
+  COROT_TRY(COROT_ALLOC(d->c.weight, d->c.npoint));
+  for (int k = 0, n = 0; k < all; k++)
+    if (d->weight[k] > 0) d->c.weight[n++] = d->weight[k];
+  return COROT_ALLOC(d->c.point, (size_t)d->c.nnode * d->c.npoint);
+}
+
+static corot_status points_of_faces(const corot_refinement *r, int level, int order, draft *d) {
+  int n = 1 << (r->nlevel - level), all = (n + 1) * (n + 2) / 2, *point;
+  COROT_TRY(COROT_ALLOC(d->point, all));
+  COROT_TRY(COROT_ALLOC(d->weight, all));
+  find_weights(n, order, d->weight);
+  COROT_TRY(keep_weights(all, d));
+  point = d->point;
+  for (int f = 0, at = 0; f < d->c.nnode; f++) {
+    point[place_of(n, 0, 0)] = d->corner[f][0];
+    point[place_of(n, n, 0)] = d->corner[f][1];
+    point[place_of(n, 0, n)] = d->corner[f][2];
+    COROT_TRY(list_points(r, level, n, point));
+    for (int k = 0; k < all; k++)
+      if (d->weight[k] > 0) d->c.point[at++] = point[k];
+  }
+  return COROT_OK;
+}
 
 static corot_status fill(const corot_mesh *fine, const corot_refinement *r, int level, draft *d) {
   int ntet = r->ntet[level];
@@ -139,7 +165,7 @@ static corot_status fill(const corot_mesh *fine, const corot_refinement *r, int 
   COROT_TRY(COROT_ALLOC(d->mesh, 1));
   COROT_TRY(mesh_of_faces(fine, ntet, d->side, d->corner, d->mesh));
   d->c = (coarsening){.nnode = d->mesh->nnode, .volume = 27};
-  return points_of_faces(r, level, (const int(*)[3])d->corner, &d->c);
+  return points_of_faces(r, level, corot_mesh_order(fine), d);
 }
 
 corot_status corot_coarsening_by_means(const corot_mesh *fine, const corot_refinement *r, int level,
@@ -149,6 +175,8 @@ corot_status corot_coarsening_by_means(const corot_mesh *fine, const corot_refin
   free(d.tet);
   free(d.corner);
   free(d.side);
+  free(d.point);
+  free(d.weight);
   if (status) {
     corot_coarsening_clear(&d.c);
     corot_mesh_destroy(d.mesh);

@@ -40,7 +40,7 @@ corot_status corot_system_told(const solid_system *y, system_state *s, int k, co
   const term *t = &y->term[k];
   int tet = s->of[k].inverted;
   if (status != COROT_RETRY || tet < 0) return status;
-  s->inverted = tet << 3 * (y->nlevel - t->level);
+  s->inverted = tet * t->below;
   if (t->map < 0) return status;
   return corot_fail(COROT_RETRY, "tet %d of level %d is inverted", tet, t->level);
 }
@@ -49,7 +49,8 @@ corot_status corot_system_told(const solid_system *y, system_state *s, int k, co
 
 /* What term k has of the leader. */
 static from_leader lead_of(const solid_system *y, const system_state *s, int k) {
-  return (from_leader){.above = y->term[k].above,
+  return (from_leader){.npoint = y->term[y->leader].body.elements.kind->npoint,
+                       .above = y->term[k].above,
                        .R = s->of[y->leader].now_R,
                        .dR = s->lead.dR,
                        .moment = s->lead.moment,

@@ -2,10 +2,17 @@
    viscous stress are added in the frame, where the moments take the elastic one. */
 #include "kernel_handed.h"
 
-/* Of matrices of the leader's tets, which have one point, that over a point. */
-COROT_INLINE mat3 above_point(const int *above, const block_mat3 *of_leader, point_lanes at) {
-  if (!above) return mat3_at(of_leader, index_of(at));
-  int tet = above[at.block];
+/* Where the leader, with the same tets in the same lanes, has what is over a point. */
+COROT_INLINE int index_above(const from_leader *lead, point_lanes at) {
+  if (lead->npoint == at.kind->npoint) return index_of(at);
+  return at.block * PARTS + at.part;
+}
+
+/* Of matrices of the leader's tets that over a point. */
+COROT_INLINE mat3 above_point(const from_leader *lead, const block_mat3 *of_leader,
+                              point_lanes at) {
+  if (!lead->above) return mat3_at(of_leader, index_above(lead, at));
+  int tet = lead->above[at.block];
   const block_mat3 *A = &of_leader[tet / W];
   mat3 B;
   EACH_IJ B.m[i][j] = vd_all(A->m[i][j][tet % W]);
@@ -13,12 +20,15 @@ COROT_INLINE mat3 above_point(const int *above, const block_mat3 *of_leader, poi
 }
 
 /* Adds a vector of each lane's point to that of the leader's tet over it. */
-COROT_INLINE void add_up(const int *above, vec3 a, point_lanes at, block_vec3 *of_leader) {
-  if (!above) {
-    vec3_put(of_leader, index_of(at), a);
+COROT_INLINE void add_up(const from_leader *lead, vec3 a, point_lanes at, block_vec3 *of_leader) {
+  if (!lead->above) {
+    int k = index_above(lead, at);
+    vec3 before = vec3_at(of_leader, k); /* of the tet's other points */
+    for (int c = 0; c < 3 && at.q > 0 && lead->npoint == 1; c++) a.v[c] += before.v[c];
+    vec3_put(of_leader, k, a);
     return;
   }
-  int tet = above[at.block];
+  int tet = lead->above[at.block];
   double(*sum)[W] = (double(*)[W])of_leader[tet / W].v;
   for (int c = 0; c < 3; c++)
     for (int k = 0; k < LANES; k++) sum[c][tet % W] += a.v[c][k];
@@ -49,18 +59,18 @@ COROT_INLINE int handed_force_loop(const element_kind *kind, const solid *body, 
     differences of_u = differences_of(here, u), of_v;
     if (v) of_v = differences_of(here, v);
     node_forces f;
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
       coefficients k = coefficients_of(body, at);
       mat3 F = deformation(at, &of_u);
-      mat3 R = above_point(lead->above, lead->R, at);
-      vi inverted = inverted_in(body, F);
-      if (vi_any(inverted)) return first_inverted(body, b, inverted);
+      mat3 R = above_point(lead, lead->R, at);
+      inverted |= inverted_in(body, F);
 
       /* the elastic stress in the frame, and what it turns the frame by */
       mat3 e = mat3_add_identity(mat3_sym_tmul(R, F), vd_all(-1));
       mat3 sigma = hooke(k.lambda, k.mu, e);
-      add_up(lead->above, mat3_vee(mat3_mul(mat3_tmul(R, F), sigma)), at, lead->moment);
+      add_up(lead, mat3_vee(mat3_mul(mat3_tmul(R, F), sigma)), at, lead->moment);
       if (v) {
         mat3 V = gradient(at, &of_v);
         mat3 rate = mat3_sym_tmul(R, V);
@@ -68,6 +78,7 @@ COROT_INLINE int handed_force_loop(const element_kind *kind, const solid *body, 
       }
       add_forces(at, mat3_scale(vd_all(-1), mat3_mul(R, sigma)), &f);
     }
+    if (vi_any(inverted)) return first_inverted(body, b, inverted);
     store_forces(body, state, here, &f);
   }
   return -1;
@@ -83,7 +94,7 @@ void corot_kernel_hand_down(const solid *body, const from_leader *lead, block_ma
   for (int b = 0; b < body->elements.nblock * PARTS; b++)
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
-      mat3_put(R, index_of(at), above_point(lead->above, lead->R, at));
+      mat3_put(R, index_of(at), above_point(lead, lead->R, at));
     }
 }
 
@@ -96,14 +107,14 @@ COROT_INLINE int handed_derivative_loop(const element_kind *kind, const solid *b
     differences of_u = differences_of(here, u), of_du = differences_of(here, du), of_v, of_dv;
     if (v) of_v = differences_of(here, v), of_dv = differences_of(here, dv);
     node_forces f;
+    vi inverted = {0};
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
       coefficients k = coefficients_of(body, at);
       mat3 F = deformation(at, &of_u);
-      mat3 R = above_point(lead->above, lead->R, at), dR = above_point(lead->above, lead->dR, at);
+      mat3 R = above_point(lead, lead->R, at), dR = above_point(lead, lead->dR, at);
       mat3 dF = gradient(at, &of_du);
-      vi inverted = inverted_in(body, F);
-      if (vi_any(inverted)) return first_inverted(body, b, inverted);
+      inverted |= inverted_in(body, F);
 
       /* changes of strain and stress in the frame, and of the moment */
       mat3 de = mat3_add(mat3_sym_tmul(dR, F), mat3_sym_tmul(R, dF));
@@ -111,8 +122,8 @@ COROT_INLINE int handed_derivative_loop(const element_kind *kind, const solid *b
       mat3 sigma = hooke(k.lambda, k.mu, e), dsigma = hooke(k.lambda, k.mu, de);
       mat3 A = mat3_tmul(R, F), dA = mat3_add(mat3_tmul(dR, F), mat3_tmul(R, dF));
       vec3 dmoment = mat3_vee(mat3_add(mat3_mul(dA, sigma), mat3_mul(A, dsigma)));
-      add_up(lead->above, mat3_vee(mat3_mul(A, sigma)), at, lead->moment);
-      add_up(lead->above, dmoment, at, lead->dmoment);
+      add_up(lead, mat3_vee(mat3_mul(A, sigma)), at, lead->moment);
+      add_up(lead, dmoment, at, lead->dmoment);
       if (v) {
         mat3 V = gradient(at, &of_v);
         mat3 dV = gradient(at, &of_dv);
@@ -124,6 +135,7 @@ COROT_INLINE int handed_derivative_loop(const element_kind *kind, const solid *b
       mat3 dP = mat3_add(mat3_mul(dR, sigma), mat3_mul(R, dsigma));
       add_forces(at, mat3_scale(vd_all(-1), dP), &f);
     }
+    if (vi_any(inverted)) return first_inverted(body, b, inverted);
     store_forces(body, state, here, &f);
   }
   return -1;

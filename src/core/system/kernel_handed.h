@@ -8,6 +8,7 @@
 
 /* What there is of the leader over a body's tets. */
 typedef struct from_leader {
+  int npoint;                   /* of the leader's tets: one, or as many as the body's */
   const int *above;             /* [the body's tets.nblock] as in system.h */
   const block_mat3 *R, *dR;     /* the frames, and their change */
   block_vec3 *moment, *dmoment; /* what turns them, and its change: added to */

@@ -31,6 +31,11 @@ static corot_status check_middles(const corot_refinement *r, const corot_mesh *m
 corot_status corot_system_check(const corot_hierarchy_def *def, const corot_mesh *mesh) {
   const corot_refinement *r = def->refinement;
   if (!r) return corot_fail(COROT_EINVAL, "the hierarchy has no refinement");
+  if (r->node)
+    return corot_fail(
+        COROT_EINVAL,
+        "hierarchy: level 0 is of the corners of ten-node tets, not of a mesh that was "
+        "refined or raised");
   if (r->nnode[r->nlevel] != mesh->nnode || r->ntet[r->nlevel] != mesh->ntet)
     return corot_fail(COROT_EINVAL,
                       "hierarchy: the refinement is of %d nodes and %d tets, the mesh has %d and "
@@ -39,16 +44,21 @@ corot_status corot_system_check(const corot_hierarchy_def *def, const corot_mesh
   return check_middles(r, mesh);
 }
 
+/* So many tets of the finest level descend from each of a level. */
+static int count_below(const corot_refinement *r, int level) {
+  return r->ntet[r->nlevel] / r->ntet[level];
+}
+
 /* Whether all descendants of a tet of level 0 are made of the same. */
 static corot_status check_materials(const corot_refinement *r, const int *of_tet) {
-  int shift = 3 * r->nlevel;
+  int below = count_below(r, 0);
   for (int e = 0; e < r->ntet[r->nlevel]; e++) {
-    int first = e >> shift << shift;
+    int first = e - e % below;
     if (of_tet[e] != of_tet[first])
       return corot_fail(COROT_EINVAL,
                         "hierarchy: tets %d and %d descend from tet %d of level 0, but are made of "
                         "materials %d and %d",
-                        first, e, e >> shift, of_tet[first], of_tet[e]);
+                        first, e, e / below, of_tet[first], of_tet[e]);
   }
   return COROT_OK;
 }
@@ -59,7 +69,7 @@ static bool is_one_way(const corot_hierarchy_def *h) {
   return h->coupling == COROT_COUPLING_ONE_WAY;
 }
 
-/* A level's mesh as its terms have it; on the finest level a tet's mean is its own gradient. */
+/* A level's mesh as its terms have it; the finest level has its own. */
 static corot_status add_map(const system_def *def, int level, solid_system *y) {
   const corot_hierarchy_def *h = def->hierarchy;
   const corot_refinement *r = h->refinement;
@@ -69,16 +79,19 @@ static corot_status add_map(const system_def *def, int level, solid_system *y) {
   return corot_coarsening_by_values(def->mesh, r, level, &to->map, &to->mesh);
 }
 
-/* A term on the nodes of the last map. Of its tets the material is that of their first descendants.
- */
+/* A term on the nodes of the last map. Of its tets the material is that of their first descendants;
+   where they are those of the finest level, they stand in the same order. */
 static corot_status add_coarse(const system_def *def, int strain, int sign, int level,
                                solid_system *y) {
   term *t = &y->term[y->nterm++];
   const level_map *on = &y->map[y->nmap - 1];
-  int ntet = on->mesh->ntet, below = def->mesh->ntet / ntet, *of_tet;
-  *t = (term){.sign = sign, .map = y->nmap - 1, .level = level, .frames_from = -1};
-  t->body =
-      (solid){.mesh = on->mesh, .material = def->material, .strain = strain, .damped = def->damped};
+  int ntet = on->mesh->ntet, below = count_below(def->hierarchy->refinement, level), *of_tet;
+  *t = (term){.sign = sign, .map = y->nmap - 1, .level = level, .below = below, .frames_from = -1};
+  t->body = (solid){.mesh = on->mesh,
+                    .order_of = below == 1 ? def->mesh : NULL,
+                    .material = def->material,
+                    .strain = strain,
+                    .damped = def->damped};
   COROT_TRY(COROT_ALLOC(of_tet, ntet));
   for (int e = 0; e < ntet; e++) of_tet[e] = def->of_tet[(size_t)e * below];
   corot_status status = corot_solid_fill(&t->body, def->nmaterial, of_tet, 1, on->map.volume, NULL);
@@ -101,14 +114,15 @@ static corot_status add_coarse_terms(const system_def *def, int coarse, solid_sy
   return COROT_OK;
 }
 
-/* The leader's tet over each block of the first term; a tet has at least 8 descendants. */
+/* The leader's tet over each block of the first term; a tet that is cut has at least 8 descendants.
+ */
 static corot_status list_above(solid_system *y) {
   _Static_assert(W == 8, "the descendants of a tet fill whole blocks");
   term *fine = &y->term[0];
   const term *leader = &y->term[y->leader];
   const element_set *up = &leader->body.elements, *down = &fine->body.elements;
-  int shift = 3 * (y->nlevel - leader->level), ntet = leader->body.mesh->ntet;
-  if (shift == 0) return COROT_OK;
+  int below = leader->below, ntet = leader->body.mesh->ntet;
+  if (below == 1) return COROT_OK;
   int *at = malloc(ntet * sizeof *at);
   fine->above = malloc(down->nblock * sizeof *fine->above);
   if (!at || !fine->above) {
@@ -117,7 +131,7 @@ static corot_status list_above(solid_system *y) {
   }
   for (int b = 0; b < up->nblock; b++)
     for (int k = 0; k < up->block[b].n; k++) at[up->number[b * W + k]] = b * W + k;
-  for (int b = 0; b < down->nblock; b++) fine->above[b] = at[down->number[b * W] >> shift];
+  for (int b = 0; b < down->nblock; b++) fine->above[b] = at[down->number[b * W] / below];
   free(at);
   return COROT_OK;
 }
@@ -167,20 +181,19 @@ static corot_status create_hierarchy(const system_def *def, solid_system *y) {
   COROT_TRY(check_materials(r, def->of_tet));
   snprintf(y->name, sizeof y->name, "%s+%s", strain_measures[coarse].name,
            strain_measures[def->strain].name);
-  y->nlevel = r->nlevel;
   y->turning = h->conservative && polar && !is_one_way(h) &&
-               h->frame_level < r->nlevel; /* a tet's own frame feels no moment */
+               h->frame_level < r->nlevel; /* a tet's or point's own frame feels no moment */
   COROT_TRY(add_coarse_terms(def, coarse, y));
   term *fine = &y->term[0];
-  *fine = (term){.sign = 1, .map = -1, .level = r->nlevel, .frames_from = y->leader};
+  *fine = (term){.sign = 1, .map = -1, .level = r->nlevel, .below = 1, .frames_from = y->leader};
   if (is_one_way(h)) fine->from = r->nnode[0];
-  COROT_TRY(fill_first(def, 1 << 3 * (r->nlevel - h->frame_level), y));
+  COROT_TRY(fill_first(def, count_below(r, h->frame_level), y));
   return list_above(y);
 }
 
 corot_status corot_system_create(const system_def *def, solid_system *y) {
   *y = (solid_system){.nterm = 1, .leader = -1};
-  y->term[0] = (term){.sign = 1, .map = -1, .frames_from = -1};
+  y->term[0] = (term){.sign = 1, .map = -1, .below = 1, .frames_from = -1};
   if (def->hierarchy) return create_hierarchy(def, y);
   snprintf(y->name, sizeof y->name, "%s", strain_measures[def->strain].name);
   return fill_first(def, 1, y);

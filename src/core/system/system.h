@@ -10,14 +10,14 @@
    where the fine term's frames are handed down to it by the tets of a coarser level: by E_linear's,
    if that is level 0, else by a term of sign zero, which is there for its frames alone. L is that
    of coarsening.h, by the coupling's choice. Where coarse and linear have one measure, they cancel
-   and are left out.
+   and are left out. The finest level may be that of ten-node tets, on the tets of the level before:
+   then each of their points has the frame of the tet, whose displacement is linear.
 
-   With R from the tet t, P_i = R sigma_i and A_i = R' F_i of its descendants i, E_fine changes by
-   sum V_i vee(A_i sigma_i) . w when the frame turns by dR = R [w]x. For a polar frame
-   w = G^-1 vee(R' dF_t), so the gradient has one more stress on t,
-     V_t P_t = R [G^-1 sum V_i vee(A_i sigma_i)]x.
-   It is zero where the descendants deform as t does, for A sigma is symmetric there; for the same
-   reason E_linear has no such part.
+   With R from the tet t, P_i = R sigma_i and A_i = R' F_i at the points i of its descendants,
+   E_fine changes by sum V_i vee(A_i sigma_i) . w when the frame turns by dR = R [w]x. For a polar
+   frame w = G^-1 vee(R' dF_t), so the gradient has one more stress on t, V_t P_t = R [G^-1 sum V_i
+   vee(A_i sigma_i)]x. It is zero where the descendants deform as t does, for A sigma is symmetric
+   there; for the same reason E_linear has no such part.
 
    One way, the fine term has no forces on the nodes of level 0, nor an energy, and E_linear is not
    there. */
@@ -34,9 +34,10 @@ typedef struct term {
   int sign;        /* 1, -1; 0: it is there for its frames */
   int map;         /* through which it sees the fields; -1: as they are */
   int level;       /* of the refinement that its tets are of */
+  int below;       /* so many tets of the finest level descend from each of them */
   int frames_from; /* the term that hands its frames down to this one; -1: they are its own */
   int *above; /* [elements.nblock] the tet of that term over those of a block, as block * W + lane;
-                 NULL: its tets are these */
+                 NULL: its tets are these, in the same lanes */
   int *place; /* [pattern.nblock] where the blocks of its matrices are in those of the first term;
                  NULL: they are not in them */
   int from;   /* one way: the first node it has forces on; else 0 */
@@ -53,7 +54,6 @@ typedef struct solid_system {
   term term[TERMS];
   int nmap;
   level_map map[MAPS];
-  int nlevel;    /* of the refinement */
   int leader;    /* the term that hands down its frames; -1: none does */
   bool turning;  /* the force has the part by which polar frames turn */
   char name[32]; /* of the strain measures */

@@ -46,7 +46,7 @@ static corot_status measure(const solid_system *y, system_state *s, const term_f
   double before, after, power;
   give_old(y, s);
   corot_solid_compare_frames(&t->body, of->frames.R, of->new_R, &c);
-  c.angle_tet <<= 3 * (y->nlevel - t->level);
+  c.angle_tet *= t->below;
   COROT_TRY(corot_system_sum_energy(y, s, all, &before, &power));
   give_new(y, s);
   COROT_TRY(corot_system_sum_energy(y, s, all, &after, &power));

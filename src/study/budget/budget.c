@@ -124,6 +124,20 @@ static const budget_part *settings_of(const budgeting *b, int i, int *run) {
   return finer ? &b->finer[b->ntight - 2][0] : &b->plan.part[i];
 }
 
+/* By what the error of a mesh was found; NULL of other parts. */
+static const char *space_way(const claim *c) {
+  if (!c->is_space) return NULL;
+  return c->by_order ? "order" : "refinement";
+}
+
+/* Of space, where there is something to be told, with the way it was found. */
+static void part_verdict(const budgeting *b, const claim *c, size_t size, char *text) {
+  claim_kind kind = claim_bounds(c, ERROR_DISPLACEMENT, false).kind;
+  bool told = c->is_space && kind != CLAIM_MISSING && kind != CLAIM_AT_MOST;
+  int used = told ? snprintf(text, size, "by %s: ", space_way(c)) : 0;
+  claim_verdict(c, b->left_out, size - (size_t)used, text + used);
+}
+
 static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, const errors *bare,
                          const errors *alone, const trajectory *after, double share) {
   int run;
@@ -132,14 +146,14 @@ static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, co
   error_pair error = displacement_of(&c->error), single = displacement_of(alone),
              difference = displacement_of(bare);
   char verdict[512];
-  claim_verdict(c, b->left_out, sizeof verdict, verdict);
+  part_verdict(b, c, sizeof verdict, verdict);
   /* what it is and how large */
   json_t *json = json_pack(
       "{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s}", "part", budget_names[part->kind], "pair",
       settings_text(part), "error", json_text_real(error.max), "end", json_text_real(error.end),
       "alone", json_text_real(single.max), "alone_end", json_text_real(single.end), "probes",
       probes_json(b, c, bare, after), "cost", json_text_real(b->run[run].cpu / b->run[0].cpu),
-      "advice", budget_remedy(part->kind, b->options->still));
+      "advice", budget_remedy(&b->plan, part->kind, b->options->still));
   if (!json) return NULL;
   /* how sure that is, and what stands behind it */
   set_bound(json, "", claim_bounds(c, ERROR_DISPLACEMENT, false));
@@ -147,8 +161,9 @@ static json_t *pack_part(const budgeting *b, const budget_claims *all, int i, co
   set_real(json, "", "difference", difference.max);
   set_real(json, "", "difference_end", difference.end);
   set_real(json, "", "share", share);
-  set_real(json, "", "order", c->nlevel == 3 ? c->convergence.order : NAN);
+  set_real(json, "", "order", c->nlevel == 3 && !c->by_order ? c->convergence.order : NAN);
   json_object_set_new(json, "levels", c->is_space ? json_integer(c->nlevel) : json_null());
+  json_object_set_new(json, "by", space_way(c) ? json_string(space_way(c)) : json_null());
   json_object_set_new(json, "alone_bound", json_string(alone_bound(b, all, i, single.max)));
   json_object_set_new(json, "verdict", json_string(verdict));
   return json;
@@ -311,6 +326,16 @@ static void release(budgeting *b) {
   free(b);
 }
 
+/* Of the tets of a scenario's mesh; what is wrong with a file its runs will say. */
+static int order_of(const scenario *s) {
+  corot_mesh *mesh = NULL;
+  int order = s->order > 0 ? s->order : 1;
+  if (s->order > 0 || !s->mesh_file) return order;
+  if (corot_mesh_read(s->mesh_file, &mesh) == COROT_OK) order = corot_mesh_order(mesh);
+  corot_mesh_destroy(mesh);
+  return order;
+}
+
 corot_status budget_make(const scenario *s, int nset, const char *const *set,
                          const budget_options *options, const execute_options *execute,
                          json_t **out, int *signal_number) {
@@ -319,10 +344,11 @@ corot_status budget_make(const scenario *s, int nset, const char *const *set,
   b->scenario = s;
   b->options = options;
   b->builds = builds_begin();
+  int order = order_of(s);
   if (options->still)
-    budget_plan_make_static(s, &b->plan);
+    budget_plan_make_static(s, order, &b->plan);
   else
-    budget_plan_make(s, &b->plan);
+    budget_plan_make(s, order, &b->plan);
   for (int k = 0; k < BUDGET_KINDS; k++)
     if (options->skip[k]) budget_plan_skip(&b->plan, (budget_kind)k);
   if (b->plan.npart == 0) {

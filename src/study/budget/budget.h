@@ -13,8 +13,13 @@
      judge, the tolerance is made a hundredth, up to BUDGET_TRIES times; for the parts that come
      after time, the same of their tolerance; for the algebra, a run of ten times its tolerances. A
      part below its floor is "at most" something.
-   * The mesh has three levels where they can be paid for, and the part is what they tend to, if
-     they do (convergence.h); else it is "at least" what they have shown.
+   * A mesh of four-node tets is measured by order, against the same tets with ten nodes and, where
+     that can be paid for, against these refined once. Then the part is about that far from the
+     latter, and known by what the octasection changed; where that is more than half of it, or where
+     it was left out, the part is "at least" so large.
+   * A mesh of ten-node tets is measured by refinement. It has three levels where they can be paid
+     for, and the part is what they tend to, if they do (convergence.h); else it is "at least" what
+     they have shown.
    * Where a run failed a part is missing, and which is the largest is not known.
 
    DIR/budget.json:
@@ -25,7 +30,8 @@
                  or "missing"; "low", "high": between which it is; "floor"; "end_bound", "end_low",
                  "end_high", "end_floor"; "verdict": in words;
                  "difference", "difference_end": of the bare two neighbours;
-                 "order", "levels": of space, observed and made;
+                 "order", "levels": of space, observed and made; "by": it was measured by "order"
+                 or "refinement";
                  "share": signed, of the total at the end: the part's product with the total in the
                  norm of the mass over the total's square; all together are 1;
                  "alone", "alone_end": where nothing else is taken away; "alone_bound": "about",

@@ -93,7 +93,9 @@ static corot_status claim_space(const budgeting *b, claim *c) {
   corot_status status = merge_errors(&c->known, &loose, true);
   errors_free(&loose);
   COROT_TRY(status);
-  return claim_by_levels(b->yardstick, middle, budget_states(b, b->third_run), c);
+  const trajectory *finest = budget_states(b, b->third_run);
+  return b->plan.by_order ? claim_by_order(b->yardstick, middle, finest, c)
+                          : claim_by_levels(b->yardstick, middle, finest, c);
 }
 
 static corot_status claim_part(const budgeting *b, int place, claim *c) {

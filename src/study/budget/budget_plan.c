@@ -24,7 +24,8 @@ static const char *const remedies[BUDGET_KINDS] = {
     [BUDGET_SPACE] = "mesh.refine one more",
 };
 
-const char *budget_remedy(budget_kind kind, bool still) {
+const char *budget_remedy(const budget_plan *plan, budget_kind kind, bool still) {
+  if (kind == BUDGET_SPACE && plan->by_order) return "mesh.order 2";
   return still && kind == BUDGET_ALGEBRA ? "statics.tolerance smaller" : remedies[kind];
 }
 
@@ -110,7 +111,9 @@ static void plan_time_and_frame_age(const scenario *s, bool hierarchy, budget_pl
   if (by_step) plan_time(s, plan);
 }
 
-static bool has_hierarchy(const scenario *s) { return s->model.hierarchy && s->refine > 0; }
+static bool has_hierarchy(const scenario *s) {
+  return s->model.hierarchy && (s->refine > 0 || s->order == 2);
+}
 
 /* The viscous law stays as it is under warp and a hierarchy, where by default another one would
    take its place: it is no approximation. */
@@ -132,11 +135,11 @@ static void plan_model(const scenario *s, budget_plan *plan) {
     if (s->model.viscosity == COROT_OBJECTIVE) add(part, "viscosity=corotated");
     if (hierarchy) add(part, "hierarchy=null");
   }
-  budget_plan_refine(s, 1, begin(plan, BUDGET_SPACE));
+  budget_plan_finer(plan, s, 1, begin(plan, BUDGET_SPACE));
 }
 
-void budget_plan_make(const scenario *s, budget_plan *plan) {
-  *plan = (budget_plan){0};
+void budget_plan_make(const scenario *s, int order, budget_plan *plan) {
+  *plan = (budget_plan){.by_order = order == 1};
   if (!is_explicit(s->integrator.method)) {
     tighten_algebra(s, 1, begin(plan, BUDGET_ALGEBRA));
     tighten_algebra(s, 10, &plan->algebra_check);
@@ -145,8 +148,8 @@ void budget_plan_make(const scenario *s, budget_plan *plan) {
   plan_model(s, plan);
 }
 
-void budget_plan_make_static(const scenario *s, budget_plan *plan) {
-  *plan = (budget_plan){0};
+void budget_plan_make_static(const scenario *s, int order, budget_plan *plan) {
+  *plan = (budget_plan){.by_order = order == 1};
   tighten_equilibrium(s, 1, begin(plan, BUDGET_ALGEBRA));
   tighten_equilibrium(s, 10, &plan->algebra_check);
   double step = fmin(s->statics.max_step, 1) / 4;
@@ -167,9 +170,14 @@ double budget_plan_tighten(const scenario *s, int attempt, budget_part *referenc
   return rtol;
 }
 
-void budget_plan_refine(const scenario *s, int octasections, budget_part *part) {
+void budget_plan_finer(const budget_plan *plan, const scenario *s, int level, budget_part *part) {
+  int octasections = plan->by_order ? level - 1 : level;
+  bool one_way = has_hierarchy(s) && s->hierarchy.coupling == COROT_COUPLING_ONE_WAY;
   part->kind = BUDGET_SPACE;
-  add(part, "mesh.refine=%d", s->refine + octasections);
+  if (plan->by_order) add(part, "mesh.order=2");
+  if (octasections > 0) add(part, "mesh.refine=%d", s->refine + octasections);
+  if (plan->by_order && s->model.mass == COROT_MASS_LUMPED && !one_way)
+    add(part, "mass=consistent");
 }
 
 /* Statics factor their matrix in every iteration, and are dearer by the tet: 5e4 tets and

@@ -76,13 +76,20 @@ static void plan_runs(budgeting *b) {
 
 /* --- Making --- */
 
+/* As four-node ones. */
+static double tets_of(const json_t *result) {
+  const json_t *mesh = json_object_get(result, "mesh");
+  double tets = json_number_value(json_object_get(mesh, "tets"));
+  return json_number_value(json_object_get(mesh, "order")) == 2 ? BUDGET_TETS_PER_TET10 * tets
+                                                                : tets;
+}
+
 /* Iterations of an equilibrium, steps of a run. */
 static double work_of(const json_t *result) {
   const json_t *statistics = json_object_get(result, "statistics");
   const json_t *steps = json_object_get(statistics, "nst");
   if (!json_is_number(steps)) steps = json_object_get(statistics, "nni");
-  return json_number_value(steps) *
-         json_number_value(json_object_get(json_object_get(result, "mesh"), "tets"));
+  return json_number_value(steps) * tets_of(result);
 }
 
 static corot_status load_run(budgeting *b, const char *dir, budget_run *run) {
@@ -98,7 +105,7 @@ static corot_status load_run(budgeting *b, const char *dir, budget_run *run) {
     const json_t *times = json_object_get(record.result, "timings");
     run->cpu = json_number_value(json_object_get(times, "cpu"));
     run->work = work_of(record.result);
-    run->tets = json_number_value(json_object_get(json_object_get(record.result, "mesh"), "tets"));
+    run->tets = tets_of(record.result);
     char *folder = store_path(dir, entry, "");
     status = folder ? states_read(folder, &run->states) : COROT_ENOMEM;
     free(folder);
@@ -203,7 +210,7 @@ static void weigh_third(budgeting *b, int space, bool loose) {
   int one = loose ? budget_alone_run(b, space) : budget_chain_run(b, space);
   int zero = loose ? 0 : budget_before_run(b, space);
   double work = b->run[one].work * b->run[one].work / b->run[zero].work;
-  double tets = 64 * b->run[0].tets;
+  double tets = (b->plan.by_order ? 8 * BUDGET_TETS_PER_TET10 : 64) * b->run[0].tets;
   if (b->options->levels == 3 || budget_plan_affords(b->options->still, work, tets)) return;
   if (isnan(work) || isnan(tets))
     snprintf(b->left_out, sizeof b->left_out, "its coarser levels failed");
@@ -229,7 +236,7 @@ static corot_status refine_again(budgeting *b, int nset, const char *const *set,
   if (*b->left_out) return COROT_OK;
 
   /* its run: without all that the second level is without */
-  budget_plan_refine(b->scenario, 2, &b->third);
+  budget_plan_finer(&b->plan, b->scenario, 2, &b->third);
   b->third_is_loose = loose;
   b->third_run = add_run(b, "space, third level", "");
   for (int i = 0; i < space; i++)

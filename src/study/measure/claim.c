@@ -106,6 +106,30 @@ corot_status claim_by_levels(yardstick *y, const trajectory *middle, const traje
   return claim_distance(y, c->before, c->after, &c->error);
 }
 
+/* What the octasection of ten-node tets changed, at the places of the four-node ones. */
+static corot_status find_rest(yardstick *y, const trajectory *raised, const trajectory *finer,
+                              claim *c) {
+  static const double one = 1;
+  trajectory own = {0};
+  COROT_TRY(states_sum(c->before, 1, &one, &raised, &own));
+  corot_status status = claim_distance(y, &own, finer, &c->rest);
+  states_free(&own);
+  return status;
+}
+
+corot_status claim_by_order(yardstick *y, const trajectory *raised, const trajectory *finer,
+                            claim *c) {
+  c->is_space = c->by_order = c->is_open = true;
+  c->nlevel = finer ? 3 : 2;
+  c->after = finer ? finer : raised;
+  COROT_TRY(claim_distance(y, c->before, c->after, &c->shown));
+  COROT_TRY(claim_distance(y, c->before, c->after, &c->error));
+  if (!c->before || !raised || !finer) return COROT_OK;
+  COROT_TRY(find_rest(y, raised, finer, c));
+  c->is_open = !(2 * c->rest.of[ERROR_DISPLACEMENT].max <= c->error.of[ERROR_DISPLACEMENT].max);
+  return COROT_OK;
+}
+
 /* --- Bounds --- */
 
 static double value_of(const errors *e, int i, bool end) {
@@ -128,17 +152,36 @@ claim_bound claim_bounds(const claim *c, int i, bool end) {
   } else if (isnan(known)) {
     b.kind = CLAIM_UNCHECKED;
   } else {
-    b.low = least - known;
-    b.high = least + CONVERGENCE_SAFETY * (value - least) + known;
+    double rest = c->rest.n > 0 ? value_of(&c->rest, i, end) : 0;
+    b.low = fmax(0, least - rest - known);
+    b.high = least + CONVERGENCE_SAFETY * (value - least) + rest + known;
   }
   return b;
 }
 
 /* --- In words --- */
 
-static void verdict_of_space(const claim *c, claim_bound b, const char *left_out, size_t size,
+static void verdict_by_order(const claim *c, claim_bound b, const char *left_out, size_t size,
                              char *text) {
   if (b.kind == CLAIM_UNCHECKED)
+    snprintf(text, size, "%.1e against finer tets of ten nodes, which nobody has checked", b.value);
+  else if (b.kind == CLAIM_ABOUT)
+    snprintf(text, size, "against finer tets of ten nodes, between %.1e and %.1e", b.low, b.high);
+  else if (c->nlevel == 3)
+    snprintf(text, size, "at least %.1e; tets of ten nodes still change by %.1e when refined",
+             b.low, value_of(&c->rest, ERROR_DISPLACEMENT, false));
+  else
+    snprintf(text, size,
+             "at least %.1e; tets of ten nodes show it, and finer ones to check them were "
+             "left out (%s)",
+             b.low, left_out);
+}
+
+static void verdict_of_space(const claim *c, claim_bound b, const char *left_out, size_t size,
+                             char *text) {
+  if (c->by_order)
+    verdict_by_order(c, b, left_out, size, text);
+  else if (b.kind == CLAIM_UNCHECKED)
     snprintf(text, size, "%.1e by three levels of observed order %.2f, which nobody has checked",
              b.value, c->convergence.order);
   else if (b.kind == CLAIM_ABOUT)
@@ -170,5 +213,6 @@ void claim_free(claim *c) {
   errors_free(&c->error);
   errors_free(&c->shown);
   errors_free(&c->known);
+  errors_free(&c->rest);
   states_free(&c->made);
 }

@@ -29,7 +29,8 @@ typedef struct claim {
   errors error;                     /* n = 0: not known */
   errors shown;                     /* of space: what the levels have shown; else n = 0 */
   errors known;                     /* what the reference is known by; n = 0: nobody knows */
-  bool is_space;
+  errors rest;                      /* of space by order: what the reference's own mesh leaves */
+  bool is_space, by_order;
   bool is_open; /* nobody knows how much larger it is: a mesh that is not asymptotic, a part missing
                  */
   int nlevel;   /* of space */
@@ -41,6 +42,14 @@ typedef struct claim {
    `finest` may be NULL. Stores all the rest. The order is that of mean squares over time. */
 corot_status claim_by_levels(yardstick *y, const trajectory *middle, const trajectory *finest,
                              claim *c);
+
+/* The error of a mesh of four-node tets by the same tets with ten nodes, and by these refined once,
+   `finer`, which may be NULL. Given and stored are the same. With a finer mesh that is the
+   reference, and what it leaves is less than it changed: displacements of ten-node tets converge at
+   an order of at least one, also near corners of supports. Where that is no better than half of the
+   error, this is open. */
+corot_status claim_by_order(yardstick *y, const trajectory *raised, const trajectory *finer,
+                            claim *c);
 
 /* Of error measure i (errors.h), over time or at the end. */
 claim_bound claim_bounds(const claim *c, int i, bool end);

@@ -152,6 +152,76 @@ corot_status corot_refinement_raise(corot_refinement *r, const corot_mesh *raise
   return status;
 }
 
+/* --- A level below --- */
+
+/* node [r's nodes]: corners ascending, the nodes on edges in the order of these, all others. place
+   [mesh->nnode] becomes where its nodes stand there. The value is the number of corners. */
+static int order_nodes(const corot_mesh *mesh, const corot_edges *edges, int nnode, int *place,
+                       int *node) {
+  int n = number_corners(mesh, place);
+  for (int i = 0; i < mesh->nnode; i++)
+    if (place[i] >= 0) node[place[i]] = i;
+  for (int k = 0; k < edges->n; k++) {
+    node[n + k] = edges->middle[k];
+    place[edges->middle[k]] = n + k;
+  }
+  for (int i = mesh->nnode; i < nnode; i++) node[i] = i;
+  return n;
+}
+
+static int place_in(const corot_mesh *mesh, const int *place, int i) {
+  return i < mesh->nnode ? place[i] : i;
+}
+
+static void set_parents(const int a, const int b, int parent[2]) {
+  parent[0] = a < b ? a : b;
+  parent[1] = a < b ? b : a;
+}
+
+/* A refinement with a level more, `to` being zeroed. */
+static corot_status lower_to(const corot_refinement *r, const corot_mesh *mesh,
+                             const corot_edges *edges, int *place, corot_refinement *to) {
+  int nnode = r->nnode[r->nlevel];
+  to->nlevel = r->nlevel + 1;
+  COROT_TRY(COROT_ALLOC(to->nnode, to->nlevel + 1));
+  COROT_TRY(COROT_ALLOC(to->ntet, to->nlevel + 1));
+  COROT_TRY(COROT_ALLOC(to->node, nnode));
+  to->nnode[0] = order_nodes(mesh, edges, nnode, place, to->node);
+  to->ntet[0] = r->ntet[0];
+  memcpy(to->nnode + 1, r->nnode, (size_t)to->nlevel * sizeof *to->nnode);
+  memcpy(to->ntet + 1, r->ntet, (size_t)to->nlevel * sizeof *to->ntet);
+  COROT_TRY(COROT_ALLOC(to->parent, nnode - to->nnode[0]));
+  for (int k = 0; k < edges->n; k++)
+    set_parents(place[edges->end[k][0]], place[edges->end[k][1]], to->parent[k]);
+  for (int k = 0; k < nnode - mesh->nnode; k++)
+    set_parents(place_in(mesh, place, r->parent[k][0]), place_in(mesh, place, r->parent[k][1]),
+                to->parent[edges->n + k]);
+  return COROT_OK;
+}
+
+corot_status corot_refinement_lower(corot_refinement *r, const corot_mesh *mesh) {
+  corot_refinement *to;
+  corot_edges edges = {0};
+  int *place = NULL;
+  if (!mesh->mid || r->node || mesh->nnode != r->nnode[0] || mesh->ntet != r->ntet[0])
+    return corot_fail(COROT_EINVAL,
+                      "refinement: %d nodes of a mesh of order %d are not its level 0 of order 2, "
+                      "with %d nodes",
+                      mesh->nnode, corot_mesh_order(mesh), r->nnode[0]);
+  COROT_TRY(COROT_ALLOC(to, 1));
+  corot_status status = COROT_ALLOC(place, mesh->nnode);
+  if (!status) status = corot_edges_list(mesh, &edges);
+  if (!status) status = lower_to(r, mesh, &edges, place, to);
+  if (!status) {
+    const corot_refinement before = *r;
+    *r = *to, *to = before;
+  }
+  corot_refinement_destroy(to);
+  corot_edges_clear(&edges);
+  free(place);
+  return status;
+}
+
 corot_status corot_mesh_change_order(const corot_mesh *mesh, int order, corot_mesh **out) {
   corot_mesh *m;
   if (order != 1 && order != 2)

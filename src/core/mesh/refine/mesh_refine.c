@@ -235,5 +235,6 @@ void corot_refinement_destroy(corot_refinement *refinement) {
   free(refinement->nnode);
   free(refinement->ntet);
   free(refinement->parent);
+  free(refinement->node);
   free(refinement);
 }

@@ -19,6 +19,9 @@ static corot_status check(const corot_refinement *r) {
   return COROT_OK;
 }
 
+/* The mesh's number of node i of a refinement. */
+static int node_at(const corot_refinement *r, int i) { return r->node ? r->node[i] : i; }
+
 /* Nodes of the mesh become rows of blocks; place [nodes of the mesh] is scratch. */
 static void number_nodes(const corot_csc *csc, const node_matrix *A, const corot_refinement *r,
                          int *place, galerkin *g) {
@@ -31,10 +34,10 @@ static void number_nodes(const corot_csc *csc, const node_matrix *A, const corot
   int n = 0;
   for (int l = 0, i = 0; l <= r->nlevel; l++) {
     for (; i < r->nnode[l]; i++) {
-      if (place[i] == A->n) continue;
+      if (place[node_at(r, i)] == A->n) continue;
       if (l > 0) {
         const int *parent = r->parent[i - r->nnode[0]];
-        for (int k = 0; k < 2; k++) g->parent[n - g->level[0].n][k] = place[parent[k]];
+        for (int k = 0; k < 2; k++) g->parent[n - g->level[0].n][k] = place[node_at(r, parent[k])];
       }
       n++;
     }

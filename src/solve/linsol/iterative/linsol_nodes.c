@@ -161,7 +161,7 @@ corot_status corot_nodes_indefinite(const node_matrix *A, const corot_csc *csc, 
   while (A->slot[dof] / 3 < node) dof++;
   return corot_fail(COROT_RETRY,
                     "pcg: the matrix is not positive definite (degree of freedom %d of node %d)",
-                    dof, csc->node[dof]);
+                    A->unknown ? A->unknown[dof] : dof, csc->node[dof]);
 }
 
 bool corot_nodes_jacobi(node_matrix *A, int *at) {

@@ -13,13 +13,14 @@
 #include <stdbool.h>
 
 typedef struct node_matrix {
-  int n;             /* nodes */
-  int *slot;         /* [unknowns] where a vector [3 n] has each of them: 3 node + component */
-  int *colptr, *row; /* [n + 1], [nbelow]: blocks of L by columns, rows ascending */
-  int *place;        /* [csc->nnz] where in `value` each entry goes */
-  double *value;     /* blocks of 9 by columns: D [n], then L [nbelow]; 3 more to read beyond */
-  double *C, *Cinv;  /* [n][9] lower triangular, row-major */
-  double (*work)[4]; /* [2 n] */
+  int n;              /* nodes */
+  const int *unknown; /* [unknowns] the caller's number of each, borrowed; NULL: they are these */
+  int *slot;          /* [unknowns] where a vector [3 n] has each of them: 3 node + component */
+  int *colptr, *row;  /* [n + 1], [nbelow]: blocks of L by columns, rows ascending */
+  int *place;         /* [csc->nnz] where in `value` each entry goes */
+  double *value;      /* blocks of 9 by columns: D [n], then L [nbelow]; 3 more to read beyond */
+  double *C, *Cinv;   /* [n][9] lower triangular, row-major */
+  double (*work)[4];  /* [2 n] */
 } node_matrix;
 
 /* `csc`: a lower triangle, with its `source`. What is half made is released by clear. */

@@ -11,6 +11,7 @@
 #include <sunlinsol/sunlinsol_pcg.h>
 
 #include "linsol_multilevel.h"
+#include "linsol_order.h"
 #include "solve/linsol/linsol.h"
 #include "solve/sundials/sun_status.h"
 
@@ -22,7 +23,8 @@
 #endif
 
 typedef struct pcg {
-  const corot_csc *csc;
+  const corot_csc *csc; /* the caller's, or that of `ordered` */
+  ordered_csc ordered;
   node_matrix A;
   bool cholesky;             /* or else Jacobi, if `ops` is NULL */
   const multilevel_ops *ops; /* of what works by levels */
@@ -68,6 +70,7 @@ static void pcg_destroy(void *solver) {
   if (p->ctx) SUNContext_Free(&p->ctx);
   if (p->ops) p->ops->destroy(p->levels);
   corot_nodes_clear(&p->A);
+  corot_order_clear(&p->ordered);
   free(p->b);
   free(p);
 }
@@ -80,7 +83,10 @@ static bool make_cg(pcg *p) {
 }
 
 static corot_status prepare(pcg *p, const linsol_plan *plan) {
+  if (p->ops) COROT_TRY(corot_order_create(p->csc, plan->def.refinement, &p->ordered));
+  if (p->ordered.csc) p->csc = p->ordered.csc;
   COROT_TRY(corot_nodes_create(p->csc, &p->A));
+  p->A.unknown = p->ordered.unknown;
   corot_nodes_keep(&p->A);
   if (p->ops) COROT_TRY(p->ops->create(p->csc, &p->A, plan->def.refinement, &p->levels));
   int n = 3 * p->A.n;
@@ -132,7 +138,7 @@ static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
   int at = 0;
   *fresh = true;
   p->factored = false;
-  corot_nodes_load(&p->A, p->csc, value);
+  corot_nodes_load(&p->A, p->csc, corot_order_values(&p->ordered, value));
   if (p->ops)
     COROT_TRY(p->ops->factor(p->levels));
   else if (!(p->cholesky ? incomplete_cholesky(p, value, &at) : corot_nodes_jacobi(&p->A, &at)))
@@ -224,12 +230,19 @@ static corot_status pcg_solve(void *solver, double *x) {
   for (int i = 0; i < n && zero; i++) zero = x[i] == 0;
   if (zero) return COROT_OK;
   int e = exponent(n, x);
+  const int *unknown = p->ordered.unknown;
   memset(p->b, 0, 3 * p->A.n * sizeof *p->b);
-  for (int i = 0; i < n; i++) p->b[p->A.slot[i]] = e ? ldexp(x[i], -e) : x[i];
+  for (int i = 0; i < n; i++) {
+    double value = x[unknown ? unknown[i] : i];
+    p->b[p->A.slot[i]] = e ? ldexp(value, -e) : value;
+  }
   corot_nodes_scale(&p->A, p->b);
   COROT_TRY(iterate(p));
   corot_nodes_unscale_transposed(&p->A, p->x);
-  for (int i = 0; i < n; i++) x[i] = e ? ldexp(p->x[p->A.slot[i]], e) : p->x[p->A.slot[i]];
+  for (int i = 0; i < n; i++) {
+    double value = p->x[p->A.slot[i]];
+    x[unknown ? unknown[i] : i] = e ? ldexp(value, e) : value;
+  }
   return COROT_OK;
 }
 
