@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/quantity/turning.h"
 #include "app/text/json_text.h"
 
 /* Four signals for each probe, and these of the energies. */
@@ -15,15 +16,6 @@ enum { KINETIC, ELASTIC, DISSIPATED, WORK, BALANCE, FRAMES, OF_ENERGY };
 static const char *const component_words[OF_PROBE] = {"ux", "uy", "uz", "u"};
 static const char *const energy_words[OF_ENERGY] = {"kinetic",       "elastic", "dissipated",
                                                     "external_work", "balance", "frame_energy"};
-
-/* Where a signal turns, but for what is less than a tenth of the way it has gone so far. */
-typedef struct turning {
-  int direction;           /* 1, -1; 0: it has not moved yet */
-  double value, t;         /* the furthest point since the last turn */
-  double last, t_last;     /* the last turn, or the start */
-  long count;              /* turns */
-  double weight, weighted; /* sum of the ways between turns; of these times their durations */
-} turning;
 
 typedef struct signal_seen {
   extreme min, max;
@@ -87,39 +79,15 @@ corot_status history_open(history *h, const char *dir) {
 
 /* --- One moment --- */
 
-static void take_turn(turning *n) {
-  double way = fabs(n->value - n->last);
-  if (n->count++ > 0) { /* the first way begins at the start, which need not be a turn */
-    n->weight += way;
-    n->weighted += way * (n->t - n->t_last);
-  }
-  n->last = n->value;
-  n->t_last = n->t;
-}
-
-static void follow(turning *n, double span, double value, double t) {
-  double ahead = n->direction * (value - n->value);
-  if (n->direction == 0) {
-    n->direction = (value > n->last) - (value < n->last);
-    ahead = 0;
-  } else if (ahead < 0) {
-    if (!(-ahead > 0.1 * span)) return;
-    take_turn(n);
-    n->direction = -n->direction;
-  }
-  n->value = value;
-  n->t = t;
-}
-
 static void see(signal_seen *s, bool first, double value, double t) {
   if (first) {
     s->min = s->max = (extreme){value, t};
-    s->turning = (turning){.value = value, .t = t, .last = value, .t_last = t};
+    s->turning = turning_begin(value, t);
     return;
   }
   if (value < s->min.value) s->min = (extreme){value, t};
   if (value > s->max.value) s->max = (extreme){value, t};
-  follow(&s->turning, s->max.value - s->min.value, value, t);
+  turning_follow(&s->turning, s->max.value - s->min.value, value, t);
 }
 
 corot_status history_add(history *h, const ledger *now, const int *node,
@@ -185,7 +153,7 @@ static void find_period(const history *h, history_facts *f) {
   double turns = s ? 2 : 4;
   f->swing = s ? range(s) : NAN;
   const turning *n = s ? &s->turning : &energy_signal(h, KINETIC)->turning;
-  f->period = n->count >= 2 * turns && n->weight > 0 ? turns * n->weighted / n->weight : 0;
+  f->period = n->count >= 2 * turns ? turns * turning_mean(n) : 0;
 }
 
 history_facts history_known(const history *h) {
