@@ -24,7 +24,8 @@ struct outputs {
   const scenario *scenario;
   const corot_model *model;
   void *writer[NWRITER]; /* NULL: not begun */
-  int *node;             /* [nprobe] */
+  probes *probes;
+  double *probed;        /* [probes_ncolumn] at the last moment */
   double (*nodal)[3];    /* [2 nnode] of the last moment: displacement, */
   double (*velocity)[3]; /* [nnode] and velocity, in its second half */
   ledger ledger;         /* of the last moment */
@@ -49,39 +50,27 @@ void outputs_destroy(outputs *o) {
   if (!o) return;
   outputs_close(o);
   history_destroy(o->history);
-  free(o->node);
+  probes_destroy(o->probes);
+  free(o->probed);
   free(o->nodal);
   free(o);
 }
 
-static corot_status find_probes(outputs *o) {
-  const scenario *s = o->scenario;
-  const corot_mesh *mesh = corot_model_mesh(o->model);
-  o->node = malloc(((size_t)s->nprobe + 1) * sizeof *o->node);
-  if (!o->node) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
-  for (int i = 0; i < s->nprobe; i++) {
-    const probe_def *p = &s->probe[i];
-    o->node[i] = p->node >= 0 ? p->node : corot_mesh_nearest(mesh, p->point);
-    if (o->node[i] >= mesh->nnode)
-      return corot_fail(COROT_EINVAL, "probe %s: node %d; the mesh's nodes are 0 to %d", p->name,
-                        p->node, mesh->nnode - 1);
-  }
-  return COROT_OK;
-}
-
 static corot_status allocate(outputs *o) {
   size_t nnode = (size_t)corot_model_mesh(o->model)->nnode;
+  COROT_TRY(probes_create(o->scenario, o->model, &o->probes));
   o->nodal = calloc(2 * nnode, sizeof *o->nodal);
-  if (!o->nodal) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
+  o->probed = calloc((size_t)probes_ncolumn(o->probes) + 1, sizeof *o->probed);
+  if (!o->nodal || !o->probed) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
   o->velocity = o->nodal + nnode;
-  return history_create(o->scenario, corot_model_ndof(o->model), &o->history);
+  return history_create(o->probes, corot_model_ndof(o->model), &o->history);
 }
 
 static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
   const writer_source source = {.dir = dir,
                                 .scenario = o->scenario,
                                 .model = o->model,
-                                .node = o->node,
+                                .probes = o->probes,
                                 .history = o->history};
   for (int i = 0; i < NWRITER; i++) {
     const writer_ops *ops = writers[i];
@@ -92,7 +81,6 @@ static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
 }
 
 static corot_status open_all(outputs *o, const char *dir) {
-  COROT_TRY(find_probes(o));
   COROT_TRY(allocate(o));
   COROT_TRY(folder_make(dir));
   COROT_TRY(folder_clean(dir));
@@ -148,14 +136,27 @@ static corot_status take_energies(outputs *o, corot_state *state, const instant 
   return COROT_OK;
 }
 
-static corot_status add_history(outputs *o, const instant *now, const ledger *row) {
-  return history_add(o->history, row, o->node, (const double(*)[3])o->nodal, now->u);
+/* Of the moment whose displacement is in o->nodal. */
+static corot_status evaluate_probes(outputs *o, corot_state *state, const instant *now,
+                                    const ledger *row) {
+  return probes_evaluate(o->probes,
+                         &(probe_moment){.t = now->t,
+                                         .state = state,
+                                         .u = now->u,
+                                         .v = now->v,
+                                         .displacement = (const double(*)[3])o->nodal,
+                                         .ledger = row,
+                                         .still = now->still,
+                                         .factor = now->factor},
+                         o->probed);
 }
 
-corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e) {
+corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
+                             const corot_energies *e) {
   ledger row = make_ledger(o, now, e);
   corot_nodal(o->model, now->t, now->u, now->v, o->nodal, NULL);
-  return add_history(o, now, &row);
+  COROT_TRY(evaluate_probes(o, state, now, &row));
+  return history_add(o->history, &row, o->probed, now->u);
 }
 
 /* In more of the body or, if in all of it, further. */
@@ -214,21 +215,21 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
                       .displacement = (const double(*)[3])o->nodal,
                       .velocity = (const double(*)[3])o->velocity,
                       .ledger = &o->ledger,
+                      .probed = o->probed,
                       .factor = now->factor,
                       .internal = now->internal};
   /* whatever the body's state may not allow, before a file is touched */
   COROT_TRY(take_energies(o, state, now, &row));
   COROT_TRY(evaluate_all(o, &all));
-
-  /* the moment on all nodes */
   corot_nodal(o->model, now->t, now->u, now->v, o->nodal, o->velocity);
   if (now->still) memset(o->velocity, 0, corot_model_mesh(o->model)->nnode * sizeof *o->velocity);
+  COROT_TRY(evaluate_probes(o, state, now, &row));
   o->ledger = row;
   o->count++;
   observe(o, state, now);
 
   /* the files */
-  if (o->count == 1 || now->still) COROT_TRY(add_history(o, now, &row));
+  if (o->count == 1 || now->still) COROT_TRY(history_add(o->history, &row, o->probed, now->u));
   return write_all(o, &all);
 }
 
@@ -275,11 +276,12 @@ corot_status outputs_observed(const outputs *o, corot_state *state, observed *ou
   return COROT_OK;
 }
 
-int outputs_nprobe(const outputs *o) { return o->scenario->nprobe; }
+int outputs_nprobe(const outputs *o) { return probes_n(o->probes); }
 
 const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]) {
-  *node = o->node[i];
+  probe_facts probe = probes_known(o->probes, i);
+  *node = probe.node;
   memcpy(u, o->nodal[*node], 3 * sizeof *u);
   memcpy(v, o->velocity[*node], 3 * sizeof *v);
-  return o->scenario->probe[i].name;
+  return probe.name;
 }

@@ -3,8 +3,6 @@
 #ifndef COROT_APP_RUN_OUTPUTS_H
 #define COROT_APP_RUN_OUTPUTS_H
 
-#include "app/folder/write_csv.h"
-#include "app/scenario/scenario.h"
 #include "history.h"
 
 typedef struct outputs outputs;
@@ -38,7 +36,8 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
 
 /* Adds the end of a step to the history; `e` are the energies of that instant. Call this after the
    first instant was written, and before later ones up to this are. */
-corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e);
+corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
+                             const corot_energies *e);
 
 /* Adds a row to steps.csv. */
 corot_status outputs_step(outputs *o, const step_row *row);

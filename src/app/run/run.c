@@ -130,7 +130,7 @@ static corot_status record_step(run *r) {
   COROT_TRY(corot_integrator_work(r->integrator, t, &now.dissipated, &now.external_work));
   corot_status status = t == r->t ? corot_integrator_energy(r->integrator, r->u, r->v, &e)
                                   : corot_energy(r->model, r->state, t, r->u, r->v, &e);
-  if (status == COROT_OK) status = outputs_history(r->outputs, &now, &e);
+  if (status == COROT_OK) status = outputs_history(r->outputs, r->state, &now, &e);
   r->output_s += wall_clock() - started;
   return status > 0 ? COROT_OK : status;
 }
