@@ -229,6 +229,12 @@ for method in cvode ida arkode; do # a free fall, without stress
   lacks bending $(run block.yaml) --set boundary=[] --set integrator.method=$method
 done
 
+# What is asked has no answer: the exit code says so, too.
+expect 1 run pull.yaml -o r --json --set 'quantities.T="period(elastic, 0, 0.2)"'
+echo " $(codes stdout) " | grep -q " quantity " || complain "no quantity but: $(codes stdout)"
+echo quantity >>fired
+lacks quantity $(run swing.yaml) --set 'quantities.T=period(corner.uz)'
+
 # No code without its case, and no case of another code.
 expect 0 check --warnings; no_err
 cut -d ' ' -f 1 stdout | sort >table

@@ -219,15 +219,20 @@ corot_status energy_open(const char *dir, table **energy) {
   return open_with_header(dir, "energy.csv", "t," ENERGY_COLUMNS, ROW, energy);
 }
 
+const char ledger_columns[] = ENERGY_COLUMNS;
+
+void ledger_values(const ledger *row, double value[LEDGER_COLUMNS]) {
+  const double energy[] = {row->kinetic,       row->elastic, row->dissipated,
+                           row->external_work, row->balance, row->frame_energy};
+  memcpy(value, energy, sizeof energy);
+  memcpy(value + 6, row->momentum, sizeof row->momentum);
+  memcpy(value + 9, row->angular_momentum, sizeof row->angular_momentum);
+}
+
 static void add_energies(table *t, const ledger *row) {
-  add_number(t, row->kinetic);
-  add_number(t, row->elastic);
-  add_number(t, row->dissipated);
-  add_number(t, row->external_work);
-  add_number(t, row->balance);
-  add_number(t, row->frame_energy);
-  add_numbers(t, 3, row->momentum);
-  add_numbers(t, 3, row->angular_momentum);
+  double value[LEDGER_COLUMNS];
+  ledger_values(row, value);
+  add_numbers(t, LEDGER_COLUMNS, value);
 }
 
 corot_status energy_row(table *energy, const ledger *row) {

@@ -43,6 +43,11 @@ typedef struct ledger {
   double momentum[3], angular_momentum[3];
 } ledger;
 
+/* The columns in this order, but for t: their names, separated by commas, and their values. */
+extern const char ledger_columns[];
+enum { LEDGER_COLUMNS = 12 };
+void ledger_values(const ledger *row, double value[LEDGER_COLUMNS]);
+
 corot_status energy_open(const char *dir, table **energy);
 corot_status energy_row(table *energy, const ledger *row);
 

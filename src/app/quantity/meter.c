@@ -269,7 +269,7 @@ static void explain(const meter *m, const track *k, size_t size, char *why) {
 quantity_value meter_value(const meter *m, int i) {
   const track *k = &m->track[i];
   bool whole = k->seen && k->end >= k->to - k->slack && k->begin <= k->q.from + k->slack;
-  quantity_value v = {.value = NAN, .t = NAN};
+  quantity_value v = {.reached = m->t >= k->to - k->slack, .value = NAN, .t = NAN};
   if (whole && isnan(k->hole)) v.value = k->q.absolute ? fabs(number(k)) : number(k);
   v.known = isfinite(v.value);
   if (v.known)

@@ -33,6 +33,7 @@ int meter_count(const meter *m);
 
 typedef struct quantity_value {
   bool known;
+  bool reached; /* the answer goes as far as the window */
   double value;
   double t;      /* when that was, of an extreme or a value at a time [s]; NaN: at no time */
   char why[200]; /* it is not known, a sentence without its point */

@@ -8,6 +8,7 @@
 #include "app/folder/folder.h"
 #include "compare.h"
 #include "fields.h"
+#include "quantities.h"
 #include "reactions.h"
 #include "writers.h"
 
@@ -30,6 +31,7 @@ struct outputs {
   double (*velocity)[3]; /* [nnode] and velocity, in its second half */
   ledger ledger;         /* of the last moment */
   history *history;
+  quantities *quantities;
   observed seen;          /* all but its history and its jumps */
   double energy_at_start; /* [J] */
   long count;             /* moments written */
@@ -38,6 +40,7 @@ struct outputs {
 /* The first error is told. */
 corot_status outputs_close(outputs *o) {
   corot_status status = COROT_OK;
+  if (o->quantities) quantities_close(o->quantities);
   for (int i = 0; i < NWRITER; i++) {
     corot_status closed = o->writer[i] ? writers[i]->close(o->writer[i]) : COROT_OK;
     o->writer[i] = NULL;
@@ -50,6 +53,7 @@ void outputs_destroy(outputs *o) {
   if (!o) return;
   outputs_close(o);
   history_destroy(o->history);
+  quantities_destroy(o->quantities);
   probes_destroy(o->probes);
   free(o->probed);
   free(o->nodal);
@@ -63,6 +67,7 @@ static corot_status allocate(outputs *o) {
   o->probed = calloc((size_t)probes_ncolumn(o->probes) + 1, sizeof *o->probed);
   if (!o->nodal || !o->probed) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
   o->velocity = o->nodal + nnode;
+  COROT_TRY(quantities_create(o->scenario, o->probes, &o->quantities));
   return history_create(o->probes, corot_model_ndof(o->model), &o->history);
 }
 
@@ -151,12 +156,18 @@ static corot_status evaluate_probes(outputs *o, corot_state *state, const instan
                          o->probed);
 }
 
+/* Of the moment whose probes have been evaluated. */
+static corot_status record(outputs *o, const instant *now, const ledger *row) {
+  quantities_row(o->quantities, row, o->probed);
+  return history_add(o->history, row, o->probed, now->u);
+}
+
 corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
                              const corot_energies *e) {
   ledger row = make_ledger(o, now, e);
   corot_nodal(o->model, now->t, now->u, now->v, o->nodal, NULL);
   COROT_TRY(evaluate_probes(o, state, now, &row));
-  return history_add(o->history, &row, o->probed, now->u);
+  return record(o, now, &row);
 }
 
 /* In more of the body or, if in all of it, further. */
@@ -229,11 +240,12 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
   observe(o, state, now);
 
   /* the files */
-  if (o->count == 1 || now->still) COROT_TRY(history_add(o->history, &row, o->probed, now->u));
+  if (o->count == 1 || now->still) COROT_TRY(record(o, now, &row));
   return write_all(o, &all);
 }
 
 corot_status outputs_step(outputs *o, const step_row *row) {
+  if (row->events & EVENT_KINK) quantities_break(o->quantities);
   for (int i = 0; i < NWRITER; i++) {
     const writer_ops *ops = writers[i];
     if (o->writer[i] && ops->step) COROT_TRY(ops->step(o->writer[i], row));
@@ -250,6 +262,16 @@ json_t *outputs_reactions(const outputs *o) {
 long outputs_count(const outputs *o) { return o->count; }
 
 ledger outputs_ledger(const outputs *o) { return o->ledger; }
+
+json_t *outputs_quantities(const outputs *o) { return quantities_json(o->quantities); }
+
+void outputs_tell(const outputs *o) { quantities_tell(o->quantities); }
+
+int outputs_unanswered(const outputs *o) { return quantities_unanswered(o->quantities); }
+
+corot_status outputs_warn(const outputs *o, warnings *w) {
+  return quantities_warn(o->quantities, w);
+}
 
 json_t *outputs_extremes(const outputs *o) { return history_extremes(o->history); }
 

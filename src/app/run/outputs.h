@@ -3,6 +3,7 @@
 #ifndef COROT_APP_RUN_OUTPUTS_H
 #define COROT_APP_RUN_OUTPUTS_H
 
+#include "app/scenario/warnings.h"
 #include "history.h"
 
 typedef struct outputs outputs;
@@ -56,6 +57,13 @@ const char *outputs_probe(const outputs *o, int i, int *node, double u[3], doubl
 /* The forces of the supports at the moment written last: reactions_last, and as that before the
    outputs are closed; NULL without reactions.csv. */
 json_t *outputs_reactions(const outputs *o);
+
+/* The quantities of the scenario, once the outputs are closed: the part of result.json
+   (quantities.h); how many have no value, and a warning for each. */
+json_t *outputs_quantities(const outputs *o);
+void outputs_tell(const outputs *o); /* a line for each on stderr */
+int outputs_unanswered(const outputs *o);
+corot_status outputs_warn(const outputs *o, warnings *w);
 
 /* Extremes of probes and energies: history_extremes. */
 json_t *outputs_extremes(const outputs *o);

@@ -161,7 +161,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
   json_t *result = json_pack(
       "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
       "s:o, s:o,"
-      " s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
+      " s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
       json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
@@ -171,9 +171,9 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
       timings_part(run), "memory", memory_part(run), "probes", probes_part(o), "energy",
-      energy_part(o), "extremes", extremes_part(o), "observed", observed_part(run), "versions",
-      result_versions(), "provenance", provenance, "hashes", "scenario", h->scenario, "mesh",
-      h->mesh, "run", h->run, "scenario", s->resolved);
+      energy_part(o), "quantities", outputs_quantities(o), "extremes", extremes_part(o), "observed",
+      observed_part(run), "versions", result_versions(), "provenance", provenance, "hashes",
+      "scenario", h->scenario, "mesh", h->mesh, "run", h->run, "scenario", s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
   return COROT_OK;

@@ -297,12 +297,18 @@ static void print_run(const scenario *s, const facts *f, FILE *out) {
   }
 }
 
+static void print_quantities(const scenario *s, FILE *out) {
+  for (int i = 0; i < s->nquantity; i++)
+    fprintf(out, "quantity       %s: %s\n", s->quantity[i].name, s->quantity[i].quantity.text);
+}
+
 void facts_print(const scenario *s, const facts *f, FILE *out) {
   fprintf(out, "scenario       %s: ok\n", s->path);
   if (*s->title) fprintf(out, "title          %s\n", s->title);
   print_mesh(s, f, out);
   print_model(s, f, out);
   print_run(s, f, out);
+  print_quantities(s, out);
   warnings_print(&f->warnings, 0, "warning        ", out);
 }
 
@@ -373,6 +379,13 @@ static json_t *integrator_json(const scenario *s, const corot_integrator_choice 
                    "step", step > 0 ? json_real(step) : json_null());
 }
 
+static json_t *quantities_json(const scenario *s) {
+  json_t *all = json_object();
+  for (int i = 0; i < s->nquantity; i++)
+    all = json_text_with(all, s->quantity[i].name, json_string(s->quantity[i].quantity.text));
+  return all;
+}
+
 json_t *facts_json(const scenario *s, const facts *f) {
   json_t *j = json_object();
   j = json_text_with(j, "scenario", json_text_string(s->path));
@@ -391,5 +404,6 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
   j = json_text_with(j, "probes", probes_json(s, f->mesh));
+  j = json_text_with(j, "quantities", quantities_json(s));
   return json_text_with(j, "warnings", warnings_json(&f->warnings));
 }

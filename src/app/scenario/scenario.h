@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "app/quantity/quantity.h"
 #include "scenario_keys.h"
 
 typedef enum group_kind { GROUP_PLANE, GROUP_BOX, GROUP_NODES } group_kind;
@@ -27,6 +28,13 @@ typedef struct probe_def {
   int node; /* -1: by point */
   double point[3];
 } probe_def;
+
+/* A number that is asked for: see quantity.h. */
+typedef struct quantity_def {
+  const char *name;
+  quantity quantity; /* its column is not resolved */
+  const struct config_node *node;
+} quantity_def;
 
 /* A velocity some nodes start with. */
 typedef struct start_def {
@@ -71,6 +79,9 @@ typedef struct scenario {
 
   int nprobe;
   const probe_def *probe;
+  int nquantity;
+  const quantity_def *quantity; /* [nquantity] */
+
   bool write_fields;  /* output.fields: vtu */
   int field_every;    /* every so many output times */
   bool write_history; /* output.history: true */

@@ -93,6 +93,10 @@ static json_t *value_schema(const schema_key *key) {
       return json_text_with(
           json_text_with(of_type("object"), "additionalProperties", map_schema(inside)),
           "maxProperties", json_integer(CONFIG_MOST_KEYS));
+    case SCHEMA_NAMED_TEXTS:
+      return json_text_with(
+          json_text_with(of_type("object"), "additionalProperties", of_type("string")),
+          "maxProperties", json_integer(CONFIG_MOST_KEYS));
     case SCHEMA_LIST:
       return list_schema(map_schema(inside), 0, 0);
     case SCHEMA_MAPS:

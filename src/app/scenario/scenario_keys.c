@@ -177,6 +177,8 @@ static const schema_key keys[] = {
   {"probes.NAME.point",       VECTOR,          ONE_OF,   ANY,          "m",       0, 0, "the node nearest to it at rest, of the refined mesh"},
   {"probes.NAME.node",        INTEGER,         ONE_OF,   NOT_NEGATIVE, "",        0, 0, "the node of that number, the first is 0; unchanged by mesh.refine and mesh.order: 2"},
 
+  {"quantities",              SCHEMA_NAMED_TEXTS, OPTIONAL, ANY,       "",        0, 0, "numbers out of the columns of probes.csv and energy.csv, found at the resolution of the steps and written to result.json: {peak: max(corner.ux), end: corner.ux@end}; max, min, mean, integral, amplitude, period of a column, all of it or from a time to another, \"max(corner.ux, 0.5, end)\"; corner.ux@1.5 at a time [s]; when(max(..)) the time of an extreme; abs(..) around a column or a number; where braces stand around it, a text with commas wants quotes"},
+
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},
   {"output.every",            INTEGER,         OPTIONAL, POSITIVE,     "",        "1", 0, "fields at every so many output times"},

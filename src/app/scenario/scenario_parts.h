@@ -30,6 +30,12 @@ corot_status scenario_read_statics(scenario *s);
 /* start, after boundary */
 corot_status scenario_read_start(scenario *s);
 
+/* quantities, after time */
+corot_status scenario_read_quantities(scenario *s);
+
+/* A name becomes the head of columns of a CSV file, or a key of result.json. */
+bool scenario_is_column_name(const char *name);
+
 /* An amplitude; its memory is the tree's. */
 corot_status scenario_read_amplitude(scenario *s, config_node *node, corot_amplitude *a);
 

@@ -140,8 +140,7 @@ static corot_status read_time(scenario *s) {
   return COROT_OK;
 }
 
-/* A name becomes the head of columns of a CSV file. */
-static bool is_column_name(const char *name) {
+bool scenario_is_column_name(const char *name) {
   static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   return name[strspn(name, letters)] == '\0';
 }
@@ -152,7 +151,7 @@ static corot_status read_probes(scenario *s) {
   if (!probe) return no_memory();
   s->probe = probe;
   for (config_node *c = map->child; c; c = c->next) {
-    if (!is_column_name(c->key))
+    if (!scenario_is_column_name(c->key))
       return config_fail_key(c, "the name of a probe is made of letters, digits, _ and -");
     probe_def *p = &probe[s->nprobe++];
     const config_node *node = config_find(c, "node");
@@ -228,6 +227,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));
   COROT_TRY(read_probes(s));
+  COROT_TRY(scenario_read_quantities(s));
   read_output(s);
   s->resolved = schema_resolve(s->source);
   return s->resolved ? COROT_OK : no_memory();

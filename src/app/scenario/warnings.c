@@ -23,6 +23,7 @@ const warning_kind warning_kinds[WARNING_CODES] = {
     [WARNING_BENDING] = {"bending", "the stress jumps between tets: the mesh is too coarse"},
     [WARNING_STEP] = {"step", "a constant step is long for the motion"},
     [WARNING_OUTPUT] = {"output", "output times are too far apart for the motion"},
+    [WARNING_QUANTITY] = {"quantity", "a quantity that was asked for has no value"},
 };
 
 corot_status warnings_add(warnings *w, warning_code code, const char *format, ...) {

@@ -26,6 +26,7 @@ typedef enum warning_code {
   WARNING_BENDING,
   WARNING_STEP,
   WARNING_OUTPUT,
+  WARNING_QUANTITY,
   WARNING_CODES /* how many */
 } warning_code;
 
