@@ -138,8 +138,7 @@ static void find_scales(pairing *p) {
   }
 }
 
-/* Where the reference does not move at all there is no scale, and an error is infinite. */
-static double relative(double error, double scale) {
+double error_relative(double error, double scale) {
   return scale > 0 ? error / scale : error > 0 ? INFINITY : 0;
 }
 
@@ -179,9 +178,9 @@ static void compare(pairing *p, int at, int at_reference) {
 
   take(p, u, states_u(p->run, at), du);
   take(p, v, states_v(p->run, at), dv);
-  enter(p, ERROR_DISPLACEMENT, relative(mass_norm(p->y, du), p->scale[0]));
-  enter(p, ERROR_VELOCITY, relative(mass_norm(p->y, dv), p->scale[1]));
-  enter(p, ERROR_ENERGY, relative(energy_norm(p->y, du), p->scale[2]));
+  enter(p, ERROR_DISPLACEMENT, error_relative(mass_norm(p->y, du), p->scale[0]));
+  enter(p, ERROR_VELOCITY, error_relative(mass_norm(p->y, dv), p->scale[1]));
+  enter(p, ERROR_ENERGY, error_relative(energy_norm(p->y, du), p->scale[2]));
   enter(p, ERROR_MIXED, fmax(mixed_error(p, du, u, length), mixed_error(p, dv, v, speed)));
   enter_probes(p, du);
   if (p->e->of[ERROR_DISPLACEMENT].max > 1e-3 && isnan(p->e->parting))

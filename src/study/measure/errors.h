@@ -43,6 +43,9 @@ typedef struct error_pair {
 /* known: how far the reference is from the truth, as far as is known; NaN: nobody knows. */
 bool is_rated(const error_pair *error, const error_pair *known, bool end);
 
+/* error / scale; where there is no scale, as the reference does not move, an error is infinite. */
+double error_relative(double error, double scale);
+
 typedef struct errors {
   int n;          /* ERROR_PROBES and the number of probes */
   error_pair *of; /* [n] */
