@@ -19,7 +19,8 @@ typedef struct variants_command {
   const char *suffix;        /* of the default folder, out/MODELSUFFIX */
   const struct option *more; /* options of its own, or NULL */
   int (*take)(void *context, int option, const char *value); /* one of them: -1, or an exit code */
-  /* After all options, NULL or: -1, or an exit code. May add one setting. */
+  /* After all options, NULL or: -1, or an exit code. May add a setting for each two options of its
+     own that were given. */
   int (*ready)(void *context, variants_arguments *a);
   /* The scenario has the settings. Returns the exit code. */
   int (*go)(void *context, const scenario *s, const variants_arguments *a);
