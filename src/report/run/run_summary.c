@@ -248,6 +248,7 @@ void run_summary_write(const run_folder *run, FILE *out) {
   write_reactions(r, out);
   write_cost(r, out);
   fputs("</div>\n", out);
+  findings_quantities(run, out);
   findings_extremes(run, out);
   page_section_end(out);
 }
