@@ -1,17 +1,6 @@
 /* Quantities of whole runs: at the resolution of the steps, whatever is written of them. */
 #include "whole_run.h"
 
-static const char *const methods[] = {
-    "integrator={method: cvode}",
-    "integrator={method: ida}",
-    "integrator={method: arkode}",
-    "integrator={method: erk}",
-    "integrator={method: newmark, step: 0.0125}",
-    "integrator={method: bdf3, step: 0.0125}",
-    "integrator={method: backward-euler, step: 0.03}", /* which passes the end */
-};
-enum { NMETHOD = sizeof methods / sizeof *methods };
-
 static const char asked[] =
     "quantities={peak: max(corner.ux), low: \"min(elastic, 0.2, 0.9)\", end: corner.ux@end, "
     "half: corner.ux@0.5, mean: mean(corner.ux), work: integral(external_work), "
@@ -51,8 +40,8 @@ static void assert_between_rows(const csv *table, int k, double t, double value)
 static void they_are_those_of_the_history(void **state) {
   (void)state;
   char *dir = temporary_folder();
-  for (int m = 0; m < NMETHOD; m++) {
-    run_ok(dir, SET(methods[m], asked, "output.fields=none"));
+  for (int m = 0; m < NEVERY; m++) {
+    run_ok(dir, SET(every_method[m], asked, "output.fields=none"));
     json_t *result = result_of(dir);
     csv history = read_csv(in(dir, "out/history.csv"));
     double top = largest(&history, UX), peak = quantity_of(result, "peak", "value");
@@ -115,9 +104,9 @@ static void a_fall_is_in_closed_form(void **state) {
       "time: {end: 2.0}\n"
       "output: {fields: none}\n"
       "probes: {p: {node: 0}}\n";
-  char set[NMETHOD + sizeof fall / sizeof *fall][96];
+  char set[NEVERY + sizeof fall / sizeof *fall][96];
   for (int m = 0; m < 4; m++) {
-    const char *all[sizeof fall / sizeof *fall + 3] = {methods[m]};
+    const char *all[sizeof fall / sizeof *fall + 3] = {every_method[m]};
     size_t n = 1;
     for (size_t i = 0; i < sizeof fall / sizeof *fall; i++, n++) {
       snprintf(set[i], sizeof set[i], "quantities.q%zu=%s", i, fall[i].of);
@@ -125,7 +114,7 @@ static void a_fall_is_in_closed_form(void **state) {
     }
     all[n] = "integrator.rtol=1e-6";
     answer a = run_text(dir, body, (run_options){.quiet = true}, all);
-    if (a.code != 0) fail_msg("%s: %s", methods[m], a.err);
+    if (a.code != 0) fail_msg("%s: %s", every_method[m], a.err);
     forget(a);
     json_t *result = result_of(dir);
     for (size_t i = 0; i < sizeof fall / sizeof *fall; i++) {
