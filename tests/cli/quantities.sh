@@ -99,6 +99,20 @@ expect 0 study table orders; out "mean(corner.ux)"; out "corner.ux@end, all: exp
 sed 's/^measure.*/measure: [max(cornr.ux)]/' orders.yaml >wrong.yaml
 expect 3 study wrong.yaml -o wrong; err "wrong.yaml:5:15:"; err "did you mean corner.ux?"
 
+# A budget: what a part changes of the number is what it changes of the probe.
+expect 0 budget model.yaml -o budget --quiet --skip space --set output.fields=none \
+  --quantity corner.ux@end --quantity 'max(elastic)' --json
+json 'list(d["quantities"]) == ["corner_ux_at_end", "max_elastic"]'
+json 'all(abs(p["probes"]["corner"]["signed"][0] - q["change"]) <= 1e-12 * 1e-2
+          for p, q in zip(d["parts"], d["quantities"]["corner_ux_at_end"]["parts"]))'
+json 'all(abs(q["value"] + sum(p["change"] for p in q["parts"]) - q["reference"]) < 1e-12
+          and [p["part"] for p in q["parts"]] == [p["part"] for p in d["parts"]]
+          for q in d["quantities"].values())'
+expect 0 budget model.yaml -o budget --quiet --skip space --set output.fields=none \
+  --quantity corner.ux@end --quantity 'max(elastic)'
+out "max_elastic, max(elastic): "; out "strain measure "
+expect 2 budget model.yaml --quantity 'max(elastic'; err "--quantity: a ) is missing"
+
 # A limit: the displacement is nearly in proportion to the load.
 limit="find-limit model.yaml --quiet --key loads.0.traction.0 --from 20 --to 200 --scan 3"
 expect 0 $limit -o limit --quantity corner.ux@end --below 1e-3 --json

@@ -9,6 +9,7 @@
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
 #include "budget_claims.h"
+#include "budget_quantities.h"
 #include "budget_text.h"
 #include "report/read/lookup.h"
 #include "study/measure/states_sum.h"
@@ -297,14 +298,21 @@ static corot_status rate(budgeting *b, json_t **out) {
     if (status == COROT_OK && json_array_append_new(parts, part)) status = no_memory();
   }
   builds_sort(&b->builds);
+  json_t *quantities = NULL;
+  if (status == COROT_OK) status = budget_quantities(b, &quantities);
   if (status == COROT_OK) status = totals(b, &all, parts, out);
+  if (status == COROT_OK && json_object_set(*out, "quantities", quantities)) status = no_memory();
+  json_decref(quantities);
   json_decref(parts);
   budget_claims_free(&all);
   return status;
 }
 
 static void release(budgeting *b) {
-  for (int i = 0; i < b->nrun; i++) states_free(&b->run[i].states);
+  for (int i = 0; i < b->nrun; i++) {
+    states_free(&b->run[i].states);
+    free(b->run[i].quantity);
+  }
   builds_free(&b->builds);
   yardstick_destroy(b->yardstick);
   manifest_destroy(b->manifest);

@@ -7,7 +7,6 @@
 #include "app/command/cli.h"
 #include "app/folder/folder.h"
 #include "app/folder/read_csv.h"
-#include "app/quantity/quantity.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
 #include "command_study.h"
@@ -66,8 +65,7 @@ enum { SETTING_SIZE = 160 };
 /* The number that is asked for in place of the energy. */
 typedef struct bound {
   bool asked;
-  char text[QUANTITY_TEXT], name[QUANTITY_TEXT]; /* as it is printed; of its key */
-  char setting[2 * QUANTITY_TEXT + 16];
+  quantity_option of;
   double below, above; /* NaN: not given */
 } bound;
 
@@ -93,20 +91,6 @@ static bool parse_number(const char *text, double *out) {
   return end > text && !*end && isfinite(*out);
 }
 
-static int take_quantity(bound *b, const char *text) {
-  quantity q;
-  size_t at;
-  if (quantity_parse(text, &q, &at) != COROT_OK) {
-    quantity_point("--quantity", text, at);
-    return usage_error("corot find-limit", "%s", corot_error());
-  }
-  quantity_print(&q, b->text);
-  quantity_name(&q, b->name);
-  snprintf(b->setting, sizeof b->setting, "quantities.%s=%s", b->name, b->text);
-  b->asked = true;
-  return -1;
-}
-
 static int take(void *context, int option, const char *value) {
   search *s = context;
   double number;
@@ -116,7 +100,10 @@ static int take(void *context, int option, const char *value) {
     return usage_error("corot find-limit", "--key %s: expected a key such as frames.interval",
                        value);
   }
-  if (option == 'Q') return take_quantity(&s->bound, value);
+  if (option == 'Q') {
+    s->bound.asked = true;
+    return variants_take_quantity("corot find-limit", value, &s->bound.of);
+  }
   if (!parse_number(value, &number))
     return usage_error("corot find-limit", "%s: expected a number", value);
   switch (option) {
@@ -185,16 +172,16 @@ static corot_status judge_quantity(const search *s, const study_run *run, limit_
   run_record record;
   COROT_TRY(store_look(s->arguments->options.dir, run, &record));
   const json_t *all = json_object_get(record.result, "quantities");
-  const json_t *found = json_object_get(all, b->name), *value = json_object_get(found, "value");
+  const json_t *found = json_object_get(all, b->of.name), *value = json_object_get(found, "value");
   const char *why = json_string_value(json_object_get(found, "reason"));
   if (json_is_number(value)) trial->quantity = json_number_value(value);
   trial->stable =
       !(trial->quantity >= b->below) && !(trial->quantity <= b->above) && !isnan(trial->quantity);
   if (isnan(trial->quantity))
-    snprintf(trial->reason, sizeof trial->reason, "%.100s has no value: %.120s", b->text,
+    snprintf(trial->reason, sizeof trial->reason, "%.100s has no value: %.120s", b->of.text,
              why ? why : "");
   else if (!trial->stable)
-    snprintf(trial->reason, sizeof trial->reason, "%.200s = %.6g", b->text, trial->quantity);
+    snprintf(trial->reason, sizeof trial->reason, "%.200s = %.6g", b->of.text, trial->quantity);
   run_record_free(&record);
   return COROT_OK;
 }
@@ -263,7 +250,7 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
 
 static json_t *bound_json(const bound *b) {
   if (!b->asked) return json_null();
-  return json_pack("{s:s, s:o, s:o}", "of", b->text, "below", json_text_real(b->below), "above",
+  return json_pack("{s:s, s:o, s:o}", "of", b->of.text, "below", json_text_real(b->below), "above",
                    json_text_real(b->above));
 }
 
@@ -325,7 +312,7 @@ static int ready(void *context, variants_arguments *a) {
     return usage_error("corot find-limit", "--quantity wants --below or --above");
   if (bounded && !s->bound.asked)
     return usage_error("corot find-limit", "--below and --above are of a --quantity");
-  if (s->bound.asked) a->set[a->nset++] = s->bound.setting;
+  if (s->bound.asked) a->set[a->nset++] = s->bound.of.setting;
   snprintf(s->first, sizeof s->first, "%s=%.9g", s->key, s->def.from);
   a->set[a->nset++] = s->first;
   return -1;

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "states_sum.h"
 
@@ -104,6 +105,45 @@ corot_status claim_by_levels(yardstick *y, const trajectory *middle, const traje
   c->is_open = !c->convergence.asymptotic;
   COROT_TRY(claim_distance(y, c->before, finest ? finest : middle, &c->shown));
   return claim_distance(y, c->before, c->after, &c->error);
+}
+
+/* --- One number --- */
+
+static corot_status one_error(double value, errors *out) {
+  if (isnan(value)) return COROT_OK;
+  out->of = calloc(1, sizeof *out->of);
+  if (!out->of) return corot_fail(COROT_ENOMEM, "out of memory");
+  out->n = 1;
+  out->of[0] = (error_pair){value, value};
+  return COROT_OK;
+}
+
+corot_status claim_of_numbers(int mesh_order, int nlevel, const double *q, double known, claim *c,
+                              double *limit) {
+  double first = q[1] - q[0], last = q[nlevel == 3 ? 2 : 1], tends_to = last;
+  c->is_space = nlevel > 0;
+  c->nlevel = nlevel;
+  if (nlevel == 3) {
+    double second = q[2] - q[1], cosine = first * second < 0 ? -1 : 1;
+    c->convergence = convergence_observe_of(mesh_order, fabs(first), fabs(second), cosine,
+                                            isnan(known) ? 0 : known);
+    tends_to += c->convergence.remainder * second;
+  }
+  c->is_open = c->is_space && !c->convergence.asymptotic;
+  COROT_TRY(one_error(known, &c->known));
+  COROT_TRY(one_error(fabs(last - q[0]), &c->shown));
+  COROT_TRY(one_error(fabs(tends_to - q[0]), &c->error));
+  *limit = tends_to;
+  return COROT_OK;
+}
+
+void claim_scale(claim *c, double size) {
+  errors *const all[] = {&c->known, &c->shown, &c->error};
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < all[i]->n; k++) {
+      error_pair *e = &all[i]->of[k];
+      *e = (error_pair){error_relative(e->max, size), error_relative(e->end, size)};
+    }
 }
 
 /* --- Bounds --- */

@@ -49,33 +49,7 @@ static json_t *space_json(const table_reference *t, int index, const char *of, c
       json_text_real(c->nlevel == NLEVEL ? c->convergence.order : NAN), "verdict", verdict);
 }
 
-/* A single number as errors, of which the displacement is the only one. */
-static corot_status one_error(double value, errors *out) {
-  out->of = calloc(1, sizeof *out->of);
-  if (!out->of) return no_memory();
-  out->n = 1;
-  out->of[0] = (error_pair){value, value};
-  return COROT_OK;
-}
-
-/* The same levels of one quantity, as of the displacement: relative to what they tend to. */
-static corot_status claim_quantity(int mesh_order, const double q[NLEVEL], int nlevel, double floor,
-                                   claim *c) {
-  double first = q[1] - q[0], limit = q[nlevel - 1];
-  c->is_space = true;
-  c->nlevel = nlevel;
-  if (nlevel == NLEVEL) {
-    double second = q[2] - q[1], cosine = first * second < 0 ? -1 : 1;
-    c->convergence =
-        convergence_observe_of(mesh_order, fabs(first), fabs(second), cosine, floor * fabs(q[0]));
-    limit += c->convergence.remainder * second;
-  }
-  c->is_open = !c->convergence.asymptotic;
-  COROT_TRY(one_error(floor, &c->known));
-  COROT_TRY(one_error(error_relative(fabs(q[nlevel - 1] - q[0]), fabs(limit)), &c->shown));
-  return one_error(error_relative(fabs(limit - q[0]), fabs(limit)), &c->error);
-}
-
+/* The same levels of quantity k, relative to what they tend to. */
 static corot_status measure_quantity(measuring *g, const table_reference *t,
                                      const int level[NLEVEL], int k, json_t *list) {
   double q[NLEVEL];
@@ -85,7 +59,10 @@ static corot_status measure_quantity(measuring *g, const table_reference *t,
   for (int i = 0; i < nlevel; i++)
     if (!isfinite(q[i]) || !isfinite(floor)) return COROT_OK; /* there is nothing to compare */
   claim c = {0};
-  corot_status status = claim_quantity(corot_mesh_order(g->yardstick->mesh), q, nlevel, floor, &c);
+  double limit;
+  corot_status status = claim_of_numbers(corot_mesh_order(g->yardstick->mesh), nlevel, q,
+                                         floor * fabs(q[0]), &c, &limit);
+  if (status == COROT_OK) claim_scale(&c, fabs(limit));
   if (status == COROT_OK &&
       json_array_append_new(list, space_json(&t[level[0]], level[0], g->m->quantity[k].text, &c)))
     status = no_memory();
