@@ -111,6 +111,7 @@ json 'all(abs(q["value"] + sum(p["change"] for p in q["parts"]) - q["reference"]
 expect 0 budget model.yaml -o budget --quiet --skip space --set output.fields=none \
   --quantity corner.ux@end --quantity 'max(elastic)'
 out "max_elastic, max(elastic): "; out "strain measure "
+grep -q 'max_elastic, max(elastic): 0\.' budget/report.html || complain "the budget's page"
 expect 2 budget model.yaml --quantity 'max(elastic'; err "--quantity: a ) is missing"
 
 # A limit: the displacement is nearly in proportion to the load.
