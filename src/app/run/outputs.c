@@ -146,8 +146,7 @@ static corot_status evaluate_probes(outputs *o, corot_state *state, const instan
                                          .v = now->v,
                                          .displacement = (const double(*)[3])o->nodal,
                                          .ledger = row,
-                                         .still = now->still,
-                                         .factor = now->factor},
+                                         .still = now->still},
                          o->probed);
 }
 
@@ -215,9 +214,7 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
                       .displacement = (const double(*)[3])o->nodal,
                       .velocity = (const double(*)[3])o->velocity,
                       .ledger = &o->ledger,
-                      .probed = o->probed,
-                      .factor = now->factor,
-                      .internal = now->internal};
+                      .probed = o->probed};
   /* whatever the body's state may not allow, before a file is touched */
   COROT_TRY(take_energies(o, state, now, &row));
   COROT_TRY(evaluate_all(o, &all));
@@ -276,12 +273,6 @@ corot_status outputs_observed(const outputs *o, corot_state *state, observed *ou
   return COROT_OK;
 }
 
-int outputs_nprobe(const outputs *o) { return probes_n(o->probes); }
-
-const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]) {
-  probe_facts probe = probes_known(o->probes, i);
-  *node = probe.node;
-  memcpy(u, o->nodal[*node], 3 * sizeof *u);
-  memcpy(v, o->velocity[*node], 3 * sizeof *v);
-  return probe.name;
+json_t *outputs_probes(const outputs *o) {
+  return probes_json(o->probes, o->probed, (const double(*)[3])o->velocity);
 }
