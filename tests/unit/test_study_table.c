@@ -72,7 +72,7 @@ static double mixed(const solid *b, double e) {
 }
 
 static double at_corner(const solid *b) {
-  const int *dof = corot_model_dof(b->y->model)[b->y->probe[0]];
+  const int *dof = corot_model_dof(b->y->model)[b->y->probe[0].node[0]];
   double square = 0;
   for (int c = 0; c < 3; c++) square += b->a[dof[c]] * b->a[dof[c]];
   return sqrt(square);

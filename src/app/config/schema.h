@@ -32,7 +32,8 @@ typedef enum schema_type {
 typedef enum schema_status {
   SCHEMA_OPTIONAL,
   SCHEMA_REQUIRED,
-  SCHEMA_ONE_OF, /* exactly one of the keys so marked in a map is given */
+  SCHEMA_ONE_OF,      /* exactly one of the keys so marked in a map is given */
+  SCHEMA_AT_MOST_ONE, /* one of the keys so marked, or none */
 } schema_status;
 
 typedef enum schema_range {

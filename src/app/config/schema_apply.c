@@ -379,15 +379,16 @@ static corot_status add_default(const application *a, config_node *map, const sc
   return apply_value(a, node, key);
 }
 
-/* Exactly one of the keys marked so. */
+/* Exactly one, or at most one, of the keys marked so. */
 static corot_status check_one_of(const schema *table, const config_node *map, const char *path) {
   const config_node *found = NULL;
   char words[LIST] = "";
   size_t used = 0;
   for (const schema_key *k = NULL; (k = schema_child(table, path, k));) {
-    if (k->status != SCHEMA_ONE_OF) continue;
+    if (k->status != SCHEMA_ONE_OF && k->status != SCHEMA_AT_MOST_ONE) continue;
     const char *name = last_segment(k->path);
-    used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", used ? " or " : "", name);
+    if (k->status == SCHEMA_ONE_OF)
+      used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", used ? " or " : "", name);
     for (const config_node *c = map->child; c; c = c->next) {
       if (strcmp(c->key, name) != 0) continue;
       if (found) return config_fail_key(c, "%s and %s exclude each other", found->key, c->key);

@@ -33,6 +33,8 @@ static const char *default_words(const schema_key *key) {
       return "required";
     case SCHEMA_ONE_OF:
       return "one of";
+    case SCHEMA_AT_MOST_ONE:
+      return "one at most";
     default:
       return key->fallback && key->type != SCHEMA_MAP ? key->fallback : "-";
   }

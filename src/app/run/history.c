@@ -17,6 +17,7 @@ static const char *const energy_words[OF_ENERGY] = {"kinetic",       "elastic", 
 
 typedef struct signal_seen {
   extreme min, max;
+  probe_where at_min, at_max; /* of a probe that is an extreme itself */
   turning turning;
 } signal_seen;
 
@@ -72,7 +73,9 @@ corot_status history_open(history *h, const char *dir) {
 
 /* --- One moment --- */
 
-static void see(signal_seen *s, bool first, double value, double t) {
+static void see(signal_seen *s, bool first, double value, double t, const probe_where *where) {
+  if (where && (first || value < s->min.value)) s->at_min = *where;
+  if (where && (first || value > s->max.value)) s->at_max = *where;
   if (first) {
     s->min = s->max = (extreme){value, t};
     s->turning = turning_begin(value, t);
@@ -91,8 +94,11 @@ corot_status history_add(history *h, const ledger *now, const double *value, con
   signal_seen *s = h->signal;
   for (int i = 0; i < probes_n(h->probes); i++) {
     probe_facts probe = probes_known(h->probes, i);
-    for (int c = 0; c < probe.ncolumn; c++) see(s++, first, value[probe.first + c], now->t);
-    if (probe.length) see(s++, first, length_of(value + probe.first), now->t);
+    for (int c = 0; c < probe.ncolumn; c++) {
+      const probe_where where = probes_where(h->probes, i, c);
+      see(s++, first, value[probe.first + c], now->t, &where);
+    }
+    if (probe.length) see(s++, first, length_of(value + probe.first), now->t, NULL);
   }
   const double energy[OF_ENERGY] = {now->kinetic,       now->elastic, now->dissipated,
                                     now->external_work, now->balance, now->frame_energy};
@@ -100,7 +106,7 @@ corot_status history_add(history *h, const ledger *now, const double *value, con
     memcpy(h->u, u, (size_t)h->ndof * sizeof *u);
     h->t_elastic = now->t;
   }
-  for (int k = 0; k < OF_ENERGY; k++) see(&s[k], first, energy[k], now->t);
+  for (int k = 0; k < OF_ENERGY; k++) see(&s[k], first, energy[k], now->t, NULL);
   h->balance = now->balance;
   h->dissipated = now->dissipated;
   return h->table ? history_row(h->table, now, probes_ncolumn(h->probes), value) : COROT_OK;
@@ -108,13 +114,15 @@ corot_status history_add(history *h, const ledger *now, const double *value, con
 
 /* --- What is known in the end --- */
 
-static json_t *extreme_json(extreme e) {
-  return json_pack("{s:o, s:o}", "value", json_text_real(e.value), "t", json_text_real(e.t));
+static json_t *extreme_json(extreme e, const probe_where *where) {
+  json_t *j = json_pack("{s:o, s:o}", "value", json_text_real(e.value), "t", json_text_real(e.t));
+  return where->known ? json_text_with(j, "at", probe_where_json(where)) : j;
 }
 
 static json_t *with_extremes(json_t *all, const char *name, const signal_seen *s) {
-  return json_text_with(
-      all, name, json_pack("{s:o, s:o}", "min", extreme_json(s->min), "max", extreme_json(s->max)));
+  return json_text_with(all, name,
+                        json_pack("{s:o, s:o}", "min", extreme_json(s->min, &s->at_min), "max",
+                                  extreme_json(s->max, &s->at_max)));
 }
 
 json_t *history_extremes(const history *h) {

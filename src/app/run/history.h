@@ -31,8 +31,9 @@ corot_status history_open(history *h, const char *dir);
 corot_status history_add(history *h, const ledger *now, const double *value, const double *u);
 
 /* The probes' columns, lengths of vectors, and the energies, by name:
-   {"NAME.ux": {"min": {"value", "t"}, "max": {"value", "t"}}, ..., "NAME.u", "kinetic", ...}. The
-   caller's to json_decref; NULL: no memory, or no moment. */
+   {"NAME.ux": {"min": {"value", "t"}, "max": {"value", "t"}}, ..., "NAME.u", "kinetic", ...}; with
+   "at" (probe_where_json) where the probe itself is an extreme. The caller's to json_decref; NULL:
+   no memory, or no moment. */
 json_t *history_extremes(const history *h);
 
 /* What warnings are made of. */

@@ -151,23 +151,25 @@ static corot_status evaluate_probes(outputs *o, corot_state *state, const instan
                                          .v = now->v,
                                          .displacement = (const double(*)[3])o->nodal,
                                          .ledger = row,
-                                         .still = now->still,
-                                         .factor = now->factor},
+                                         .still = now->still},
                          o->probed);
 }
 
-/* Of the moment whose probes have been evaluated. */
-static corot_status record(outputs *o, const instant *now, const ledger *row) {
-  quantities_row(o->quantities, row, o->probed);
+/* Of the moment whose probes have been evaluated; velocity NULL: none that goes with t. */
+static corot_status record(outputs *o, const instant *now, const ledger *row,
+                           const double (*velocity)[3]) {
+  quantities_row(o->quantities, row, o->probed, velocity);
   return history_add(o->history, row, o->probed, now->u);
 }
 
 corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
                              const corot_energies *e) {
   ledger row = make_ledger(o, now, e);
+  bool wanted = quantities_wanted(o->quantities);
   corot_nodal(o->model, now->t, now->u, now->v, o->nodal, NULL);
+  if (wanted) corot_nodal_motion(o->model, state, now->t, now->v, NULL, o->velocity, NULL);
   COROT_TRY(evaluate_probes(o, state, now, &row));
-  return record(o, now, &row);
+  return record(o, now, &row, wanted ? (const double(*)[3])o->velocity : NULL);
 }
 
 /* In more of the body or, if in all of it, further. */
@@ -226,9 +228,7 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
                       .displacement = (const double(*)[3])o->nodal,
                       .velocity = (const double(*)[3])o->velocity,
                       .ledger = &o->ledger,
-                      .probed = o->probed,
-                      .factor = now->factor,
-                      .internal = now->internal};
+                      .probed = o->probed};
   /* whatever the body's state may not allow, before a file is touched */
   COROT_TRY(take_energies(o, state, now, &row));
   COROT_TRY(evaluate_all(o, &all));
@@ -240,7 +240,10 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
   observe(o, state, now);
 
   /* the files */
-  if (o->count == 1 || now->still) COROT_TRY(record(o, now, &row));
+  if (o->count == 1 || now->still) {
+    const double(*velocity)[3] = now->still ? NULL : (const double(*)[3])o->velocity;
+    COROT_TRY(record(o, now, &row, velocity));
+  }
   return write_all(o, &all);
 }
 
@@ -298,12 +301,6 @@ corot_status outputs_observed(const outputs *o, corot_state *state, observed *ou
   return COROT_OK;
 }
 
-int outputs_nprobe(const outputs *o) { return probes_n(o->probes); }
-
-const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]) {
-  probe_facts probe = probes_known(o->probes, i);
-  *node = probe.node;
-  memcpy(u, o->nodal[*node], 3 * sizeof *u);
-  memcpy(v, o->velocity[*node], 3 * sizeof *v);
-  return probe.name;
+json_t *outputs_probes(const outputs *o) {
+  return probes_json(o->probes, o->probed, (const double(*)[3])o->velocity);
 }

@@ -15,8 +15,6 @@ typedef struct instant {
   double dissipated, external_work; /* from the start to t [J] */
   double frame_energy;              /* put in by frame updates so far [J] */
   bool still;                       /* nothing moves, whatever supports do at t */
-  double factor;                    /* of the loads, in statics */
-  const double (*internal)[3];      /* [nnode] elastic force, in statics [N] */
 } instant;
 
 /* Makes `dir`, removes what an earlier run left there, and begins the files that runs and statics
@@ -49,10 +47,9 @@ const char *outputs_file(int i);
 /* How many moments were written. */
 long outputs_count(const outputs *o);
 
-/* The moment written last: energies, and u and v of each probe. */
+/* The moment written last: energies, and the probes (probes_json). */
 ledger outputs_ledger(const outputs *o);
-int outputs_nprobe(const outputs *o);
-const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]);
+json_t *outputs_probes(const outputs *o);
 
 /* The forces of the supports at the moment written last: reactions_last, and as that before the
    outputs are closed; NULL without reactions.csv. */

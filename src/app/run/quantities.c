@@ -17,7 +17,9 @@ struct quantities {
   int nprobed;       /* columns of the probes */
   const char **unit; /* [nquantity] of its column */
   meter *meter;
-  double *value; /* [nprobed + LEDGER_COLUMNS] of a row */
+  const probes *probes;
+  double *value, *rate; /* [nprobed + LEDGER_COLUMNS] of a row; and their derivatives, of the
+                           ledger's NaN */
 };
 
 /* --- The columns --- */
@@ -91,9 +93,12 @@ static corot_status make(quantities *q, const probes *p, const columns *c) {
   const scenario *s = q->scenario;
   quantity *of = malloc(((size_t)s->nquantity + 1) * sizeof *of);
   q->unit = malloc(((size_t)s->nquantity + 1) * sizeof *q->unit);
-  q->value = malloc((size_t)c->n * sizeof *q->value);
+  q->probes = p;
+  q->value = malloc(2 * (size_t)c->n * sizeof *q->value);
   corot_status status = of && q->unit && q->value ? COROT_OK : COROT_ENOMEM;
   if (status != COROT_OK) corot_fail(status, "quantities: out of memory");
+  q->rate = q->value ? q->value + c->n : NULL;
+  for (int i = 0; q->rate && i < c->n; i++) q->rate[i] = NAN;
   for (int i = 0; status == COROT_OK && i < s->nquantity; i++) {
     status = resolve(s, c, i, &of[i]);
     if (status != COROT_OK) break;
@@ -123,11 +128,15 @@ corot_status quantities_create(const scenario *s, const probes *p, quantities **
 
 /* --- Step by step --- */
 
-void quantities_row(quantities *q, const ledger *now, const double *probed) {
-  if (meter_count(q->meter) == 0) return;
+bool quantities_wanted(const quantities *q) { return meter_count(q->meter) > 0; }
+
+void quantities_row(quantities *q, const ledger *now, const double *probed,
+                    const double (*velocity)[3]) {
+  if (!quantities_wanted(q)) return;
+  if (velocity) probes_rates(q->probes, velocity, q->rate);
   memcpy(q->value, probed, (size_t)q->nprobed * sizeof *probed);
   ledger_values(now, q->value + q->nprobed);
-  meter_row(q->meter, now->t, q->value, NULL);
+  meter_row(q->meter, now->t, q->value, velocity ? q->rate : NULL);
 }
 
 void quantities_break(quantities *q) { meter_break(q->meter); }

@@ -24,8 +24,13 @@ corot_status quantities_create(const scenario *s, const probes *p, quantities **
 /* Takes NULL. */
 void quantities_destroy(quantities *q);
 
-/* A row of the history: the ledger, and the probes' columns. */
-void quantities_row(quantities *q, const ledger *now, const double *probed);
+/* A row of the history: the ledger, the probes' columns, and the velocity of all nodes [nnode],
+   NULL: none that goes with t. */
+void quantities_row(quantities *q, const ledger *now, const double *probed,
+                    const double (*velocity)[3]);
+
+/* Whether there are any. */
+bool quantities_wanted(const quantities *q);
 
 /* Loads or supports bend or jump at the time of the last row. */
 void quantities_break(quantities *q);

@@ -19,7 +19,7 @@ typedef struct equilibrium_run {
   corot_mesh *mesh;
   corot_refinement *refinement; /* or NULL */
   corot_model *model;
-  corot_state *state; /* for outputs */
+  corot_state *state; /* for outputs; it stands still */
   corot_statics *statics;
   outputs *outputs;
   double *u, *v;                         /* [n] v is zero */
@@ -112,14 +112,9 @@ static corot_status add_work(equilibrium_run *r, double t) {
 
 static corot_status write_equilibrium(equilibrium_run *r, bool last) {
   double started = wall_clock(), t = r->factor * r->scenario->t_end;
+  corot_state_stand_still(r->state, r->scenario->t_end, r->factor);
   corot_status status = add_work(r, t);
-  instant now = {.t = t,
-                 .u = r->u,
-                 .v = r->v,
-                 .external_work = r->work,
-                 .still = true,
-                 .factor = r->factor,
-                 .internal = (const double(*)[3])r->f_before}; /* which are those of now */
+  instant now = {.t = t, .u = r->u, .v = r->v, .external_work = r->work, .still = true};
   if (status == COROT_OK) status = outputs_write(r->outputs, r->state, &now, last);
   r->output_s += wall_clock() - started;
   return status;

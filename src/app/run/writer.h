@@ -23,9 +23,7 @@ typedef struct moment {
   const double *u, *v;                             /* [n] */
   const double (*displacement)[3], (*velocity)[3]; /* [nnode] */
   const ledger *ledger;
-  const double *probed;        /* [probes_ncolumn] */
-  double factor;               /* of the loads, in statics */
-  const double (*internal)[3]; /* [nnode] elastic force, in statics [N] */
+  const double *probed; /* [probes_ncolumn] */
 } moment;
 
 /* Who begins it: a run, a search for an equilibrium, or both. */

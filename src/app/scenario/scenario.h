@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "app/quantity/quantity.h"
+#include "probe_quantity.h"
 #include "scenario_keys.h"
 
 typedef enum group_kind { GROUP_PLANE, GROUP_BOX, GROUP_NODES } group_kind;
@@ -23,10 +24,19 @@ typedef struct group_def {
   const int *node;
 } group_def;
 
+/* All zero but the name: the displacement of node 0. */
 typedef struct probe_def {
   const char *name;
-  int node; /* -1: by point */
-  double point[3];
+  int node;          /* -1: of something else */
+  double point[3];   /* unless there is a node, a group, or it is of the body */
+  bool nearest;      /* of the node nearest to the point */
+  const char *group; /* NULL: none */
+  bool body;         /* the whole */
+  probe_of of;
+  probe_take take; /* that of the quantity, where none is said */
+  int component;   /* into probe_components; 0: all */
+  probe_part part; /* of a reaction */
+  double about[3]; /* what moments are about [m] */
 } probe_def;
 
 /* A number that is asked for: see quantity.h. */

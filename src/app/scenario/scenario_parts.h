@@ -30,6 +30,10 @@ corot_status scenario_read_statics(scenario *s);
 /* start, after boundary */
 corot_status scenario_read_start(scenario *s);
 
+/* probes; and whether they fit the mesh */
+corot_status scenario_read_probes(scenario *s);
+corot_status scenario_check_probes(const scenario *s, const corot_mesh *mesh);
+
 /* quantities, after time */
 corot_status scenario_read_quantities(scenario *s);
 

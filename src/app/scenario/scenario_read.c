@@ -145,23 +145,6 @@ bool scenario_is_column_name(const char *name) {
   return name[strspn(name, letters)] == '\0';
 }
 
-static corot_status read_probes(scenario *s) {
-  config_node *map = config_find(s->source->root, "probes");
-  probe_def *probe = config_alloc(s->source, (size_t)map->nchild, sizeof *probe);
-  if (!probe) return no_memory();
-  s->probe = probe;
-  for (config_node *c = map->child; c; c = c->next) {
-    if (!scenario_is_column_name(c->key))
-      return config_fail_key(c, "the name of a probe is made of letters, digits, _ and -");
-    probe_def *p = &probe[s->nprobe++];
-    const config_node *node = config_find(c, "node");
-    p->name = c->key;
-    p->node = node ? (int)node->number : -1;
-    if (!node) vector_at(c, "point", p->point);
-  }
-  return COROT_OK;
-}
-
 /* The measure of the run itself is compared in any case, but for green, the reference. */
 static corot_status read_compare(scenario *s) {
   const config_node *list = config_find(s->source->root, "compare");
@@ -226,7 +209,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_statics(s));
   COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));
-  COROT_TRY(read_probes(s));
+  COROT_TRY(scenario_read_probes(s));
   COROT_TRY(scenario_read_quantities(s));
   read_output(s);
   s->resolved = schema_resolve(s->source);

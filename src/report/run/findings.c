@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "columns.h"
 #include "report/page/html.h"
 #include "report/page/markup.h"
 #include "report/read/lookup.h"
@@ -125,7 +126,8 @@ void findings_extremes(const run_folder *run, FILE *out) {
     if (is->moving && run_folder_is_static(run)) continue;
     fputs("<tr><th scope=\"row\">", out);
     markup_text(out, name);
-    if (*is->unit) fprintf(out, " [%s]", is->unit);
+    const char *unit = *is->unit ? is->unit : columns_unit(run, name);
+    if (*unit) fprintf(out, " [%s]", unit);
     fputs("</th>", out);
     write_extreme(run, lookup(extreme, "min"), out);
     write_extreme(run, lookup(extreme, "max"), out);

@@ -42,17 +42,20 @@ static double change(const trajectory *first, const trajectory *second, int i) {
 static json_t *signed_change(const budgeting *b, const trajectory *before, const trajectory *after,
                              int probe) {
   const yardstick *y = b->yardstick;
-  const int *dof = corot_model_dof(y->model)[y->probe[probe]];
+  const double *first = states_u(before, before->count - 1);
+  const double *second = states_u(after, after->count - 1);
   json_t *list = json_array();
   for (int c = 0; c < 3; c++)
-    json_array_append_new(list, json_text_real(dof[c] >= 0 ? change(before, after, dof[c]) : 0));
+    json_array_append_new(list, json_text_real(yardstick_probe(y, probe, c, second) -
+                                               yardstick_probe(y, probe, c, first)));
   return list;
 }
 
 static json_t *probes_json(const budgeting *b, const claim *c, const errors *bare,
                            const trajectory *after) {
   json_t *all = json_object();
-  for (int i = 0; i < b->scenario->nprobe && c->error.n > 0; i++) {
+  const yardstick *y = b->yardstick;
+  for (int i = 0; i < y->nprobe && c->error.n > 0; i++) {
     error_pair of = c->error.of[ERROR_PROBES + i];
     json_t *probe =
         json_pack("{s:o, s:o}", "max", json_text_real(of.max), "end", json_text_real(of.end));
@@ -62,7 +65,7 @@ static json_t *probes_json(const budgeting *b, const claim *c, const errors *bar
       set_real(probe, "", "difference_end", bare->of[ERROR_PROBES + i].end);
     }
     if (after) json_object_set_new(probe, "signed", signed_change(b, c->before, after, i));
-    all = json_text_with(all, b->scenario->probe[i].name, probe);
+    all = json_text_with(all, y->probe_def[i]->name, probe);
   }
   return all;
 }

@@ -29,12 +29,11 @@ typedef struct level_pair {
 
 static void probe_products(const yardstick *y, const trajectory *first, const trajectory *second,
                            int probe, double product[3]) {
-  const int *dof = corot_model_dof(y->model)[y->probe[probe]];
   product[0] = product[1] = product[2] = 0;
   for (int k = 0; k < first->count; k++)
     for (int c = 0; c < 3; c++) {
-      if (dof[c] < 0) continue;
-      double x = states_u(first, k)[dof[c]], z = states_u(second, k)[dof[c]];
+      double x = yardstick_probe(y, probe, c, states_u(first, k));
+      double z = yardstick_probe(y, probe, c, states_u(second, k));
       product[0] += x * x;
       product[1] += z * z;
       product[2] += x * z;

@@ -24,7 +24,7 @@ static void error_name(const yardstick *y, int i, size_t size, char *name) {
   if (i < ERROR_PROBES)
     snprintf(name, size, "%s", error_words[i]);
   else
-    snprintf(name, size, "probe.%s", y->probe_def[i - ERROR_PROBES].name);
+    snprintf(name, size, "probe.%s", y->probe_def[i - ERROR_PROBES]->name);
 }
 
 json_t *errors_json(const yardstick *y, const errors *e) {
