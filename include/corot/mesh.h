@@ -178,6 +178,27 @@ corot_status corot_mesh_face_nodes(const corot_mesh *mesh, int ntri, const int (
 /* The node nearest to a point; the lower number wins a tie. */
 int corot_mesh_nearest(const corot_mesh *mesh, const double point[3]);
 
+/* A place in the body at rest: a tet, and what its shape functions are there. A nodal field f has the
+   value sum_k weight[k] f[node[k]]. */
+typedef struct corot_location {
+  int tet;           /* of several that share the place, one */
+  double at[4];      /* its volume coordinates; of a curved tet those in its reference element */
+  int nnode;         /* 1 at a node, else those of the tet */
+  int node[10];      /* [nnode] */
+  double weight[10]; /* [nnode] they sum to one */
+  double x[3];       /* [m] */
+  double distance;   /* from the point that was looked for [m]; 0: that is in the body */
+} corot_location;
+
+/* Where a point is; a node, if one is within 1e-9 of the mesh's diagonal. Of a point outside the
+   body, the nearest of its surface (at a node or on an edge to 1e-8 of a face's size). In a curved
+   tet by Newton's method. COROT_EINVAL: the point is not finite. COROT_ENOMEM. */
+corot_status corot_mesh_locate(const corot_mesh *mesh, const double point[3],
+                               corot_location *location);
+
+/* That of a node, 0 <= node < nnode, in the first tet that has it. */
+corot_location corot_mesh_locate_node(const corot_mesh *mesh, int node);
+
 /* Size and shape of a mesh. */
 typedef struct corot_mesh_quality {
   double min[3], max[3];          /* bounding box [m] */

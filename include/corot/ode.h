@@ -204,12 +204,41 @@ typedef struct corot_element_fields {
   double *det;         /* det F; as a mean, volume over rest volume */
   double (*frame_at)[4][9], (*strain_at)[4][6]; /* the same at the points */
   double (*von_mises_at)[4], (*det_at)[4];
+  /* Likewise, means and at the points: the stress of von_mises, in fixed axes, and its eigenvalues,
+     the largest first [Pa]. */
+  double (*stress)[6], (*principal)[3];
+  double (*stress_at)[4][6], (*principal_at)[4][3];
+  double *energy, *volume; /* strain energy [J]; rest volume [m^3]: of the whole tet */
 } corot_element_fields;
 
 /* COROT_RETRY if a tet is inverted; the fields are set all the same, its own without meaning (and
    with COROT_DILATATION_NODAL its neighbours' von Mises stress). */
 corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
                             const corot_element_fields *fields);
+
+/* Places in the body at which such fields are looked at one by one. */
+typedef struct corot_points corot_points;
+
+/* tet [n], at [n]: tets and volume coordinates in them, as in corot_location. The model must outlive
+   the points. COROT_EINVAL: there is no such tet. COROT_ENOMEM. */
+corot_status corot_points_create(const corot_model *model, int n, const int *tet,
+                                 const double (*at)[4], corot_points **points);
+
+/* Takes NULL. */
+void corot_points_destroy(corot_points *points);
+
+/* As of the tets, each [n]; any may be NULL. F and with it strain and stress are those of the shape
+   functions at the point. A frame that is given (held, extrapolated, handed down) and an averaged
+   dilatation are those of the tet: of a ten-node tet the linear function through its points of
+   integration. */
+typedef struct corot_point_fields {
+  double (*frame)[9], (*strain)[6], (*stress)[6], (*principal)[3];
+  double *von_mises, *det;
+} corot_point_fields;
+
+/* COROT_RETRY if the body is inverted at one of the points (the fields are set all the same). */
+corot_status corot_points_evaluate(const corot_points *points, corot_state *state, double t,
+                                   const double *u, const corot_point_fields *fields);
 
 /* How far a displacement is from small strains and turns. What is below the limits is not counted,
    so that a body hardly deformed costs little. */
@@ -253,6 +282,32 @@ corot_status corot_elastic_force(const corot_model *model, corot_state *state, d
 corot_status corot_internal_force(const corot_model *model, corot_state *state, double t,
                                   const double *u, const char *strain, double lambda_part,
                                   double mu_part, double (*f)[3]);
+
+/* The parts of the balance of forces at all nodes [nnode][3] [N], held components included; any may
+   be NULL. In the frames and by the laws that the state is in:
+
+     internal + viscous + inertial - load = reaction
+
+   is the force of the supports on the body. On free components it is zero, but for rounding, where
+   M a = r is what `a` was found from. With COROT_COUPLING_ONE_WAY they are those of level 0, and zero
+   on other nodes. */
+typedef struct corot_nodal_forces {
+  double (*internal)[3]; /* the elastic force; if `viscous` is NULL, plus that, at no more cost */
+  double (*viscous)[3];  /* of viscous stresses and of the mass damping */
+  double (*inertial)[3]; /* the mass in use times the acceleration of all nodes */
+  double (*load)[3];
+} corot_nodal_forces;
+
+/* u, v and a [n]: displacement, velocity, acceleration. In statics (corot_state_stand_still) nothing
+   has a velocity or an acceleration, and v and a may be NULL. COROT_RETRY as for corot_residual. */
+corot_status corot_forces(const corot_model *model, corot_state *state, double t, const double *u,
+                          const double *v, const double *a, const corot_nodal_forces *forces);
+
+/* Velocity and acceleration of all nodes [nnode][3], of which v and a [n] are the free ones, by the
+   laws that the state is in; either output may be NULL, and then its input. */
+void corot_nodal_motion(const corot_model *model, const corot_state *state, double t,
+                        const double *v, const double *a, double (*velocity)[3],
+                        double (*acceleration)[3]);
 
 /* Loads of time t, times `factor`, on all nodes [nnode][3] [N], held components included, of the
    body displaced by `displacement` [nnode], which says where a pressure acts. What falls on held

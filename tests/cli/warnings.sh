@@ -243,6 +243,11 @@ else
   has symmetric modes pull.yaml $about --set 'loads=[{group: xmax, pressure: 500}]'
   lacks symmetric modes pull.yaml $about
 fi
+# What is asked has no answer: the exit code says so, too.
+expect 1 run pull.yaml -o r --json --set 'quantities.T=period(frame_energy)'
+echo " $(codes stdout) " | grep -q " quantity " || complain "no quantity but: $(codes stdout)"
+echo quantity >>fired
+lacks quantity $(run swing.yaml) --set 'quantities.T=period(corner.uz)'
 
 # No code without its case, and no case of another code.
 expect 0 check --warnings; no_err

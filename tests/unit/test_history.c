@@ -1,24 +1,13 @@
 /* history.csv: every step of a run; its extremes in result.json. */
 #include "whole_run.h"
 
-static const char *const methods[] = {
-    "integrator={method: cvode}",
-    "integrator={method: ida}",
-    "integrator={method: arkode}",
-    "integrator={method: erk}",
-    "integrator={method: newmark, step: 0.0125}",
-    "integrator={method: bdf3, step: 0.0125}",
-    "integrator={method: backward-euler, step: 0.03}", /* which passes the end */
-};
-enum { NMETHOD = sizeof methods / sizeof *methods };
-
 enum { T, UX, UY, UZ, KINETIC, ELASTIC, DISSIPATED, WORK, BALANCE }; /* columns */
 
 static void every_step_has_its_row(void **state) {
   (void)state;
   char *dir = temporary_folder();
-  for (int m = 0; m < NMETHOD; m++) {
-    run_ok(dir, SET(methods[m], "output.fields=none"));
+  for (int m = 0; m < NEVERY; m++) {
+    run_ok(dir, SET(every_method[m], "output.fields=none"));
     csv steps = read_csv(in(dir, "out/steps.csv")), history = read_csv(in(dir, "out/history.csv"));
     assert_int_equal(history.nrow, steps.nrow + 1);
     assert_close(history.x[0][T], 0, 0, 0);
@@ -34,8 +23,8 @@ static void every_step_has_its_row(void **state) {
 static void rows_are_those_of_the_output_grid(void **state) {
   (void)state;
   char *dir = temporary_folder();
-  for (int m = 0; m < NMETHOD; m++) {
-    run_ok(dir, SET(methods[m], "output.fields=none", "time.output=0.3"));
+  for (int m = 0; m < NEVERY; m++) {
+    run_ok(dir, SET(every_method[m], "output.fields=none", "time.output=0.3"));
     csv probes = read_csv(in(dir, "out/probes.csv")), energy = read_csv(in(dir, "out/energy.csv"));
     csv history = read_csv(in(dir, "out/history.csv"));
     int common = 0;
@@ -82,8 +71,8 @@ static const struct {
 static void extremes_are_those_of_the_table(void **state) {
   (void)state;
   char *dir = temporary_folder();
-  for (int m = 0; m < NMETHOD; m++) {
-    run_ok(dir, SET(methods[m], "output.fields=none"));
+  for (int m = 0; m < NEVERY; m++) {
+    run_ok(dir, SET(every_method[m], "output.fields=none"));
     json_t *result = result_of(dir), *extremes = json_object_get(result, "extremes");
     csv history = read_csv(in(dir, "out/history.csv"));
     for (size_t k = 0; k < sizeof signals / sizeof *signals; k++)

@@ -198,13 +198,92 @@ static void as_read_from_its_file(void **state) {
   remove_folder(dir);
 }
 
+/* --- Measures --- */
+
+static bool has_set(const study_run *run, const char *set) {
+  for (int i = 0; i < run->nset; i++)
+    if (strcmp(run->set[i], set) == 0) return true;
+  return false;
+}
+
+/* The first compares; every run, and every reference, is asked for all quantities. */
+static void quantities_are_asked_of_all_runs(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  manifest *m = planned(dir,
+                        "axes: [{key: integrator.rtol, values: [1e-2, 1e-3]}]\n"
+                        "set: {quantities: {own: corner.uy@end}}\n"
+                        "measure: [max( corner.ux ), energy, \"mean(elastic, 0, 0.5)\",\n"
+                        "          max(corner.ux)]\n");
+  assert_string_equal(m->measure, "max(corner.ux)");
+  assert_int_equal(m->nquantity, 2); /* one was there already */
+  assert_string_equal(m->quantity[1].text, "mean(elastic, 0, 0.5)");
+  assert_string_equal(m->quantity[1].name, "mean_elastic_0_0_5");
+  for (int i = 0; i < m->nrun; i++) {
+    assert_true(has_set(&m->run[i], "quantities.max_corner_ux=\"max( corner.ux )\""));
+    assert_true(has_set(&m->run[i], "quantities.mean_elastic_0_0_5=\"mean(elastic, 0, 0.5)\""));
+    scenario *s = NULL;
+    assert_ok(scenario_read(m->base, m->run[i].nset, (char *const *)m->run[i].set, &s));
+    assert_int_equal(s->nquantity, 3); /* with the base's */
+    scenario_destroy(s);
+  }
+  assert_null(json_object_get(m->reference[0].settings, "quantities.max_corner_ux"));
+  manifest_destroy(m);
+
+  m = planned(dir, "axes: [{key: integrator.rtol, values: [1e-2]}]\nmeasure: corner.ux@end\n");
+  assert_string_equal(m->measure, "corner.ux@end");
+  manifest_destroy(m);
+  m = planned(dir, "axes: [{key: integrator.rtol, values: [1e-2]}]\nmeasure: velocity\n");
+  assert_string_equal(m->measure, "velocity");
+  assert_int_equal(m->nquantity, 0);
+  manifest_destroy(m);
+  remove_folder(dir);
+}
+
+/* With its place in the study file, before anything runs. */
+static void wrong_measures_are_refused(void **state) {
+  (void)state;
+  static const struct {
+    const char *measure, *words;
+  } wrong[] = {
+      {"[displacment]",
+       "study.yaml:4:11: measure[0]: displacment is no measure; did you mean "
+       "displacement?\n  measure: [displacment]\n            ^"},
+      {"tips",
+       "4:10: measure[0]: tips is no measure: expected displacement, velocity, energy, "
+       "mixed, or a quantity such as max(corner.ux)"},
+      {"[energy, max(corner.ux]", "4:32: measure[1]: a ) is missing at the end"},
+      {"max(cornr.ux)",
+       "4:14: quantities.max_cornr_ux: there is no column cornr.ux; did you mean "
+       "corner.ux?"},
+      {"'max(corner.ux, 0, 2)'", "4:29: quantities.max_corner_ux_0_2: t = 2 s is after the run"},
+      {"[]", "expected a text, or a list"},
+  };
+  char *dir = temporary_folder();
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    char lines[256];
+    study *s = NULL;
+    manifest *m = NULL;
+    snprintf(lines, sizeof lines, "axes: [{key: integrator.rtol, values: [1e-2]}]\nmeasure: %s\n",
+             wrong[i].measure);
+    corot_status status = study_of(dir, lines, &s);
+    if (status == COROT_OK) status = plan_study(s, &m);
+    assert_int_equal(status, COROT_EFORMAT);
+    if (!strstr(corot_error(), wrong[i].words))
+      fail_msg("'%s' lacks '%s'", corot_error(), wrong[i].words);
+    study_destroy(s);
+  }
+  remove_folder(dir);
+}
+
 /* --- Memory --- */
 
 static corot_status plan_once(void *dir) {
   static const char lines[] =
       "study: which\nbase: model.yaml\n"
       "axes: [{key: strain, values: [green, polar]},\n"
-      "       {key: integrator.rtol, log: {from: 1e-2, to: 1e-3, per_decade: 1}}]\n";
+      "       {key: integrator.rtol, log: {from: 1e-2, to: 1e-3, per_decade: 1}}]\n"
+      "measure: [max(corner.ux), energy]\n";
   study *s = NULL;
   manifest *m = NULL;
   corot_status status = study_read_text(in(dir, "study.yaml"), lines, sizeof lines - 1, &s);
@@ -232,6 +311,8 @@ int main(void) {
       cmocka_unit_test(values_are_what_they_mean),
       cmocka_unit_test(equal_runs_are_one),
       cmocka_unit_test(as_read_from_its_file),
+      cmocka_unit_test(quantities_are_asked_of_all_runs),
+      cmocka_unit_test(wrong_measures_are_refused),
       cmocka_unit_test(failed_allocations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -72,7 +72,7 @@ static double mixed(const solid *b, double e) {
 }
 
 static double at_corner(const solid *b) {
-  const int *dof = corot_model_dof(b->y->model)[b->y->probe[0]];
+  const int *dof = corot_model_dof(b->y->model)[b->y->probe[0].node[0]];
   double square = 0;
   for (int c = 0; c < 3; c++) square += b->a[dof[c]] * b->a[dof[c]];
   return sqrt(square);
@@ -295,8 +295,8 @@ static void put_run(const solid *b, const char *dir, const manifest *m, int i, d
 static const struct { double constant, exponent, cpu; } made_up[] = {{0.5, 1, 1}, {3, 2, 3}};
 
 /* The references differ by `apart`. */
-static manifest *make_up(const solid *b, const char *dir, double apart) {
-  manifest *m = planned(dir, two_series);
+static manifest *make_up_of(const solid *b, const char *dir, const char *lines, double apart) {
+  manifest *m = planned(dir, lines);
   assert_int_equal(m->ncell, 8);
   assert_int_equal(m->nreference, 1);
   put_run(b, dir, m, m->reference[0].run[0], 0, 100);
@@ -308,6 +308,10 @@ static manifest *make_up(const solid *b, const char *dir, double apart) {
             made_up[series].cpu * (1 << i % 4));
   }
   return m;
+}
+
+static manifest *make_up(const solid *b, const char *dir, double apart) {
+  return make_up_of(b, dir, two_series, apart);
 }
 
 static double number(const json_t *object, const char *key) {
@@ -386,6 +390,84 @@ static void errors_fits_and_rankings(void **state) {
   manifest_destroy(m);
   solid_free(&b);
   remove_folder(dir);
+}
+
+/* Gives a run that is there a value; NaN: none. */
+static void put_quantity(const char *dir, const study_run *run, const char *name, double value) {
+  char *folder = store_path(dir, run, ""), *path = store_path(dir, run, "result.json");
+  json_t *result = NULL;
+  assert_ok(json_file_read(path, &result));
+  json_t *all =
+      json_pack("{s:{s:o}}", name, "value", isnan(value) ? json_null() : json_real(value));
+  json_object_set_new(result, "quantities", all);
+  assert_ok(json_file_write(folder, "result.json", result));
+  json_decref(result);
+  free(path);
+  free(folder);
+}
+
+/* A quantity of 4 whose error is 2 tolerance^3, of which the references know a part of 1e-11; the
+   last cell has none. The norms say what they say without it. */
+static void quantities_are_measured(void **state) {
+  (void)state;
+  for (int second = 0; second < 2; second++) { /* the study's measure, or beside it */
+    char *dir = temporary_folder(), lines[512];
+    solid b = solid_of("");
+    snprintf(lines, sizeof lines, "%smeasure: [%smax(corner.ux)]\n", two_series,
+             second ? "displacement, " : "");
+    manifest *m = make_up_of(&b, dir, lines, 1e-6);
+    const char *name = m->quantity[0].name, *of = "max(corner.ux)";
+    put_quantity(dir, &m->run[m->reference[0].run[0]], name, -4);
+    put_quantity(dir, &m->run[m->reference[0].run[1]], name, -4 * (1 + 1e-11));
+    for (int i = 0; i < m->ncell; i++)
+      put_quantity(dir, &m->run[m->cell[i].run], name,
+                   i == 7 ? NAN : -4 * (1 + 2 * pow(m->cell[i].tolerance, 3)));
+    json_t *table = NULL;
+    int ndamaged;
+    assert_ok(collect_table(m, dir, false, &table, &ndamaged));
+
+    for (int i = 0; i < 8; i++) {
+      const json_t *c = json_array_get(json_object_get(table, "cells"), (size_t)i);
+      double e = 2 * pow(10, -3 * (1 + i % 4)),
+             e_norm = number(json_object_get(c, "error"), "displacement");
+      assert_close(e_norm,
+                   made_up[i / 4].constant * pow(10, -(1 + i % 4) * made_up[i / 4].exponent), 1e-12,
+                   1e-15);
+      assert_false(json_is_true(json_object_get(c, "below_floor")) &&
+                   (second ? e_norm >= 1e-5 : e >= 1e-10));
+      if (i == 7) {
+        assert_true(json_is_null(json_object_get(json_object_get(c, "quantity"), of)));
+        assert_true(json_is_null(json_object_get(json_object_get(c, "error"), of)));
+        continue;
+      }
+      assert_close(number(json_object_get(c, "quantity"), of), -4 * (1 + e), 1e-15, 0);
+      assert_close(number(json_object_get(c, "error"), of), e, 0, 1e-15);
+    }
+    const json_t *r = json_array_get(json_object_get(table, "references"), 0);
+    assert_close(number(json_object_get(r, "quantity"), of), -4, 0, 0);
+    assert_close(number(json_object_get(r, "floor"), of), 1e-11, 1e-4, 0);
+
+    /* its own fits, of the three points above the floor: where it is no measure, beside those */
+    const json_t *fits = json_object_get(table, second ? "quantity_fits" : "fits");
+    assert_int_equal(json_array_size(fits), 2);
+    assert_int_equal(json_array_size(json_object_get(table, "quantity_fits")), second ? 2 : 0);
+    for (size_t i = 0; i < 2; i++) {
+      assert_int_equal(number(json_array_get(fits, i), "points"), 3);
+      assert_close(number(json_array_get(fits, i), "exponent"), 3, 1e-6, 0);
+    }
+    if (second) assert_string_equal(text(json_array_get(fits, 0), "measure"), of);
+    json_decref(table);
+
+    /* and in the flat tables */
+    assert_ok(write_tables(m, dir, false, NULL, &ndamaged));
+    char *csv = slurp(in(dir, "table.csv"), NULL);
+    assert_non_null(strstr(csv, ",quantity.max(corner.ux),"));
+    assert_non_null(strstr(csv, ",error.max(corner.ux),"));
+    free(csv);
+    manifest_destroy(m);
+    solid_free(&b);
+    remove_folder(dir);
+  }
 }
 
 static void a_wrong_reference_is_caught(void **state) {
@@ -514,6 +596,7 @@ int main(void) {
       cmocka_unit_test(drift_under_loads_that_jump_and_swing),
       cmocka_unit_test(power_laws),
       cmocka_unit_test(errors_fits_and_rankings),
+      cmocka_unit_test(quantities_are_measured),
       cmocka_unit_test(a_wrong_reference_is_caught),
       cmocka_unit_test(what_cannot_be_said),
       cmocka_unit_test(medians_of_repetitions),

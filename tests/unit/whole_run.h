@@ -21,6 +21,18 @@ static const char bar[] =
     "time: {end: 1.0, output: 0.1}\n"
     "probes: {corner: {point: [0.1, 0.1, 0.4]}}\n";
 
+/* Methods of every kind. */
+static const char *const every_method[] = {
+    "integrator={method: cvode}",
+    "integrator={method: ida}",
+    "integrator={method: arkode}",
+    "integrator={method: erk}",
+    "integrator={method: newmark, step: 0.0125}",
+    "integrator={method: bdf3, step: 0.0125}",
+    "integrator={method: backward-euler, step: 0.03}", /* which passes the end */
+};
+enum { NEVERY = sizeof every_method / sizeof *every_method };
+
 /* What a run answered and said. */
 typedef struct answer {
   int code;

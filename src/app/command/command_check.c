@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "app/run/quantities.h"
 #include "app/scenario/facts.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
@@ -58,6 +59,7 @@ static int check(const char *path, int noverride, char **override, report kind) 
   corot_status status = scenario_read(path, noverride, override, &s);
   status = read_failure(status, path);
   if (status == COROT_OK) status = facts_find(s, &f);
+  if (status == COROT_OK) status = quantities_check(s, f.model, false);
   int code = status == COROT_OK ? print_report(s, &f, kind) : failure(status);
   facts_free(&f);
   scenario_destroy(s);

@@ -24,7 +24,9 @@ static const char help[] =
     "file\n"
     "there with a name of the above, or report.html, is somebody else's: the run is refused with "
     "exit\n"
-    "code 5, unless --force is given. Files of other names stay.\n"
+    "code 5, unless --force is given. Files of other names stay. Exit code 1: all is well, but one "
+    "of\n"
+    "the scenario's quantities has no value, as the period of what does not oscillate.\n"
     "\n"
     "example: corot run bar.yaml -o out/fine --set integrator.rtol=1e-6 --set time.end=10\n";
 

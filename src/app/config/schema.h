@@ -7,11 +7,12 @@
 #include "config.h"
 
 typedef enum schema_type {
-  SCHEMA_MAP,   /* keys as the table says */
-  SCHEMA_NAMED, /* keys are names given by the user, "groups.NAME" */
-  SCHEMA_LIST,  /* entries are maps, "loads[]", or those of the path in `words` */
-  SCHEMA_MAPS,  /* one map, or a list of such */
-  SCHEMA_SHORT, /* a map, or the value of its first key alone */
+  SCHEMA_MAP,         /* keys as the table says */
+  SCHEMA_NAMED,       /* keys are names given by the user, "groups.NAME" */
+  SCHEMA_NAMED_TEXTS, /* the same, of texts: "quantities.NAME" is one */
+  SCHEMA_LIST,        /* entries are maps, "loads[]", or those of the path in `words` */
+  SCHEMA_MAPS,        /* one map, or a list of such */
+  SCHEMA_SHORT,       /* a map, or the value of its first key alone */
   SCHEMA_TEXT,
   SCHEMA_CHOICE,   /* one of `words` */
   SCHEMA_NUMBER,   /* or the one of `words`, which stands for 0 */
@@ -31,7 +32,8 @@ typedef enum schema_type {
 typedef enum schema_status {
   SCHEMA_OPTIONAL,
   SCHEMA_REQUIRED,
-  SCHEMA_ONE_OF, /* exactly one of the keys so marked in a map is given */
+  SCHEMA_ONE_OF,      /* exactly one of the keys so marked in a map is given */
+  SCHEMA_AT_MOST_ONE, /* one of the keys so marked, or none */
 } schema_status;
 
 typedef enum schema_range {

@@ -241,6 +241,18 @@ static corot_status apply_named(const application *a, config_node *map, const ch
   return COROT_OK;
 }
 
+/* Names without a text are dropped. */
+static corot_status apply_named_texts(config_node *map) {
+  if (map->kind != CONFIG_MAP) return expected(map, "a map of names");
+  for (config_node *c = map->child, *next; c; c = next) {
+    next = c->next;
+    if (!*c->key) return config_fail_key(c, "a name is empty");
+    COROT_TRY(check_text(c));
+    if (config_is_null(c)) config_remove(c);
+  }
+  return COROT_OK;
+}
+
 static corot_status apply_list(const application *a, config_node *list, const char *path) {
   if (list->kind != CONFIG_LIST) return expected(list, "a list of maps, each begun by \"- \"");
   for (config_node *c = list->child; c; c = c->next) COROT_TRY(apply_map(a, c, path));
@@ -295,6 +307,8 @@ static corot_status apply_value(const application *a, config_node *node, const s
       return apply_map(a, node, inside);
     case SCHEMA_NAMED:
       return apply_named(a, node, inside);
+    case SCHEMA_NAMED_TEXTS:
+      return apply_named_texts(node);
     case SCHEMA_LIST:
       return apply_list(a, node, inside);
     case SCHEMA_MAPS:
@@ -365,15 +379,16 @@ static corot_status add_default(const application *a, config_node *map, const sc
   return apply_value(a, node, key);
 }
 
-/* Exactly one of the keys marked so. */
+/* Exactly one, or at most one, of the keys marked so. */
 static corot_status check_one_of(const schema *table, const config_node *map, const char *path) {
   const config_node *found = NULL;
   char words[LIST] = "";
   size_t used = 0;
   for (const schema_key *k = NULL; (k = schema_child(table, path, k));) {
-    if (k->status != SCHEMA_ONE_OF) continue;
+    if (k->status != SCHEMA_ONE_OF && k->status != SCHEMA_AT_MOST_ONE) continue;
     const char *name = last_segment(k->path);
-    used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", used ? " or " : "", name);
+    if (k->status == SCHEMA_ONE_OF)
+      used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", used ? " or " : "", name);
     for (const config_node *c = map->child; c; c = c->next) {
       if (strcmp(c->key, name) != 0) continue;
       if (found) return config_fail_key(c, "%s and %s exclude each other", found->key, c->key);

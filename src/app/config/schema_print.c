@@ -7,6 +7,7 @@
 static const char *const type_words[] = {
     [SCHEMA_MAP] = "map",
     [SCHEMA_NAMED] = "map of names",
+    [SCHEMA_NAMED_TEXTS] = "map of texts",
     [SCHEMA_LIST] = "list of maps",
     [SCHEMA_MAPS] = "map or list",
     [SCHEMA_SHORT] = "map or value",
@@ -32,6 +33,8 @@ static const char *default_words(const schema_key *key) {
       return "required";
     case SCHEMA_ONE_OF:
       return "one of";
+    case SCHEMA_AT_MOST_ONE:
+      return "one at most";
     default:
       return key->fallback && key->type != SCHEMA_MAP ? key->fallback : "-";
   }

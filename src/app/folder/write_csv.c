@@ -94,9 +94,12 @@ static corot_status end_row(table *t) {
   return t->length < t->batch ? COROT_OK : flush(t);
 }
 
-/* "t", NAME.COMPONENT for each name and component, and the columns that `after` lists, if any; the
-   caller's to free. */
-static corot_status make_header(int n, const char *const *name, const char *const component[3],
+/* The columns of a name: itself, or one for each component. */
+static int columns_of(const char *const *component) { return component ? 3 : 1; }
+
+/* "t", NAME.COMPONENT for each name and component (or just NAME, where there are none), and the
+   columns that `after` lists, if any; the caller's to free. */
+static corot_status make_header(int n, const char *const *name, const char *const *component,
                                 const char *after, char **header) {
   char *title = NULL;
   size_t size = 0, longest = 0;
@@ -105,8 +108,9 @@ static corot_status make_header(int n, const char *const *name, const char *cons
   FILE *out = title ? text_open(header, &size) : NULL;
   if (out) fputc('t', out);
   for (int i = 0; out && i < n; i++)
-    for (int c = 0; c < 3; c++) {
-      snprintf(title, longest + CELL, "%s.%s", name[i], component[c]);
+    for (int c = 0; c < columns_of(component); c++) {
+      snprintf(title, longest + CELL, "%s%s%s", name[i], component ? "." : "",
+               component ? component[c] : "");
       fputc(',', out);
       escape_csv(title, out);
     }
@@ -134,51 +138,46 @@ static corot_status open_with_header(const char *dir, const char *name, const ch
   return COROT_OK;
 }
 
-/* Bytes for t, three numbers a name, and those of the columns `after`. */
+/* Bytes for t, n numbers, and those of the columns `after`. */
 static size_t room_for(int n, const char *after) {
-  size_t cells = 1 + 3 * (size_t)n;
+  size_t cells = 1 + (size_t)n;
   for (const char *c = after; *c; c++) cells += *c == ',';
   return CELL * (*after ? cells + 1 : cells);
 }
 
-/* Opens a table of t, three columns for each name, and those that `after` lists, if any. */
+/* Opens a table of t, the columns of each name, and those that `after` lists, if any. */
 static corot_status open_with_names(const char *dir, const char *file, int n,
-                                    const char *const *name, const char *const component[3],
+                                    const char *const *name, const char *const *component,
                                     const char *after, table **out) {
   char *header = NULL;
   COROT_TRY(make_header(n, name, component, after, &header));
-  corot_status status = open_with_header(dir, file, header, room_for(n, after), out);
+  corot_status status =
+      open_with_header(dir, file, header, room_for(n * columns_of(component), after), out);
   free(header);
   return status;
 }
 
-static const char *const displacement_words[] = {"ux", "uy", "uz"};
-
 #define ENERGY_COLUMNS \
   "kinetic,elastic,dissipated,external_work,balance,frame_energy,px,py,pz,lx,ly,lz"
 
-corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **probes) {
-  return open_with_names(dir, "probes.csv", nprobe, name, displacement_words, "", probes);
+corot_status probes_open(const char *dir, int ncolumn, const char *const *name, table **probes) {
+  return open_with_names(dir, "probes.csv", ncolumn, name, NULL, "", probes);
 }
 
-corot_status history_table_open(const char *dir, int nprobe, const char *const *name,
+corot_status history_table_open(const char *dir, int ncolumn, const char *const *name,
                                 table **history) {
-  COROT_TRY(open_with_names(dir, "history.csv", nprobe, name, displacement_words, ENERGY_COLUMNS,
-                            history));
+  COROT_TRY(open_with_names(dir, "history.csv", ncolumn, name, NULL, ENERGY_COLUMNS, history));
   (*history)->batch = BATCH;
   return COROT_OK;
 }
 
-static void add_displacements(table *t, int nprobe, const int *node,
-                              const double (*displacement)[3]) {
-  for (int i = 0; i < nprobe; i++)
-    for (int c = 0; c < 3; c++) add_number(t, displacement[node[i]][c]);
+static void add_numbers(table *t, int n, const double *x) {
+  for (int i = 0; i < n; i++) add_number(t, x[i]);
 }
 
-corot_status probes_row(table *probes, double t, int nprobe, const int *node,
-                        const double (*displacement)[3]) {
+corot_status probes_row(table *probes, double t, int ncolumn, const double *value) {
   add_number(probes, t);
-  add_displacements(probes, nprobe, node, displacement);
+  add_numbers(probes, ncolumn, value);
   return end_row(probes);
 }
 
@@ -196,8 +195,7 @@ corot_status reactions_open(const char *dir, int ngroup, const char *const *name
 
 corot_status reactions_row(table *reactions, double t, int ngroup, const double (*force)[3]) {
   add_number(reactions, t);
-  for (int i = 0; i < ngroup; i++)
-    for (int c = 0; c < 3; c++) add_number(reactions, force[i][c]);
+  for (int i = 0; i < ngroup; i++) add_numbers(reactions, 3, force[i]);
   return end_row(reactions);
 }
 
@@ -222,15 +220,20 @@ corot_status energy_open(const char *dir, table **energy) {
   return open_with_header(dir, "energy.csv", "t," ENERGY_COLUMNS, ROW, energy);
 }
 
+const char ledger_columns[] = ENERGY_COLUMNS;
+
+void ledger_values(const ledger *row, double value[LEDGER_COLUMNS]) {
+  const double energy[] = {row->kinetic,       row->elastic, row->dissipated,
+                           row->external_work, row->balance, row->frame_energy};
+  memcpy(value, energy, sizeof energy);
+  memcpy(value + 6, row->momentum, sizeof row->momentum);
+  memcpy(value + 9, row->angular_momentum, sizeof row->angular_momentum);
+}
+
 static void add_energies(table *t, const ledger *row) {
-  add_number(t, row->kinetic);
-  add_number(t, row->elastic);
-  add_number(t, row->dissipated);
-  add_number(t, row->external_work);
-  add_number(t, row->balance);
-  add_number(t, row->frame_energy);
-  for (int c = 0; c < 3; c++) add_number(t, row->momentum[c]);
-  for (int c = 0; c < 3; c++) add_number(t, row->angular_momentum[c]);
+  double value[LEDGER_COLUMNS];
+  ledger_values(row, value);
+  add_numbers(t, LEDGER_COLUMNS, value);
 }
 
 corot_status energy_row(table *energy, const ledger *row) {
@@ -239,10 +242,9 @@ corot_status energy_row(table *energy, const ledger *row) {
   return end_row(energy);
 }
 
-corot_status history_row(table *history, const ledger *row, int nprobe, const int *node,
-                         const double (*displacement)[3]) {
+corot_status history_row(table *history, const ledger *row, int ncolumn, const double *value) {
   add_number(history, row->t);
-  add_displacements(history, nprobe, node, displacement);
+  add_numbers(history, ncolumn, value);
   add_energies(history, row);
   return end_row(history);
 }

@@ -12,16 +12,16 @@
 
 typedef struct table table;
 
-/* probes.csv: the probes' displacements, one row an output time
+/* probes.csv: what the probes say, one row an output time
 
      t         [s]
-     NAME.ux, NAME.uy, NAME.uz  for each probe: displacement of its node [m] */
+     NAME.ux, NAME.uy, NAME.uz ...  the columns of each probe: app/probe/probe.h */
 
-corot_status probes_open(const char *dir, int nprobe, const char *const *name, table **probes);
+/* name: [ncolumn] with the component, "corner.ux" */
+corot_status probes_open(const char *dir, int ncolumn, const char *const *name, table **probes);
 
-/* displacement: [nnode] of all nodes; node: [nprobe]. */
-corot_status probes_row(table *probes, double t, int nprobe, const int *node,
-                        const double (*displacement)[3]);
+/* value: [ncolumn] */
+corot_status probes_row(table *probes, double t, int ncolumn, const double *value);
 
 /* energy.csv: where the energy went, one row an output time. At a time where a load jumps, rows of
    this table and of the others are those of just before; nothing in them jumps with it.
@@ -44,14 +44,18 @@ typedef struct ledger {
   double momentum[3], angular_momentum[3];
 } ledger;
 
+/* The columns in this order, but for t: their names, separated by commas, and their values. */
+extern const char ledger_columns[];
+enum { LEDGER_COLUMNS = 12 };
+void ledger_values(const ledger *row, double value[LEDGER_COLUMNS]);
+
 corot_status energy_open(const char *dir, table **energy);
 corot_status energy_row(table *energy, const ledger *row);
 
 /* history.csv (history.h): both, at the end of every step. */
-corot_status history_table_open(const char *dir, int nprobe, const char *const *name,
+corot_status history_table_open(const char *dir, int ncolumn, const char *const *name,
                                 table **history);
-corot_status history_row(table *history, const ledger *row, int nprobe, const int *node,
-                         const double (*displacement)[3]);
+corot_status history_row(table *history, const ledger *row, int ncolumn, const double *value);
 
 /* steps.csv: one row a step of the integrator, so that the h add up to the last t
 

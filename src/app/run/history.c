@@ -6,44 +6,35 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/quantity/turning.h"
 #include "app/text/json_text.h"
 
-/* Four signals for each probe, and these of the energies. */
-enum { UX, UY, UZ, MAGNITUDE, OF_PROBE };
+/* Signals: of each probe its columns and, of a vector, the length; then these of the energies. */
 enum { KINETIC, ELASTIC, DISSIPATED, WORK, BALANCE, FRAMES, OF_ENERGY };
 
-static const char *const component_words[OF_PROBE] = {"ux", "uy", "uz", "u"};
 static const char *const energy_words[OF_ENERGY] = {"kinetic",       "elastic", "dissipated",
                                                     "external_work", "balance", "frame_energy"};
 
-/* Where a signal turns, but for what is less than a tenth of the way it has gone so far. */
-typedef struct turning {
-  int direction;           /* 1, -1; 0: it has not moved yet */
-  double value, t;         /* the furthest point since the last turn */
-  double last, t_last;     /* the last turn, or the start */
-  long count;              /* turns */
-  double weight, weighted; /* sum of the ways between turns; of these times their durations */
-} turning;
-
 typedef struct signal_seen {
   extreme min, max;
+  probe_where at_min, at_max; /* of a probe that is an extreme itself */
   turning turning;
 } signal_seen;
 
 struct history {
-  int nprobe, ndof;
-  const probe_def *probe;
+  const probes *probes;
+  int nsignal, ndof;   /* signals of the probes; degrees of freedom */
   table *table;        /* NULL: it is not written */
-  signal_seen *signal; /* [OF_PROBE nprobe + OF_ENERGY] the probes', then the energies' */
+  signal_seen *signal; /* [nsignal + OF_ENERGY] the probes', then the energies' */
   long count;
   double balance, dissipated; /* at the last moment */
   double t_elastic, *u;       /* [ndof] at the largest elastic energy */
 };
 
-static int nsignal(const history *h) { return OF_PROBE * h->nprobe + OF_ENERGY; }
+static int signals_of(probe_facts probe) { return probe.ncolumn + (probe.length ? 1 : 0); }
 
 static const signal_seen *energy_signal(const history *h, int which) {
-  return &h->signal[OF_PROBE * h->nprobe + which];
+  return &h->signal[h->nsignal + which];
 }
 
 corot_status history_close(history *h) {
@@ -60,13 +51,13 @@ void history_destroy(history *h) {
   free(h);
 }
 
-corot_status history_create(const scenario *s, int ndof, history **out) {
+corot_status history_create(const probes *p, int ndof, history **out) {
   history *h = calloc(1, sizeof *h);
   if (!h) return corot_fail(COROT_ENOMEM, "the history: out of memory");
-  h->nprobe = s->nprobe;
-  h->probe = s->probe;
+  h->probes = p;
   h->ndof = ndof;
-  h->signal = calloc((size_t)nsignal(h), sizeof *h->signal);
+  for (int i = 0; i < probes_n(p); i++) h->nsignal += signals_of(probes_known(p, i));
+  h->signal = calloc((size_t)h->nsignal + OF_ENERGY, sizeof *h->signal);
   h->u = calloc((size_t)ndof + 1, sizeof *h->u);
   if (!h->signal || !h->u) {
     history_destroy(h);
@@ -77,59 +68,37 @@ corot_status history_create(const scenario *s, int ndof, history **out) {
 }
 
 corot_status history_open(history *h, const char *dir) {
-  const char **name = malloc(((size_t)h->nprobe + 1) * sizeof *name);
-  if (!name) return corot_fail(COROT_ENOMEM, "the history: out of memory");
-  for (int i = 0; i < h->nprobe; i++) name[i] = h->probe[i].name;
-  corot_status status = history_table_open(dir, h->nprobe, name, &h->table);
-  free(name);
-  return status;
+  return history_table_open(dir, probes_ncolumn(h->probes), probes_columns(h->probes), &h->table);
 }
 
 /* --- One moment --- */
 
-static void take_turn(turning *n) {
-  double way = fabs(n->value - n->last);
-  if (n->count++ > 0) { /* the first way begins at the start, which need not be a turn */
-    n->weight += way;
-    n->weighted += way * (n->t - n->t_last);
-  }
-  n->last = n->value;
-  n->t_last = n->t;
-}
-
-static void follow(turning *n, double span, double value, double t) {
-  double ahead = n->direction * (value - n->value);
-  if (n->direction == 0) {
-    n->direction = (value > n->last) - (value < n->last);
-    ahead = 0;
-  } else if (ahead < 0) {
-    if (!(-ahead > 0.1 * span)) return;
-    take_turn(n);
-    n->direction = -n->direction;
-  }
-  n->value = value;
-  n->t = t;
-}
-
-static void see(signal_seen *s, bool first, double value, double t) {
+static void see(signal_seen *s, bool first, double value, double t, const probe_where *where) {
+  if (where && (first || value < s->min.value)) s->at_min = *where;
+  if (where && (first || value > s->max.value)) s->at_max = *where;
   if (first) {
     s->min = s->max = (extreme){value, t};
-    s->turning = (turning){.value = value, .t = t, .last = value, .t_last = t};
+    s->turning = turning_begin(value, t);
     return;
   }
   if (value < s->min.value) s->min = (extreme){value, t};
   if (value > s->max.value) s->max = (extreme){value, t};
-  follow(&s->turning, s->max.value - s->min.value, value, t);
+  turning_follow(&s->turning, s->max.value - s->min.value, value, t);
 }
 
-corot_status history_add(history *h, const ledger *now, const int *node,
-                         const double (*displacement)[3], const double *u) {
+/* Of three components. */
+static double length_of(const double *x) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
+
+corot_status history_add(history *h, const ledger *now, const double *value, const double *u) {
   bool first = h->count++ == 0;
   signal_seen *s = h->signal;
-  for (int i = 0; i < h->nprobe; i++, s += OF_PROBE) {
-    const double *d = displacement[node[i]];
-    for (int c = 0; c < 3; c++) see(&s[UX + c], first, d[c], now->t);
-    see(&s[MAGNITUDE], first, sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), now->t);
+  for (int i = 0; i < probes_n(h->probes); i++) {
+    probe_facts probe = probes_known(h->probes, i);
+    for (int c = 0; c < probe.ncolumn; c++) {
+      const probe_where where = probes_where(h->probes, i, c);
+      see(s++, first, value[probe.first + c], now->t, &where);
+    }
+    if (probe.length) see(s++, first, length_of(value + probe.first), now->t, NULL);
   }
   const double energy[OF_ENERGY] = {now->kinetic,       now->elastic, now->dissipated,
                                     now->external_work, now->balance, now->frame_energy};
@@ -137,44 +106,50 @@ corot_status history_add(history *h, const ledger *now, const int *node,
     memcpy(h->u, u, (size_t)h->ndof * sizeof *u);
     h->t_elastic = now->t;
   }
-  for (int k = 0; k < OF_ENERGY; k++) see(&s[k], first, energy[k], now->t);
+  for (int k = 0; k < OF_ENERGY; k++) see(&s[k], first, energy[k], now->t, NULL);
   h->balance = now->balance;
   h->dissipated = now->dissipated;
-  return h->table ? history_row(h->table, now, h->nprobe, node, displacement) : COROT_OK;
+  return h->table ? history_row(h->table, now, probes_ncolumn(h->probes), value) : COROT_OK;
 }
 
 /* --- What is known in the end --- */
 
-static json_t *extreme_json(extreme e) {
-  return json_pack("{s:o, s:o}", "value", json_text_real(e.value), "t", json_text_real(e.t));
+static json_t *extreme_json(extreme e, const probe_where *where) {
+  json_t *j = json_pack("{s:o, s:o}", "value", json_text_real(e.value), "t", json_text_real(e.t));
+  return where->known ? json_text_with(j, "at", probe_where_json(where)) : j;
 }
 
 static json_t *with_extremes(json_t *all, const char *name, const signal_seen *s) {
-  return json_text_with(
-      all, name, json_pack("{s:o, s:o}", "min", extreme_json(s->min), "max", extreme_json(s->max)));
+  return json_text_with(all, name,
+                        json_pack("{s:o, s:o}", "min", extreme_json(s->min, &s->at_min), "max",
+                                  extreme_json(s->max, &s->at_max)));
 }
 
 json_t *history_extremes(const history *h) {
   json_t *all = h->count > 0 ? json_object() : NULL;
   const signal_seen *s = h->signal;
-  for (int i = 0; i < h->nprobe; i++)
-    for (int k = 0; k < OF_PROBE; k++) {
-      char name[256];
-      snprintf(name, sizeof name, "%.240s.%s", h->probe[i].name, component_words[k]);
-      all = with_extremes(all, name, s++);
-    }
+  for (int i = 0; i < probes_n(h->probes); i++) {
+    probe_facts probe = probes_known(h->probes, i);
+    char length[256];
+    snprintf(length, sizeof length, "%.240s.%s", probe.name, probe.length ? probe.length : "");
+    for (int c = 0; c < probe.ncolumn; c++)
+      all = with_extremes(all, probes_columns(h->probes)[probe.first + c], s++);
+    if (probe.length) all = with_extremes(all, length, s++);
+  }
   for (int k = 0; k < OF_ENERGY; k++) all = with_extremes(all, energy_words[k], s++);
   return all;
 }
 
 static double range(const signal_seen *s) { return s->max.value - s->min.value; }
 
-/* The component that goes furthest; NULL if there are no probes. */
+/* The component of a displacement that goes furthest; NULL if no probe has one. */
 static const signal_seen *widest(const history *h) {
-  const signal_seen *best = NULL;
-  for (int k = 0; k < OF_PROBE * h->nprobe; k++) {
-    const signal_seen *s = &h->signal[k];
-    if (k % OF_PROBE != MAGNITUDE && (!best || range(s) > range(best))) best = s;
+  const signal_seen *best = NULL, *s = h->signal;
+  for (int i = 0; i < probes_n(h->probes); i++) {
+    probe_facts probe = probes_known(h->probes, i);
+    for (int c = 0; probe.moves && c < probe.ncolumn; c++)
+      if (!best || range(&s[c]) > range(best)) best = &s[c];
+    s += signals_of(probe);
   }
   return best;
 }
@@ -185,7 +160,7 @@ static void find_period(const history *h, history_facts *f) {
   double turns = s ? 2 : 4;
   f->swing = s ? range(s) : NAN;
   const turning *n = s ? &s->turning : &energy_signal(h, KINETIC)->turning;
-  f->period = n->count >= 2 * turns && n->weight > 0 ? turns * n->weighted / n->weight : 0;
+  f->period = n->count >= 2 * turns ? turns * turning_mean(n) : 0;
 }
 
 history_facts history_known(const history *h) {

@@ -5,15 +5,14 @@
 
      t                          [s], ascending: the start, the end of each step, and in place of a
                                 step's end beyond the end of the run, that end
-     NAME.ux, NAME.uy, NAME.uz  for each probe, as in probes.csv
+     NAME.ux ...                for each probe, as in probes.csv
      kinetic ... lz             as in energy.csv */
 #ifndef COROT_APP_RUN_HISTORY_H
 #define COROT_APP_RUN_HISTORY_H
 
 #include <jansson.h>
 
-#include "app/folder/write_csv.h"
-#include "app/scenario/scenario.h"
+#include "app/probe/probe.h"
 
 typedef struct history history;
 
@@ -21,21 +20,20 @@ typedef struct extreme {
   double value, t; /* t [s]: when it was first reached */
 } extreme;
 
-/* For a model of `ndof` degrees of freedom and the scenario's probes, whose names must outlive it.
- */
-corot_status history_create(const scenario *s, int ndof, history **out);
+/* For a model of `ndof` degrees of freedom and probes that outlive it. */
+corot_status history_create(const probes *p, int ndof, history **out);
 
 /* Begins DIR/history.csv; without this call nothing is written. */
 corot_status history_open(history *h, const char *dir);
 
-/* One moment: the ledger, the displacement of all nodes, of which `node` [nprobe] are the probes',
-   and u [ndof], of which the one with the largest elastic energy is kept. */
-corot_status history_add(history *h, const ledger *now, const int *node,
-                         const double (*displacement)[3], const double *u);
+/* One moment: the ledger, the probes' columns, and u [ndof], of which the one with the largest
+   elastic energy is kept. */
+corot_status history_add(history *h, const ledger *now, const double *value, const double *u);
 
-/* The probes' components and magnitudes, and the energies, by name:
-   {"NAME.ux": {"min": {"value", "t"}, "max": {"value", "t"}}, ..., "NAME.u", "kinetic", ...}. The
-   caller's to json_decref; NULL: no memory, or no moment. */
+/* The probes' columns, lengths of vectors, and the energies, by name:
+   {"NAME.ux": {"min": {"value", "t"}, "max": {"value", "t"}}, ..., "NAME.u", "kinetic", ...}; with
+   "at" (probe_where_json) where the probe itself is an extreme. The caller's to json_decref; NULL:
+   no memory, or no moment. */
 json_t *history_extremes(const history *h);
 
 /* What warnings are made of. */

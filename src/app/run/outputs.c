@@ -8,6 +8,7 @@
 #include "app/folder/folder.h"
 #include "compare.h"
 #include "fields.h"
+#include "quantities.h"
 #include "reactions.h"
 #include "writers.h"
 
@@ -24,11 +25,13 @@ struct outputs {
   const scenario *scenario;
   const corot_model *model;
   void *writer[NWRITER]; /* NULL: not begun */
-  int *node;             /* [nprobe] */
+  probes *probes;
+  double *probed;        /* [probes_ncolumn] at the last moment */
   double (*nodal)[3];    /* [2 nnode] of the last moment: displacement, */
   double (*velocity)[3]; /* [nnode] and velocity, in its second half */
   ledger ledger;         /* of the last moment */
   history *history;
+  quantities *quantities;
   observed seen;          /* all but its history and its jumps */
   double energy_at_start; /* [J] */
   long count;             /* moments written */
@@ -37,6 +40,7 @@ struct outputs {
 /* The first error is told. */
 corot_status outputs_close(outputs *o) {
   corot_status status = COROT_OK;
+  if (o->quantities) quantities_close(o->quantities);
   for (int i = 0; i < NWRITER; i++) {
     corot_status closed = o->writer[i] ? writers[i]->close(o->writer[i]) : COROT_OK;
     o->writer[i] = NULL;
@@ -49,39 +53,29 @@ void outputs_destroy(outputs *o) {
   if (!o) return;
   outputs_close(o);
   history_destroy(o->history);
-  free(o->node);
+  quantities_destroy(o->quantities);
+  probes_destroy(o->probes);
+  free(o->probed);
   free(o->nodal);
   free(o);
 }
 
-static corot_status find_probes(outputs *o) {
-  const scenario *s = o->scenario;
-  const corot_mesh *mesh = corot_model_mesh(o->model);
-  o->node = malloc(((size_t)s->nprobe + 1) * sizeof *o->node);
-  if (!o->node) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
-  for (int i = 0; i < s->nprobe; i++) {
-    const probe_def *p = &s->probe[i];
-    o->node[i] = p->node >= 0 ? p->node : corot_mesh_nearest(mesh, p->point);
-    if (o->node[i] >= mesh->nnode)
-      return corot_fail(COROT_EINVAL, "probe %s: node %d; the mesh's nodes are 0 to %d", p->name,
-                        p->node, mesh->nnode - 1);
-  }
-  return COROT_OK;
-}
-
 static corot_status allocate(outputs *o) {
   size_t nnode = (size_t)corot_model_mesh(o->model)->nnode;
+  COROT_TRY(probes_create(o->scenario, o->model, &o->probes));
   o->nodal = calloc(2 * nnode, sizeof *o->nodal);
-  if (!o->nodal) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
+  o->probed = calloc((size_t)probes_ncolumn(o->probes) + 1, sizeof *o->probed);
+  if (!o->nodal || !o->probed) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
   o->velocity = o->nodal + nnode;
-  return history_create(o->scenario, corot_model_ndof(o->model), &o->history);
+  COROT_TRY(quantities_create(o->scenario, o->probes, &o->quantities));
+  return history_create(o->probes, corot_model_ndof(o->model), &o->history);
 }
 
 static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
   const writer_source source = {.dir = dir,
                                 .scenario = o->scenario,
                                 .model = o->model,
-                                .node = o->node,
+                                .probes = o->probes,
                                 .history = o->history};
   for (int i = 0; i < NWRITER; i++) {
     const writer_ops *ops = writers[i];
@@ -92,7 +86,6 @@ static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
 }
 
 static corot_status open_all(outputs *o, const char *dir) {
-  COROT_TRY(find_probes(o));
   COROT_TRY(allocate(o));
   COROT_TRY(folder_make(dir));
   COROT_TRY(folder_clean(dir));
@@ -148,14 +141,35 @@ static corot_status take_energies(outputs *o, corot_state *state, const instant 
   return COROT_OK;
 }
 
-static corot_status add_history(outputs *o, const instant *now, const ledger *row) {
-  return history_add(o->history, row, o->node, (const double(*)[3])o->nodal, now->u);
+/* Of the moment whose displacement is in o->nodal. */
+static corot_status evaluate_probes(outputs *o, corot_state *state, const instant *now,
+                                    const ledger *row) {
+  return probes_evaluate(o->probes,
+                         &(probe_moment){.t = now->t,
+                                         .state = state,
+                                         .u = now->u,
+                                         .v = now->v,
+                                         .displacement = (const double(*)[3])o->nodal,
+                                         .ledger = row,
+                                         .still = now->still},
+                         o->probed);
 }
 
-corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e) {
+/* Of the moment whose probes have been evaluated; velocity NULL: none that goes with t. */
+static corot_status record(outputs *o, const instant *now, const ledger *row,
+                           const double (*velocity)[3]) {
+  quantities_row(o->quantities, row, o->probed, velocity);
+  return history_add(o->history, row, o->probed, now->u);
+}
+
+corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
+                             const corot_energies *e) {
   ledger row = make_ledger(o, now, e);
+  bool wanted = quantities_wanted(o->quantities);
   corot_nodal(o->model, now->t, now->u, now->v, o->nodal, NULL);
-  return add_history(o, now, &row);
+  if (wanted) corot_nodal_motion(o->model, state, now->t, now->v, NULL, o->velocity, NULL);
+  COROT_TRY(evaluate_probes(o, state, now, &row));
+  return record(o, now, &row, wanted ? (const double(*)[3])o->velocity : NULL);
 }
 
 /* In more of the body or, if in all of it, further. */
@@ -214,25 +228,27 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
                       .displacement = (const double(*)[3])o->nodal,
                       .velocity = (const double(*)[3])o->velocity,
                       .ledger = &o->ledger,
-                      .factor = now->factor,
-                      .internal = now->internal};
+                      .probed = o->probed};
   /* whatever the body's state may not allow, before a file is touched */
   COROT_TRY(take_energies(o, state, now, &row));
   COROT_TRY(evaluate_all(o, &all));
-
-  /* the moment on all nodes */
   corot_nodal(o->model, now->t, now->u, now->v, o->nodal, o->velocity);
   if (now->still) memset(o->velocity, 0, corot_model_mesh(o->model)->nnode * sizeof *o->velocity);
+  COROT_TRY(evaluate_probes(o, state, now, &row));
   o->ledger = row;
   o->count++;
   observe(o, state, now);
 
   /* the files */
-  if (o->count == 1 || now->still) COROT_TRY(add_history(o, now, &row));
+  if (o->count == 1 || now->still) {
+    const double(*velocity)[3] = now->still ? NULL : (const double(*)[3])o->velocity;
+    COROT_TRY(record(o, now, &row, velocity));
+  }
   return write_all(o, &all);
 }
 
 corot_status outputs_step(outputs *o, const step_row *row) {
+  if (row->events & EVENT_KINK) quantities_break(o->quantities);
   for (int i = 0; i < NWRITER; i++) {
     const writer_ops *ops = writers[i];
     if (o->writer[i] && ops->step) COROT_TRY(ops->step(o->writer[i], row));
@@ -249,6 +265,16 @@ json_t *outputs_reactions(const outputs *o) {
 long outputs_count(const outputs *o) { return o->count; }
 
 ledger outputs_ledger(const outputs *o) { return o->ledger; }
+
+json_t *outputs_quantities(const outputs *o) { return quantities_json(o->quantities); }
+
+void outputs_tell(const outputs *o) { quantities_tell(o->quantities); }
+
+int outputs_unanswered(const outputs *o) { return quantities_unanswered(o->quantities); }
+
+corot_status outputs_warn(const outputs *o, warnings *w) {
+  return quantities_warn(o->quantities, w);
+}
 
 json_t *outputs_extremes(const outputs *o) { return history_extremes(o->history); }
 
@@ -275,11 +301,6 @@ corot_status outputs_observed(const outputs *o, corot_state *state, observed *ou
   return COROT_OK;
 }
 
-int outputs_nprobe(const outputs *o) { return o->scenario->nprobe; }
-
-const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]) {
-  *node = o->node[i];
-  memcpy(u, o->nodal[*node], 3 * sizeof *u);
-  memcpy(v, o->velocity[*node], 3 * sizeof *v);
-  return o->scenario->probe[i].name;
+json_t *outputs_probes(const outputs *o) {
+  return probes_json(o->probes, o->probed, (const double(*)[3])o->velocity);
 }

@@ -3,8 +3,7 @@
 #ifndef COROT_APP_RUN_OUTPUTS_H
 #define COROT_APP_RUN_OUTPUTS_H
 
-#include "app/folder/write_csv.h"
-#include "app/scenario/scenario.h"
+#include "app/scenario/warnings.h"
 #include "history.h"
 
 typedef struct outputs outputs;
@@ -16,8 +15,6 @@ typedef struct instant {
   double dissipated, external_work; /* from the start to t [J] */
   double frame_energy;              /* put in by frame updates so far [J] */
   bool still;                       /* nothing moves, whatever supports do at t */
-  double factor;                    /* of the loads, in statics */
-  const double (*internal)[3];      /* [nnode] elastic force, in statics [N] */
 } instant;
 
 /* Makes `dir`, removes what an earlier run left there, and begins the files that runs and statics
@@ -38,7 +35,8 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
 
 /* Adds the end of a step to the history; `e` are the energies of that instant. Call this after the
    first instant was written, and before later ones up to this are. */
-corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e);
+corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
+                             const corot_energies *e);
 
 /* Adds a row to steps.csv. */
 corot_status outputs_step(outputs *o, const step_row *row);
@@ -49,14 +47,20 @@ const char *outputs_file(int i);
 /* How many moments were written. */
 long outputs_count(const outputs *o);
 
-/* The moment written last: energies, and u and v of each probe. */
+/* The moment written last: energies, and the probes (probes_json). */
 ledger outputs_ledger(const outputs *o);
-int outputs_nprobe(const outputs *o);
-const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]);
+json_t *outputs_probes(const outputs *o);
 
 /* The forces of the supports at the moment written last: reactions_last, and as that before the
    outputs are closed; NULL without reactions.csv. */
 json_t *outputs_reactions(const outputs *o);
+
+/* The quantities of the scenario, once the outputs are closed: the part of result.json
+   (quantities.h); how many have no value, and a warning for each. */
+json_t *outputs_quantities(const outputs *o);
+void outputs_tell(const outputs *o); /* a line for each on stderr */
+int outputs_unanswered(const outputs *o);
+corot_status outputs_warn(const outputs *o, warnings *w);
 
 /* Extremes of probes and energies: history_extremes. */
 json_t *outputs_extremes(const outputs *o);

@@ -14,13 +14,12 @@ typedef struct support {
 
 struct reactions {
   const corot_model *model;
-  double t_end;
   table *table;
   int n;
-  support *support;   /* [n] a group each */
-  const char **name;  /* [n] */
-  double (*force)[3]; /* [n] of the last row [N] */
-  double (*load)[3];  /* [nnode] */
+  support *support;      /* [n] a group each */
+  const char **name;     /* [n] */
+  double (*force)[3];    /* [n] of the last row [N] */
+  corot_nodal_forces at; /* [nnode] internal forces and loads */
 };
 
 static corot_status close_reactions(void *writer) {
@@ -29,7 +28,8 @@ static corot_status close_reactions(void *writer) {
   free(r->support);
   free(r->name);
   free(r->force);
-  free(r->load);
+  free(r->at.internal);
+  free(r->at.load);
   free(r);
   return status;
 }
@@ -59,8 +59,10 @@ static corot_status begin(reactions *r, const char *dir, const scenario *s) {
   r->support = calloc(most, sizeof *r->support);
   r->name = calloc(most, sizeof *r->name);
   r->force = calloc(most, sizeof *r->force);
-  r->load = calloc((size_t)corot_model_mesh(r->model)->nnode, sizeof *r->load);
-  if (!r->support || !r->name || !r->force || !r->load)
+  size_t nnode = (size_t)corot_model_mesh(r->model)->nnode;
+  r->at.internal = calloc(nnode, sizeof *r->at.internal);
+  r->at.load = calloc(nnode, sizeof *r->at.load);
+  if (!r->support || !r->name || !r->force || !r->at.internal || !r->at.load)
     return corot_fail(COROT_ENOMEM, "%s/reactions.csv: out of memory", dir);
   find_supports(r, s);
   return reactions_open(dir, r->n, r->name, &r->table);
@@ -70,7 +72,6 @@ static corot_status open_reactions(const writer_source *source, void **writer) {
   reactions *r = calloc(1, sizeof *r);
   if (!r) return corot_fail(COROT_ENOMEM, "%s/reactions.csv: out of memory", source->dir);
   r->model = source->model;
-  r->t_end = source->scenario->t_end;
   corot_status status = begin(r, source->dir, source->scenario);
   if (status != COROT_OK) {
     close_reactions(r);
@@ -82,19 +83,19 @@ static corot_status open_reactions(const writer_source *source, void **writer) {
 
 static corot_status write_reactions(void *writer, const moment *now) {
   reactions *r = writer;
-  COROT_TRY(corot_load_force(r->model, r->t_end, now->factor, now->displacement, r->load));
+  COROT_TRY(corot_forces(r->model, now->state, now->t, now->u, NULL, NULL, &r->at));
   for (int k = 0; k < r->n; k++) {
     const support *s = &r->support[k];
     for (int c = 0; c < 3; c++) {
       double sum = 0;
       for (int i = 0; s->held[c] && i < s->group->nnode; i++) {
         int n = s->group->node[i];
-        sum += now->internal[n][c] - r->load[n][c];
+        sum += r->at.internal[n][c] - r->at.load[n][c];
       }
       r->force[k][c] = sum;
     }
   }
-  return reactions_row(r->table, now->factor * r->t_end, r->n, (const double(*)[3])r->force);
+  return reactions_row(r->table, now->t, r->n, (const double(*)[3])r->force);
 }
 
 const writer_ops reactions_writer = {

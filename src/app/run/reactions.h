@@ -8,8 +8,7 @@
 
 typedef struct reactions reactions;
 
-/* Begins reactions.csv and adds a row a moment, of its `internal` forces and displacements under
-   the loads of the scenario's end times `factor`. */
+/* Begins reactions.csv and adds a row a moment, of a state that stands still. */
 extern const writer_ops reactions_writer;
 
 /* {"GROUP": [fx, fy, fz], ...} of the last row [N], zeros before the first; NULL: no memory. */

@@ -105,21 +105,6 @@ static json_t *memory_part(const run_summary *run) {
                    (json_int_t)run->state_bytes, "peak", (json_int_t)peak);
 }
 
-static json_t *probes_part(const outputs *o) {
-  json_t *part = json_object();
-  bool complete = part != NULL;
-  for (int i = 0; complete && i < outputs_nprobe(o); i++) {
-    int node;
-    double u[3], v[3];
-    const char *name = outputs_probe(o, i, &node, u, v);
-    json_t *probe = json_pack("{s:i, s:o, s:o}", "node", node, "u", vector(u), "v", vector(v));
-    complete = json_object_set_new(part, name, probe) == 0;
-  }
-  if (complete) return part;
-  json_decref(part);
-  return NULL;
-}
-
 static json_t *energy_part(const outputs *o) {
   ledger e = outputs_ledger(o);
   return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "t", json_text_real(e.t),
@@ -161,7 +146,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
   json_t *result = json_pack(
       "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
       "s:o, s:o,"
-      " s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
+      " s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
       json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
@@ -170,10 +155,10 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       "integrator", run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
-      timings_part(run), "memory", memory_part(run), "probes", probes_part(o), "energy",
-      energy_part(o), "extremes", extremes_part(o), "observed", observed_part(run), "versions",
-      result_versions(), "provenance", provenance, "hashes", "scenario", h->scenario, "mesh",
-      h->mesh, "run", h->run, "scenario", s->resolved);
+      timings_part(run), "memory", memory_part(run), "probes", outputs_probes(o), "energy",
+      energy_part(o), "quantities", outputs_quantities(o), "extremes", extremes_part(o), "observed",
+      observed_part(run), "versions", result_versions(), "provenance", provenance, "hashes",
+      "scenario", h->scenario, "mesh", h->mesh, "run", h->run, "scenario", s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
   return COROT_OK;

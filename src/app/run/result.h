@@ -1,6 +1,7 @@
 /* result.json: everything about a run that is one number or one word. Some of it:
 
      warnings  [{code, text}, ...], see warnings.h
+     quantities  what the scenario asks for, see quantities.h
      extremes  {NAME: {min: {value, t}, max: {value, t}}, ...} over all steps (of statics, over the
                load steps): PROBE.ux, uy, uz [m], PROBE.u, its length, and the energies under their
                names in energy.csv [J]

@@ -9,6 +9,7 @@
 #include "app/text/say.h"
 #include "outputs.h"
 #include "progress.h"
+#include "quantities.h"
 #include "result.h"
 #include "run_clock.h"
 #include "run_common.h"
@@ -63,6 +64,7 @@ static corot_status start_integrator(run *r) {
 
 static corot_status prepare(run *r) {
   COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(quantities_check(r->scenario, r->model, false));
   COROT_TRY(run_warn_before(r->scenario, r->model, false, r->options, &r->warnings));
   COROT_TRY(start_integrator(r));
   r->setup_s = wall_clock() - r->wall_at_start;
@@ -130,7 +132,7 @@ static corot_status record_step(run *r) {
   COROT_TRY(corot_integrator_work(r->integrator, t, &now.dissipated, &now.external_work));
   corot_status status = t == r->t ? corot_integrator_energy(r->integrator, r->u, r->v, &e)
                                   : corot_energy(r->model, r->state, t, r->u, r->v, &e);
-  if (status == COROT_OK) status = outputs_history(r->outputs, &now, &e);
+  if (status == COROT_OK) status = outputs_history(r->outputs, r->state, &now, &e);
   r->output_s += wall_clock() - started;
   return status > 0 ? COROT_OK : status;
 }
@@ -246,10 +248,10 @@ static double reached(const run *r) { return fmin(r->t, r->scenario->t_end); }
 static corot_status summarize(const run *r, const char *reason, int code, run_summary *summary) {
   bool interrupted = code > EXIT_SIGNAL;
   *summary = (run_summary){
-      .status = code == 0     ? "ok"
-                : interrupted ? "interrupted"
-                              : "failed",
-      .reason = code == 0 ? NULL : reason,
+      .status = code <= EXIT_CHECK ? "ok"
+                : interrupted      ? "interrupted"
+                                   : "failed",
+      .reason = code <= EXIT_CHECK ? NULL : reason,
       .exit_code = code,
       .failure = r->failure,
       .t_reached = reached(r),
@@ -278,6 +280,7 @@ static void tell(const run *r, const run_summary *summary) {
   say("%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n", path,
       summary->t_reached, summary->statistics.nst, summary->statistics.nfactor, summary->wall_s,
       summary->t_reached / summary->wall_s, dir);
+  outputs_tell(r->outputs);
 }
 
 /* Closes the books after a run that ended with `status`; returns the exit code. */
@@ -304,6 +307,7 @@ static int conclude(run *r, corot_status status) {
   }
 
   /* warnings and result.json */
+  code = run_answered_code(code, r->outputs);
   run_summary summary;
   r->failure = run_failure_of(status, code);
   late = run_warn_after(r->scenario, r->model, r->state, r->outputs, false, r->options,

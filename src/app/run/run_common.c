@@ -28,7 +28,7 @@ int run_exit_code(corot_status status) {
 
 int run_late_code(int code, corot_status late) {
   int refused = run_exit_code(late);
-  if (code == EXIT_OK) return refused;
+  if (code == EXIT_OK || (code == EXIT_CHECK && refused)) return refused;
   return refused == EXIT_SYSTEM && code < EXIT_SIGNAL ? EXIT_SYSTEM : code;
 }
 
@@ -38,7 +38,7 @@ void run_add_reason(size_t size, char *reason) {
 }
 
 run_failure run_failure_of(corot_status status, int code) {
-  if (code == EXIT_OK) return (run_failure){NULL, false};
+  if (code <= EXIT_CHECK) return (run_failure){NULL, false};
   if (code > EXIT_SIGNAL) return (run_failure){"interrupted", true};
   if (status == COROT_ENOMEM) return (run_failure){"memory", true};
   if (status == COROT_EIO) return (run_failure){"io", true};
@@ -141,6 +141,10 @@ int run_end_early(const scenario *s, const run_options *options, folder_lock *lo
   return code;
 }
 
+int run_answered_code(int code, const outputs *o) {
+  return code == EXIT_OK && outputs_unanswered(o) > 0 ? EXIT_CHECK : code;
+}
+
 static const char head[] = "warning: ";
 
 corot_status run_warn_before(const scenario *s, const corot_model *model, bool statics,
@@ -157,6 +161,7 @@ corot_status run_warn_after(const scenario *s, const corot_model *model, corot_s
   COROT_TRY(outputs_observed(o, state, seen));
   corot_status status = COROT_OK;
   if (seen->history.count > 0) status = warnings_after(s, model, seen, statics, w);
+  if (status == COROT_OK) status = outputs_warn(o, w);
   if (!options->quiet) warnings_print(w, before, head, stderr);
   return status;
 }

@@ -14,6 +14,10 @@ int run_exit_code(corot_status status);
    says: what the system refused may pass, and whatever else there was is found again then. */
 int run_late_code(int code, corot_status late);
 
+/* The exit code of a run that ended with `code`: EXIT_CHECK where all is well but that a quantity
+   has no value. Its status is ok. Call this once the outputs are closed. */
+int run_answered_code(int code, const outputs *o);
+
 /* Adds the message of the last failure to the reason that there is. */
 void run_add_reason(size_t size, char *reason);
 

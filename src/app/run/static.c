@@ -8,6 +8,7 @@
 
 #include "app/text/json_text.h"
 #include "app/text/say.h"
+#include "quantities.h"
 #include "run_clock.h"
 #include "run_common.h"
 #include "stop.h"
@@ -18,7 +19,7 @@ typedef struct equilibrium_run {
   corot_mesh *mesh;
   corot_refinement *refinement; /* or NULL */
   corot_model *model;
-  corot_state *state; /* for outputs */
+  corot_state *state; /* for outputs; it stands still */
   corot_statics *statics;
   outputs *outputs;
   double *u, *v;                         /* [n] v is zero */
@@ -62,6 +63,7 @@ static corot_status prepare(equilibrium_run *r) {
   corot_statics_def def = s->statics;
   def.stop = is_stopped;
   COROT_TRY(scenario_build(s, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(quantities_check(s, r->model, true));
   COROT_TRY(run_warn_before(s, r->model, true, r->options, &r->warnings));
   def.linear.refinement = r->refinement;
   COROT_TRY(allocate(r));
@@ -110,14 +112,9 @@ static corot_status add_work(equilibrium_run *r, double t) {
 
 static corot_status write_equilibrium(equilibrium_run *r, bool last) {
   double started = wall_clock(), t = r->factor * r->scenario->t_end;
+  corot_state_stand_still(r->state, r->scenario->t_end, r->factor);
   corot_status status = add_work(r, t);
-  instant now = {.t = t,
-                 .u = r->u,
-                 .v = r->v,
-                 .external_work = r->work,
-                 .still = true,
-                 .factor = r->factor,
-                 .internal = (const double(*)[3])r->f_before}; /* which are those of now */
+  instant now = {.t = t, .u = r->u, .v = r->v, .external_work = r->work, .still = true};
   if (status == COROT_OK) status = outputs_write(r->outputs, r->state, &now, last);
   r->output_s += wall_clock() - started;
   return status;
@@ -193,10 +190,10 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
 
   /* and what it has */
   *summary = (run_summary){
-      .status = code == 0            ? "ok"
+      .status = code <= EXIT_CHECK   ? "ok"
                 : code > EXIT_SIGNAL ? "interrupted"
                                      : "failed",
-      .reason = code == 0 ? NULL : reason,
+      .reason = code <= EXIT_CHECK ? NULL : reason,
       .exit_code = code,
       .failure = r->failure,
       .t_reached = r->factor * r->scenario->t_end,
@@ -230,6 +227,7 @@ static void tell(const equilibrium_run *r, const char *reason, const run_summary
       "%.3g s; %s\n",
       path, r->factor, n->nstep, n->nstep == 1 ? "" : "s", n->nni, n->nfactor, summary->wall_s,
       r->options->dir);
+  outputs_tell(r->outputs);
 }
 
 /* Closes the books; returns the exit code. */
@@ -253,6 +251,7 @@ static int conclude(equilibrium_run *r, corot_status status) {
   }
 
   /* warnings and result.json */
+  code = run_answered_code(code, r->outputs);
   run_summary summary;
   statics_summary statics;
   r->failure = run_failure_of(status, code);

@@ -3,15 +3,14 @@
 #ifndef COROT_APP_RUN_WRITER_H
 #define COROT_APP_RUN_WRITER_H
 
-#include "app/folder/write_csv.h"
-#include "app/scenario/scenario.h"
+#include "app/probe/probe.h"
 
 /* What is known before the first moment. It outlives the writers, but for `dir`. */
 typedef struct writer_source {
   const char *dir;
   const scenario *scenario;
   const corot_model *model;
-  const int *node;         /* [scenario->nprobe] of the probes */
+  const probes *probes;
   struct history *history; /* which writes history.csv by itself */
 } writer_source;
 
@@ -24,8 +23,7 @@ typedef struct moment {
   const double *u, *v;                             /* [n] */
   const double (*displacement)[3], (*velocity)[3]; /* [nnode] */
   const ledger *ledger;
-  double factor;               /* of the loads, in statics */
-  const double (*internal)[3]; /* [nnode] elastic force, in statics [N] */
+  const double *probed; /* [probes_ncolumn] */
 } moment;
 
 /* Who begins it: a run, a search for an equilibrium, or both. */

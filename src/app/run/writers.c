@@ -10,29 +10,24 @@ static corot_status close_table(void *writer) { return table_close(writer); }
 
 /* --- probes.csv --- */
 
-typedef struct probes {
-  int n;
-  const int *node; /* [n] */
+typedef struct probes_table {
+  int ncolumn;
   table *table;
-} probes;
+} probes_table;
 
 static corot_status close_probes(void *writer) {
-  probes *p = writer;
+  probes_table *p = writer;
   corot_status status = table_close(p->table);
   free(p);
   return status;
 }
 
 static corot_status open_probes(const writer_source *source, void **writer) {
-  const scenario *s = source->scenario;
-  const char **name = malloc(((size_t)s->nprobe + 1) * sizeof *name);
-  probes *p = calloc(1, sizeof *p);
-  corot_status status = COROT_OK;
-  if (!name || !p) status = corot_fail(COROT_ENOMEM, "the probes: out of memory");
-  for (int i = 0; status == COROT_OK && i < s->nprobe; i++) name[i] = s->probe[i].name;
-  if (p) p->n = s->nprobe, p->node = source->node;
-  if (status == COROT_OK) status = probes_open(source->dir, s->nprobe, name, &p->table);
-  free(name);
+  probes_table *p = calloc(1, sizeof *p);
+  if (!p) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
+  p->ncolumn = probes_ncolumn(source->probes);
+  corot_status status =
+      probes_open(source->dir, p->ncolumn, probes_columns(source->probes), &p->table);
   if (status == COROT_OK)
     *writer = p;
   else
@@ -41,8 +36,8 @@ static corot_status open_probes(const writer_source *source, void **writer) {
 }
 
 static corot_status write_probes(void *writer, const moment *now) {
-  const probes *p = writer;
-  return probes_row(p->table, now->t, p->n, p->node, now->displacement);
+  const probes_table *p = writer;
+  return probes_row(p->table, now->t, p->ncolumn, now->probed);
 }
 
 const writer_ops probes_writer = {

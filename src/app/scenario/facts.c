@@ -8,6 +8,7 @@
 #include "app/config/config.h"
 #include "app/text/json_text.h"
 #include "core/mesh/mesh.h"
+#include "probe_location.h"
 #include "words.h"
 
 /* --- Finding --- */
@@ -48,11 +49,20 @@ static corot_status choose(const scenario *s, facts *f, corot_state *state) {
   return status;
 }
 
+static corot_status locate_probes(const scenario *s, facts *f) {
+  f->probe = calloc((size_t)s->nprobe + 1, sizeof *f->probe);
+  if (!f->probe) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
+  for (int i = 0; i < s->nprobe; i++)
+    if (probe_is_local(&s->probe[i])) COROT_TRY(probe_locate(&s->probe[i], f->mesh, &f->probe[i]));
+  return COROT_OK;
+}
+
 corot_status facts_find(const scenario *s, facts *f) {
   corot_state *state = NULL;
   COROT_TRY(scenario_build(s, &f->mesh, &f->refinement, &f->model));
   f->quality = corot_mesh_measure(f->mesh);
   COROT_TRY(warnings_before(s, f->model, false, &f->warnings));
+  COROT_TRY(locate_probes(s, f));
   f->mass = total_mass(s, f);
   COROT_TRY(corot_state_create(f->model, &state));
   f->bytes = corot_model_bytes(f->model) + corot_state_bytes(state);
@@ -64,6 +74,7 @@ corot_status facts_find(const scenario *s, facts *f) {
 
 void facts_free(facts *f) {
   warnings_free(&f->warnings);
+  free(f->probe);
   corot_model_destroy(f->model);
   corot_refinement_destroy(f->refinement);
   corot_mesh_destroy(f->mesh);
@@ -71,15 +82,12 @@ void facts_free(facts *f) {
 
 /* --- What both reports say --- */
 
-static int probe_node(const probe_def *p, const corot_mesh *mesh) {
-  return p->node >= 0 ? p->node : corot_mesh_nearest(mesh, p->point);
-}
-
-/* How far the node is from the point that was asked for. */
-static double probe_distance(const probe_def *p, const double x[3]) {
-  double sum = 0;
-  for (int k = 0; k < 3 && p->node < 0; k++) sum += (x[k] - p->point[k]) * (x[k] - p->point[k]);
-  return sqrt(sum);
+/* "stress, max" of what is not a displacement at a point or node. */
+static void describe_probe(const probe_def *p, size_t size, char *text) {
+  const probe_quantity *q = &probe_quantities[p->of];
+  bool takes = !probe_is_local(p) && q->carrier <= OF_TETS;
+  snprintf(text, size, "%s%s%s%s%s", q->word, p->component ? " " : "",
+           probe_components[p->component], takes ? ", " : "", takes ? probe_takes[p->take] : "");
 }
 
 /* --- Text --- */
@@ -277,18 +285,32 @@ static void print_integrator(const scenario *s, const corot_integrator_choice *c
             c->atol_displacement, c->atol_velocity);
 }
 
+static void print_probe(const probe_def *p, const corot_location *at, const corot_mesh *mesh,
+                        FILE *out) {
+  char what[96];
+  describe_probe(p, sizeof what, what);
+  fprintf(out, "probe          %s: ", p->name);
+  if (!probe_is_plain(p)) fprintf(out, "%s, ", what);
+  if (p->group)
+    fprintf(out, "%s (%d nodes)", p->group, corot_mesh_find_group(mesh, p->group)->nnode);
+  else if (p->body)
+    fputs("the whole body", out);
+  else
+    fprintf(out, "%s %d at (%g, %g, %g)", at->nnode == 1 ? "node" : "tet",
+            at->nnode == 1 ? at->node[0] : at->tet, at->x[0], at->x[1], at->x[2]);
+  if (at->distance > 0) fprintf(out, ", %.3g m from its point", at->distance);
+  fputc('\n', out);
+}
+
 static void print_run(const scenario *s, const facts *f, FILE *out) {
   print_integrator(s, &f->chosen, out);
   fprintf(out, "time           0 to %g s, output every %g s\n", s->t_end, s->output_step);
-  for (int i = 0; i < s->nprobe; i++) {
-    int node = probe_node(&s->probe[i], f->mesh);
-    const double *x = f->mesh->x[node];
-    fprintf(out, "probe          %s: node %d at (%g, %g, %g)", s->probe[i].name, node, x[0], x[1],
-            x[2]);
-    double distance = probe_distance(&s->probe[i], x);
-    if (distance > 0) fprintf(out, ", %.3g m from its point", distance);
-    fputc('\n', out);
-  }
+  for (int i = 0; i < s->nprobe; i++) print_probe(&s->probe[i], &f->probe[i], f->mesh, out);
+}
+
+static void print_quantities(const scenario *s, FILE *out) {
+  for (int i = 0; i < s->nquantity; i++)
+    fprintf(out, "quantity       %s: %s\n", s->quantity[i].name, s->quantity[i].quantity.text);
 }
 
 void facts_print(const scenario *s, const facts *f, FILE *out) {
@@ -297,6 +319,7 @@ void facts_print(const scenario *s, const facts *f, FILE *out) {
   print_mesh(s, f, out);
   print_model(s, f, out);
   print_run(s, f, out);
+  print_quantities(s, out);
   warnings_print(&f->warnings, 0, "warning        ", out);
 }
 
@@ -313,15 +336,23 @@ json_t *facts_groups(const corot_mesh *mesh) {
   return list;
 }
 
-static json_t *probes_json(const scenario *s, const corot_mesh *mesh) {
-  json_t *list = json_array();
-  for (int i = 0; i < s->nprobe; i++) {
-    int node = probe_node(&s->probe[i], mesh);
-    const double *x = mesh->x[node];
-    list = json_text_push(
-        list, json_pack("{s:s, s:i, s:[f, f, f], s:f}", "name", s->probe[i].name, "node", node, "x",
-                        x[0], x[1], x[2], "distance", probe_distance(&s->probe[i], x)));
+static json_t *probe_json(const probe_def *p, const corot_location *at) {
+  json_t *j = json_pack("{s:s}", "name", p->name);
+  if (!probe_is_plain(p)) j = json_text_with(j, "of", json_string(probe_quantities[p->of].word));
+  if (!probe_is_local(p)) {
+    j = json_text_with(j, "take", json_string(probe_takes[p->take]));
+    return json_text_with(j, "group", p->group ? json_text_string(p->group) : json_null());
   }
+  j = json_text_with(j, "node", at->nnode == 1 ? json_integer(at->node[0]) : json_null());
+  if (at->nnode > 1) j = json_text_with(j, "tet", json_integer(at->tet));
+  j = json_text_with(j, "x", json_pack("[f, f, f]", at->x[0], at->x[1], at->x[2]));
+  return json_text_with(j, "distance", json_real(at->distance));
+}
+
+static json_t *probes_json(const scenario *s, const facts *f) {
+  json_t *list = json_array();
+  for (int i = 0; i < s->nprobe; i++)
+    list = json_text_push(list, probe_json(&s->probe[i], &f->probe[i]));
   return list;
 }
 
@@ -367,6 +398,13 @@ static json_t *integrator_json(const scenario *s, const corot_integrator_choice 
                    "step", step > 0 ? json_real(step) : json_null());
 }
 
+static json_t *quantities_json(const scenario *s) {
+  json_t *all = json_object();
+  for (int i = 0; i < s->nquantity; i++)
+    all = json_text_with(all, s->quantity[i].name, json_string(s->quantity[i].quantity.text));
+  return all;
+}
+
 json_t *facts_json(const scenario *s, const facts *f) {
   json_t *j = json_object();
   j = json_text_with(j, "scenario", json_text_string(s->path));
@@ -384,6 +422,7 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
-  j = json_text_with(j, "probes", probes_json(s, f->mesh));
+  j = json_text_with(j, "probes", probes_json(s, f));
+  j = json_text_with(j, "quantities", quantities_json(s));
   return json_text_with(j, "warnings", warnings_json(&f->warnings));
 }

@@ -11,8 +11,9 @@ typedef struct facts {
   corot_model *model;
   corot_mesh_quality quality;
   corot_integrator_choice chosen;
-  size_t bytes; /* of model and state */
-  double mass;  /* of the whole solid [kg] */
+  size_t bytes;          /* of model and state */
+  double mass;           /* of the whole solid [kg] */
+  corot_location *probe; /* [nprobe] of points and nodes */
   warnings warnings;
 } facts;
 

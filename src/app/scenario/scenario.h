@@ -8,6 +8,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "app/quantity/quantity.h"
+#include "probe_quantity.h"
 #include "scenario_keys.h"
 
 typedef enum group_kind { GROUP_PLANE, GROUP_BOX, GROUP_NODES } group_kind;
@@ -22,11 +24,27 @@ typedef struct group_def {
   const int *node;
 } group_def;
 
+/* All zero but the name: the displacement of node 0. */
 typedef struct probe_def {
   const char *name;
-  int node; /* -1: by point */
-  double point[3];
+  int node;          /* -1: of something else */
+  double point[3];   /* unless there is a node, a group, or it is of the body */
+  bool nearest;      /* of the node nearest to the point */
+  const char *group; /* NULL: none */
+  bool body;         /* the whole */
+  probe_of of;
+  probe_take take; /* that of the quantity, where none is said */
+  int component;   /* into probe_components; 0: all */
+  probe_part part; /* of a reaction */
+  double about[3]; /* what moments are about [m] */
 } probe_def;
+
+/* A number that is asked for: see quantity.h. */
+typedef struct quantity_def {
+  const char *name;
+  quantity quantity; /* its column is not resolved */
+  const struct config_node *node;
+} quantity_def;
 
 /* A velocity some nodes start with. */
 typedef struct start_def {
@@ -71,6 +89,9 @@ typedef struct scenario {
 
   int nprobe;
   const probe_def *probe;
+  int nquantity;
+  const quantity_def *quantity; /* [nquantity] */
+
   bool write_fields;  /* output.fields: vtu */
   int field_every;    /* every so many output times */
   bool write_history; /* output.history: true */

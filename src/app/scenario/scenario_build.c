@@ -107,21 +107,12 @@ static corot_status check_starts(const scenario *s, const corot_mesh *mesh) {
   return COROT_OK;
 }
 
-static corot_status check_probes(const scenario *s, const corot_mesh *mesh) {
-  config_node *node = place(s, "probes")->child;
-  for (int i = 0; i < s->nprobe; i++, node = node->next)
-    if (s->probe[i].node >= mesh->nnode)
-      return config_fail(config_find(node, "node"), "the mesh has %d nodes, numbered from 0",
-                         mesh->nnode);
-  return COROT_OK;
-}
-
 /* --- Model --- */
 
 static corot_status build_model(const scenario *s, const corot_mesh *mesh,
                                 const corot_refinement *refinement, corot_model **model) {
   COROT_TRY(check_starts(s, mesh));
-  COROT_TRY(check_probes(s, mesh));
+  COROT_TRY(scenario_check_probes(s, mesh));
   corot_model_def def = s->model;
   corot_hierarchy_def hierarchy = s->hierarchy;
   hierarchy.refinement = refinement;

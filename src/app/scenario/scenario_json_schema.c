@@ -93,6 +93,10 @@ static json_t *value_schema(const schema_key *key) {
       return json_text_with(
           json_text_with(of_type("object"), "additionalProperties", map_schema(inside)),
           "maxProperties", json_integer(CONFIG_MOST_KEYS));
+    case SCHEMA_NAMED_TEXTS:
+      return json_text_with(
+          json_text_with(of_type("object"), "additionalProperties", of_type("string")),
+          "maxProperties", json_integer(CONFIG_MOST_KEYS));
     case SCHEMA_LIST:
       return list_schema(map_schema(inside), 0, 0);
     case SCHEMA_MAPS:
@@ -128,14 +132,18 @@ static json_t *key_schema(const schema_key *key) {
 
 static json_t *map_schema(const char *path) {
   json_t *properties = json_object(), *required = json_array(), *one_of = json_array();
+  bool none = false; /* of those of which there is at most one */
   for (const schema_key *k = NULL; (k = schema_child(&scenario_schema, path, k));) {
     const char *dot = strrchr(k->path, '.');
     const char *name = dot ? dot + 1 : k->path;
     properties = json_text_with(properties, name, key_schema(k));
     if (k->status == SCHEMA_REQUIRED) required = json_text_push(required, json_string(name));
-    if (k->status == SCHEMA_ONE_OF)
+    none |= k->status == SCHEMA_AT_MOST_ONE;
+    if (k->status == SCHEMA_ONE_OF || k->status == SCHEMA_AT_MOST_ONE)
       one_of = json_text_push(one_of, json_pack("{s:[s]}", "required", name));
   }
+  if (none)
+    one_of = json_text_push(one_of, json_pack("{s:{s:o}}", "not", "anyOf", json_copy(one_of)));
   json_t *s = json_text_with(of_type("object"), "properties", properties);
   if (!required || !one_of) s = json_text_with(s, "required", NULL); /* no memory */
   if (json_array_size(required)) s = json_text_with(s, "required", json_incref(required));

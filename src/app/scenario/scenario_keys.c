@@ -2,6 +2,7 @@
 #include "scenario_keys.h"
 
 #include "core/model/definition.h"
+#include "probe_quantity.h"
 
 #define MAP SCHEMA_MAP
 #define NUMBER SCHEMA_NUMBER
@@ -173,9 +174,18 @@ static const schema_key keys[] = {
 
   {"compare",                 SCHEMA_WORDS,    OPTIONAL, ANY,          "",        0, "cauchy|warp|polar|hybrid", "strain measures whose forces are compared with those of green on the states of the run"},
 
-  {"probes",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "nodes whose motion is recorded; names are letters, digits, _ and -"},
-  {"probes.NAME.point",       VECTOR,          ONE_OF,   ANY,          "m",       0, 0, "the node nearest to it at rest, of the refined mesh"},
-  {"probes.NAME.node",        INTEGER,         ONE_OF,   NOT_NEGATIVE, "",        0, 0, "the node of that number, the first is 0; unchanged by mesh.refine and mesh.order: 2"},
+  {"probes",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "what is recorded at every step, in columns NAME.COMPONENT; names are letters, digits, _ and -. Of a point, a node, a group or, without these, the whole body"},
+  {"probes.NAME.point",       VECTOR,          SCHEMA_AT_MOST_ONE, ANY, "m",      0, 0, "a point of the body at rest, by the shape functions of the tet that it is in; one outside stands for the nearest of the surface"},
+  {"probes.NAME.node",        INTEGER,         SCHEMA_AT_MOST_ONE, NOT_NEGATIVE, "", 0, 0, "the node of that number, the first is 0; unchanged by mesh.refine and mesh.order: 2"},
+  {"probes.NAME.group",       TEXT,            SCHEMA_AT_MOST_ONE, ANY, "",       0, 0, "the nodes of a group; for what tets have, its tets or, where it has none, the tets at its faces"},
+  {"probes.NAME.nearest",     CHOICE,          OPTIONAL, ANY,          "",        0, "true|false", "true: the node nearest to the point in its place; default: false"},
+  {"probes.NAME.of",          CHOICE,          OPTIONAL, ANY,          "",        0, PROBE_WORDS, "displacement (the default; ux uy uz), velocity (vx vy vz), acceleration (ax ay az); reaction: the force of supports on the body, that is internal + viscous + inertial forces - loads on held components (fx fy fz, mx my mz); force: the loads (the same); stress: Cauchy's, in fixed axes (xx yy zz xy yz zx), principal: its eigenvalues, the largest first (p1 p2 p3), von_mises; strain: of the measure, in its axes, not doubled (xx yy zz xy yz zx); frame_angle: by which frames turn [rad]; det: of F; volume: deformed; momentum (px py pz), angular_momentum (lx ly lz), elastic, kinetic and the other columns of energy.csv. One number is called value"},
+  {"probes.NAME.take",        CHOICE,          OPTIONAL, ANY,          "",        0, "mean|sum|max|min", "of a group or the body: over its nodes, or over tets weighted by rest volume (faces: area), so that sum is the integral; max, min: of each column, of ten-node tets over points of integration. Default: mean; det: min; reaction, force, volume, momenta and energies are sums"},
+  {"probes.NAME.component",   CHOICE,          OPTIONAL, ANY,          "",        0, PROBE_COMPONENTS, "that alone, as NAME.value: of vectors x, y, z, magnitude, of tensors xx ... zx, of principal 1, 2, 3"},
+  {"probes.NAME.part",        CHOICE,          OPTIONAL, ANY,          "",        0, "total|internal|viscous|inertial|load", "of a reaction; default: total = internal + viscous + inertial - load"},
+  {"probes.NAME.about",       VECTOR,          OPTIONAL, ANY,          "m",       0, 0, "the point that moments of a reaction or force, and angular momenta, are about, with arms from it to where nodes are now; default: the origin"},
+
+  {"quantities",              SCHEMA_NAMED_TEXTS, OPTIONAL, ANY,       "",        0, 0, "numbers out of the columns of probes.csv and energy.csv, found at the resolution of the steps and written to result.json: {peak: max(corner.ux), end: corner.ux@end}; max, min, mean, integral, amplitude, period of a column, all of it or from a time to another, \"max(corner.ux, 0.5, end)\"; corner.ux@1.5 at a time [s]; when(max(..)) the time of an extreme; abs(..) around a column or a number; where braces stand around it, a text with commas wants quotes"},
 
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},

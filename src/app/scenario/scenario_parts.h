@@ -33,6 +33,16 @@ corot_status scenario_read_statics(scenario *s);
 /* start, after boundary */
 corot_status scenario_read_start(scenario *s);
 
+/* probes; and whether they fit the mesh */
+corot_status scenario_read_probes(scenario *s);
+corot_status scenario_check_probes(const scenario *s, const corot_mesh *mesh);
+
+/* quantities, after time */
+corot_status scenario_read_quantities(scenario *s);
+
+/* A name becomes the head of columns of a CSV file, or a key of result.json. */
+bool scenario_is_column_name(const char *name);
+
 /* An amplitude; its memory is the tree's. */
 corot_status scenario_read_amplitude(scenario *s, config_node *node, corot_amplitude *a);
 

@@ -140,27 +140,9 @@ static corot_status read_time(scenario *s) {
   return COROT_OK;
 }
 
-/* A name becomes the head of columns of a CSV file. */
-static bool is_column_name(const char *name) {
+bool scenario_is_column_name(const char *name) {
   static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   return name[strspn(name, letters)] == '\0';
-}
-
-static corot_status read_probes(scenario *s) {
-  config_node *map = config_find(s->source->root, "probes");
-  probe_def *probe = config_alloc(s->source, (size_t)map->nchild, sizeof *probe);
-  if (!probe) return no_memory();
-  s->probe = probe;
-  for (config_node *c = map->child; c; c = c->next) {
-    if (!is_column_name(c->key))
-      return config_fail_key(c, "the name of a probe is made of letters, digits, _ and -");
-    probe_def *p = &probe[s->nprobe++];
-    const config_node *node = config_find(c, "node");
-    p->name = c->key;
-    p->node = node ? (int)node->number : -1;
-    if (!node) vector_at(c, "point", p->point);
-  }
-  return COROT_OK;
 }
 
 /* The measure of the run itself is compared in any case, but for green, the reference. */
@@ -227,7 +209,8 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_statics(s));
   COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));
-  COROT_TRY(read_probes(s));
+  COROT_TRY(scenario_read_probes(s));
+  COROT_TRY(scenario_read_quantities(s));
   read_output(s);
   s->resolved = schema_resolve(s->source);
   return s->resolved ? COROT_OK : no_memory();

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/text/json_text.h"
 #include "scenario_keys.h"
 
 static json_t *resolve_map(const config_node *map, const char *path);
@@ -56,6 +57,13 @@ static json_t *named(const config_node *map, const char *path) {
   return object;
 }
 
+static json_t *named_texts(const config_node *map) {
+  json_t *object = json_object();
+  for (const config_node *c = map->child; c; c = c->next)
+    object = json_text_with(object, c->key, json_string(c->text));
+  return object;
+}
+
 /* A word, however it was written. */
 static json_t *states(const config_node *node, const char *path) {
   const config_node *only = node->nchild == 1 ? node->child : NULL;
@@ -76,6 +84,8 @@ static json_t *resolve_value(const config_node *node, const schema_key *key) {
       return resolve_map(node, inside);
     case SCHEMA_NAMED:
       return named(node, inside);
+    case SCHEMA_NAMED_TEXTS:
+      return named_texts(node);
     case SCHEMA_LIST:
     case SCHEMA_MAPS:
       return node->kind == CONFIG_LIST ? maps(node, inside) : resolve_map(node, inside);

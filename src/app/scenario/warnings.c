@@ -12,7 +12,8 @@ const warning_kind warning_kinds[WARNING_CODES] = {
     [WARNING_LOCKING] = {"locking", "nearly incompressible, and each tet has its own dilatation"},
     [WARNING_PARTS] = {"parts", "the body is in several parts that share no node"},
     [WARNING_UNHELD] = {"unheld", "a part has no support while another has"},
-    [WARNING_PROBE] = {"probe", "the nearest node is far from the point of a probe"},
+    [WARNING_PROBE] = {"probe",
+                       "the point of a probe is outside the body, or its nearest node far off"},
     [WARNING_INTEGRATOR] = {"integrator", "cvode or ida, where a body is free or undamped"},
     [WARNING_RTOL] = {"rtol", "a tolerance is below what double precision can tell"},
     [WARNING_ATOL] = {"atol", "the absolute tolerance is no small part of the motion"},
@@ -26,6 +27,7 @@ const warning_kind warning_kinds[WARNING_CODES] = {
     [WARNING_UNSTABLE] = {"unstable", "a mode grows: the equilibrium is unstable"},
     [WARNING_SYMMETRIC] = {"symmetric", "modes leave out what of a pressure has no potential"},
     [WARNING_OUTPUT] = {"output", "output times are too far apart for the motion"},
+    [WARNING_QUANTITY] = {"quantity", "a quantity that was asked for has no value"},
 };
 
 corot_status warnings_add(warnings *w, warning_code code, const char *format, ...) {

@@ -32,6 +32,7 @@ typedef enum warning_code {
   WARNING_UNDAMPED,
   WARNING_UNSTABLE,
   WARNING_SYMMETRIC,
+  WARNING_QUANTITY,
   WARNING_CODES /* how many */
 } warning_code;
 

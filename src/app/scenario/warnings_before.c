@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "probe_location.h"
 #include "solve/statics/rigid.h"
 #include "warnings.h"
 #include "warnings_parts.h"
@@ -124,19 +125,32 @@ static double reach_of(const corot_mesh *mesh, int node) {
    the edge in a regular tet: what is further off lies outside the body, or among flat tets. */
 #define MOST_EDGES 0.65
 
+static corot_status find_far_node(const probe_def *p, const corot_mesh *mesh, warnings *w) {
+  int node = corot_mesh_nearest(mesh, p->point);
+  double off = distance(p->point, mesh->x[node]), edge = reach_of(mesh, node);
+  if (!(off > MOST_EDGES * edge)) return COROT_OK;
+  return warnings_add(w, WARNING_PROBE,
+                      "probe %.64s: the nearest node, %d, is %.3g m from its point, which is "
+                      "%.2g of the longest edge%s there: it records that node's motion; move the "
+                      "point, or name a node",
+                      p->name, node, off, off / edge, mesh->mid ? " between nodes" : "");
+}
+
+static corot_status find_outside(const probe_def *p, const corot_mesh *mesh, warnings *w) {
+  corot_location at;
+  COROT_TRY(probe_locate(p, mesh, &at));
+  if (!(at.distance > probe_rounding(mesh))) return COROT_OK;
+  return warnings_add(w, WARNING_PROBE,
+                      "probe %.64s: its point is %.3g m outside the body: it records the nearest "
+                      "point of the surface, (%.6g, %.6g, %.6g); move the point, or name a node",
+                      p->name, at.distance, at.x[0], at.x[1], at.x[2]);
+}
+
 static corot_status find_probes(const scenario *s, const corot_mesh *mesh, warnings *w) {
   for (int i = 0; i < s->nprobe; i++) {
     const probe_def *p = &s->probe[i];
-    if (p->node >= 0) continue;
-    int node = corot_mesh_nearest(mesh, p->point);
-    double off = distance(p->point, mesh->x[node]), edge = reach_of(mesh, node);
-    if (!(off > MOST_EDGES * edge)) continue;
-    COROT_TRY(
-        warnings_add(w, WARNING_PROBE,
-                     "probe %.64s: the nearest node, %d, is %.3g m from its point, which is "
-                     "%.2g of the longest edge%s there: it records that node's motion; move the "
-                     "point, or name a node",
-                     p->name, node, off, off / edge, mesh->mid ? " between nodes" : ""));
+    if (!probe_is_local(p) || p->node >= 0) continue;
+    COROT_TRY(p->nearest ? find_far_node(p, mesh, w) : find_outside(p, mesh, w));
   }
   return COROT_OK;
 }

@@ -82,6 +82,14 @@ corot_status corot_mesh_group_marked(corot_mesh *mesh, const char *name, const c
 
 void corot_group_clear(corot_group *group);
 
+/* slope[a] = dX / dl_a of the map by the ten shape functions, at the volume coordinates `at` and of
+   positions relative to corner 0. */
+void corot_curved_slopes(const double (*x)[3], const int v[4], const int mid[6], const double at[4],
+                         double slope[4][3]);
+
+/* Nodes, weights and position of a location of which the tet and `at` are set. */
+void corot_location_weigh(const corot_mesh *mesh, corot_location *here);
+
 /* The Jacobian determinant, at barycentric coordinates `at`, of the map by the ten shape functions
    from the tet with corners 0, e_x, e_y, e_z; and the volume, which is that of the image. */
 double corot_curved_determinant(const double (*x)[3], const int v[4], const int mid[6],

@@ -3,9 +3,8 @@
 
 const int corot_tet_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
-/* slope[a] = dX / dl_a, of positions relative to corner 0. */
-static void slopes(const double (*x)[3], const int v[4], const int mid[6], const double at[4],
-                   double slope[4][3]) {
+void corot_curved_slopes(const double (*x)[3], const int v[4], const int mid[6], const double at[4],
+                         double slope[4][3]) {
   const double *origin = x[v[0]];
   for (int a = 0; a < 4; a++)
     for (int i = 0; i < 3; i++) slope[a][i] = (4 * at[a] - 1) * (x[v[a]][i] - origin[i]);
@@ -22,7 +21,7 @@ static void slopes(const double (*x)[3], const int v[4], const int mid[6], const
 double corot_curved_determinant(const double (*x)[3], const int v[4], const int mid[6],
                                 const double at[4]) {
   double s[4][3], a[3], b[3], c[3];
-  slopes(x, v, mid, at, s);
+  corot_curved_slopes(x, v, mid, at, s);
   for (int i = 0; i < 3; i++) {
     a[i] = s[1][i] - s[0][i];
     b[i] = s[2][i] - s[0][i];

@@ -261,6 +261,12 @@ static void add_nodal_load(const corot_model *m, const load *l, double factor, c
     }
 }
 
+void corot_loads_nodal(const corot_model *m, const instant *now, const double (*u)[4],
+                       double (*f)[3]) {
+  for (int k = 0; k < m->nload; k++)
+    add_nodal_load(m, &m->load[k], factor_of(&m->load[k], now), u, f);
+}
+
 corot_status corot_load_force(const corot_model *m, double t, double factor,
                               const double (*displacement)[3], double (*f)[3]) {
   int nnode = m->mesh->nnode;
@@ -269,10 +275,7 @@ corot_status corot_load_force(const corot_model *m, double t, double factor,
   for (int n = 0; n < nnode; n++) memcpy(u[n], displacement[n], 3 * sizeof **u);
   memset(f, 0, nnode * sizeof *f);
   const instant now = {.side = NAN, .load_t = t, .load_factor = factor}; /* as in statics */
-  for (int k = 0; k < m->nload; k++) {
-    const load *l = &m->load[k];
-    add_nodal_load(m, l, factor_of(l, &now), (const double(*)[4])u, f);
-  }
+  corot_loads_nodal(m, &now, (const double(*)[4])u, f);
   free(u);
   return COROT_OK;
 }

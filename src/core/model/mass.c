@@ -36,14 +36,17 @@ static corot_status lump(const corot_model_def *def, corot_model *m) {
   double(*nodal)[3] = calloc(nnode, sizeof *nodal); /* mass, its damping, nothing */
   m->mass = malloc(m->ndof * sizeof *m->mass);
   m->inverse_mass = malloc(m->ndof * sizeof *m->inverse_mass);
+  m->node_mass = malloc(nnode * sizeof *m->node_mass);
   if (m->mass_damped) m->mass_damping = malloc(m->ndof * sizeof *m->mass_damping);
-  if (!nodal || !m->mass || !m->inverse_mass || (m->mass_damped && !m->mass_damping)) {
+  if (!nodal || !m->mass || !m->inverse_mass || !m->node_mass ||
+      (m->mass_damped && !m->mass_damping)) {
     free(nodal);
     return corot_fail(COROT_ENOMEM, "no memory for the mass of %d nodes", nnode);
   }
   corot_mass_lump(m, nodal);
   corot_status status = corot_model_restrict(def, nnode, nodal);
-  for (int n = 0; n < nnode; n++)
+  for (int n = 0; n < nnode; n++) {
+    memcpy(m->node_mass[n], nodal[n], sizeof m->node_mass[n]);
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
       if (i < 0) continue;
@@ -51,6 +54,7 @@ static corot_status lump(const corot_model_def *def, corot_model *m) {
       m->inverse_mass[i] = 1 / nodal[n][0];
       if (m->mass_damped) m->mass_damping[i] = nodal[n][1];
     }
+  }
   free(nodal);
   return status;
 }
@@ -174,6 +178,22 @@ static void add_product(const corot_model *m, double factor, const double *lumpe
 void corot_mass_multiply(const corot_model *m, const double *x, double *y) {
   for (int i = 0; i < m->ndof; i++) y[i] = 0;
   add_product(m, 1, m->mass, m->mass_pair, x, y);
+}
+
+void corot_mass_nodal(const corot_model *m, bool damping, const double (*x)[4], double (*y)[3]) {
+  const pattern *p = &solid_of(m)->pattern;
+  const double *pair = damping ? m->damping_pair : m->mass_pair;
+  if (damping && !m->mass_damped) return;
+  for (int b = 0; b < m->mesh->nnode; b++) {
+    for (int c = 0; !pair && c < 3; c++) y[b][c] += m->node_mass[b][damping] * x[b][c];
+    for (int k = p->colptr[b]; pair && k < p->colptr[b + 1]; k++) {
+      int a = p->row[k];
+      for (int c = 0; c < 3; c++) {
+        y[a][c] += pair[k] * x[b][c];
+        if (a != b) y[b][c] += pair[k] * x[a][c];
+      }
+    }
+  }
 }
 
 void corot_mass_damp(const corot_model *m, const double *v, double *f) {

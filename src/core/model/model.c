@@ -14,6 +14,7 @@ void corot_model_destroy(corot_model *m) {
   free(m->mass);
   free(m->inverse_mass);
   free(m->mass_damping);
+  free(m->node_mass);
   free(m->mass_pair);
   free(m->damping_pair);
   corot_system_clear(&m->system);
@@ -97,6 +98,7 @@ size_t corot_model_bytes(const corot_model *m) {
   bytes += m->nkink * sizeof *m->kink;
 
   /* and what is there of the mass beside its diagonal */
+  bytes += m->mesh->nnode * sizeof *m->node_mass;
   if (m->mass_damping) bytes += m->ndof * sizeof *m->mass_damping;
   if (m->mass_pair) bytes += nblock * sizeof *m->mass_pair;
   if (m->damping_pair) bytes += nblock * sizeof *m->damping_pair;

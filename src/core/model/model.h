@@ -69,14 +69,15 @@ struct corot_model {
   solid_system system; /* what deforms; its first term is the solid on the mesh */
 
   int ndof;
-  int (*dof)[3];        /* [nnode] or -1 */
-  int body_nnode;       /* energies and momenta are those of the first nodes: of all, or of */
-  int body_ndof;        /* a level 0 that has its own; and of the first degrees of freedom */
-  double *mass;         /* [ndof] lumped, whichever is in use [kg] */
-  double *inverse_mass; /* [ndof] */
-  double *mass_damping; /* [ndof] force per velocity [kg/s]; NULL unless mass_damped */
-  double *mass_pair;    /* [pattern.nblock] a consistent mass between two nodes, the same in each
-                           component [kg]; NULL: lumped */
+  int (*dof)[3];          /* [nnode] or -1 */
+  int body_nnode;         /* energies and momenta are those of the first nodes: of all, or of */
+  int body_ndof;          /* a level 0 that has its own; and of the first degrees of freedom */
+  double *mass;           /* [ndof] lumped, whichever is in use [kg] */
+  double *inverse_mass;   /* [ndof] */
+  double *mass_damping;   /* [ndof] force per velocity [kg/s]; NULL unless mass_damped */
+  double (*node_mass)[2]; /* [nnode] lumped mass and mass damping of all nodes, held ones too */
+  double *mass_pair;      /* [pattern.nblock] a consistent mass between two nodes, the same in each
+                             component [kg]; NULL: lumped */
   double *damping_pair; /* [pattern.nblock] of the mass damping the same [kg/s], NULL as well unless
                            mass_damped */
   double length, frequency, damping_time;
@@ -108,6 +109,10 @@ void corot_model_displacement(const corot_model *m, const instant *now, const do
 void corot_model_velocity(const corot_model *m, const instant *now, const double *v, double *nodal,
                           int stride);
 
+/* The same of the acceleration, of which `a` are the free values. */
+void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
+                              double *nodal, int stride);
+
 /* The free values alone: zero on every held component. */
 void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride);
 
@@ -122,6 +127,10 @@ void corot_mass_lump(const corot_model *m, double (*nodal)[3]);
    uniform acceleration takes [kg]. Of linear tets they are the lumped mass. The rest is scratch. */
 corot_status corot_mass_sum_rows(const corot_model *m, double (*nodal)[3]);
 
+/* y [nnode] += M x for the mass in use, of all nodes, held ones too; with `damping` += C x for that
+   of the mass damping, if there is any. */
+void corot_mass_nodal(const corot_model *m, bool damping, const double (*x)[4], double (*y)[3]);
+
 /* f -= C v for the matrix C of the mass damping; nothing if there is none. */
 void corot_mass_damp(const corot_model *m, const double *v, double *f);
 
@@ -134,6 +143,10 @@ void corot_loads_destroy(corot_model *m);
 
 /* f [ndof] = the external force, on the body displaced by u [nnode], with the drag of motions. */
 void corot_loads_force(const corot_model *m, const instant *now, const double (*u)[4], double *f);
+
+/* f [nnode] += the loads on all nodes, held components too, of the body displaced by u. */
+void corot_loads_nodal(const corot_model *m, const instant *now, const double (*u)[4],
+                       double (*f)[3]);
 
 /* Whether that depends on u. */
 bool corot_loads_follow(const corot_model *m);

@@ -298,6 +298,21 @@ void corot_model_velocity(const corot_model *m, const instant *now, const double
   }
 }
 
+void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
+                              double *nodal, int stride) {
+  corot_model_spread(m, a, nodal, stride);
+  for (int k = 0; k < m->nmotion; k++) {
+    const motion *of = &m->motion[k];
+    double velocity[3][2], by[3][2], field[2];
+    corot_motion_factors(of, now, velocity, by);
+    for (int i = 0; i < of->nnode; i++)
+      for (int c = 0; c < 3; c++) {
+        corot_motion_fields(of, m->mesh->x[of->node[i]], c, field);
+        nodal[of->node[i] * stride + c] = by[c][0] * field[0] + by[c][1] * field[1];
+      }
+  }
+}
+
 bool corot_motion_jolts(const motion *a) {
   bool any = a->nspan > 0;
   for (int k = 0; k < a->nlaw; k++) any |= corot_amplitude_nkink(&a->law[k].amplitude) > 0;

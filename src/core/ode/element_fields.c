@@ -1,5 +1,6 @@
 /* What a run shows of a state: nodal vectors, and tensors of the tets. */
 #include "core/solid/kernel.h"
+#include "shown.h"
 #include "state.h"
 
 void corot_nodal(const corot_model *m, double t, const double *u, const double *v,
@@ -8,23 +9,6 @@ void corot_nodal(const corot_model *m, double t, const double *u, const double *
   if (displacement) corot_model_displacement(m, &now, u, displacement[0], 3);
   if (velocity) corot_model_velocity(m, &now, v, velocity[0], 3);
 }
-
-/* sqrt(3/2 dev:dev) of sym(A). */
-COROT_INLINE vd von_mises_of(mat3 A) {
-  vd mean = mat3_trace(A) / 3, square = vd_all(0);
-  EACH_IJ {
-    vd a = 0.5 * (A.m[i][j] + A.m[j][i]) - (i == j ? mean : vd_all(0));
-    square += a * a;
-  }
-  for (int l = 0; l < W; l++) square[l] = sqrt(1.5 * square[l]);
-  return square;
-}
-
-/* What is shown of a point, and of the elements after it. */
-typedef struct shown {
-  mat3 R, e;
-  vd mises, det;
-} shown;
 
 /* Means over the points, weighted by their volumes; the frame is the rotation nearest to that of
    the frames. */
@@ -36,22 +20,26 @@ COROT_INLINE shown mean_of(const element_kind *kind, const shown *point, const v
     vd part = weight[q] / volume, rest = 1 - part;
     all.R = mat3_sum(rest, all.R, part, point[q].R);
     all.e = mat3_sum(rest, all.e, part, point[q].e);
+    all.stress = mat3_sum(rest, all.stress, part, point[q].stress);
     all.mises = rest * all.mises + part * point[q].mises;
     all.det = rest * all.det + part * point[q].det;
+    all.energy = rest * all.energy + part * point[q].energy;
   }
   vi bad;
   if (kind->npoint > 1) all.R = polar(all.R, &bad);
   return all;
 }
 
-static const int ij[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
-
-COROT_INLINE void store_mean(const corot_element_fields *f, int tet, int l, const shown *s) {
+COROT_INLINE void store_mean(const corot_element_fields *f, int tet, int l, const shown *s,
+                             const eigen3 *principal, double volume) {
   if (f->frame) mat3_store(s->R, l, f->frame[tet]);
-  if (f->strain)
-    for (int k = 0; k < 6; k++) f->strain[tet][k] = s->e.m[ij[k][0]][ij[k][1]][l];
+  if (f->strain) store_symmetric(s->e, l, f->strain[tet]);
+  if (f->stress) store_symmetric(s->stress, l, f->stress[tet]);
+  if (f->principal) store_eigenvalues(principal, l, f->principal[tet]);
   if (f->von_mises) f->von_mises[tet] = s->mises[l];
   if (f->det) f->det[tet] = s->det[l];
+  if (f->energy) f->energy[tet] = volume * s->energy[l];
+  if (f->volume) f->volume[tet] = volume;
 }
 
 /* The point next to a corner of the mesh: points are numbered as the corners in ascending order. */
@@ -62,10 +50,11 @@ COROT_INLINE int point_next_to(const element_kind *kind, const int tet[4], int c
 }
 
 COROT_INLINE void store_point(const corot_element_fields *f, int tet, int corner, int l,
-                              const shown *s) {
+                              const shown *s, const eigen3 *principal) {
   if (f->frame_at) mat3_store(s->R, l, f->frame_at[tet][corner]);
-  if (f->strain_at)
-    for (int k = 0; k < 6; k++) f->strain_at[tet][corner][k] = s->e.m[ij[k][0]][ij[k][1]][l];
+  if (f->strain_at) store_symmetric(s->e, l, f->strain_at[tet][corner]);
+  if (f->stress_at) store_symmetric(s->stress, l, f->stress_at[tet][corner]);
+  if (f->principal_at) store_eigenvalues(principal, l, f->principal_at[tet][corner]);
   if (f->von_mises_at) f->von_mises_at[tet][corner] = s->mises[l];
   if (f->det_at) f->det_at[tet][corner] = s->det[l];
 }
@@ -76,15 +65,8 @@ COROT_INLINE shown show_point(const solid *body, const solid_state *s, point_lan
   const material *mat = &body->material[material_of(at)];
   mat3 F = deformation(at, of_u);
   mat3 R = frame_in_use(measure, &s->frames, at, F, inverted);
-  vd lambda = vd_all(mat->lambda), mu = vd_all(mat->mu);
-  mat3 P = body->dilatation.npool
-               ? stress_at_pressure(measure, lambda * s->dilatation[index_of(at)], mu, F, R)
-               : stress(measure, lambda, mu, F, R);
-  /* from P to the stress on the deformed body */
-  vd det = mat3_det(F, mat3_cofactor(F));
-  mat3 cauchy =
-      strain_is_linear(measure) ? P : mat3_scale(1.0 / det, mat3_mul(P, mat3_transpose(F)));
-  return (shown){R, strain_of(measure->shear, F, R), von_mises_of(cauchy), det};
+  const vd *average = body->dilatation.npool ? &s->dilatation[index_of(at)] : NULL;
+  return show(measure, vd_all(mat->lambda), vd_all(mat->mu), average, F, R);
 }
 
 /* Unlike the loops in kernel.h it goes on after an inversion: the other tets are still worth
@@ -97,17 +79,22 @@ COROT_INLINE int elements_loop(const element_kind *kind, const solid *body, cons
     vi inverted = {0};
     shown point[KIND_POINTS];
     vd weight[KIND_POINTS];
+    eigen3 principal[KIND_POINTS], of_mean = {0};
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
       point[q] = show_point(body, s, at, &of_u, &inverted);
       weight[q] = weight_of(at);
+      if (fields->principal_at) principal[q] = eigen_of(point[q].stress);
     }
     shown mean = mean_of(kind, point, weight);
+    if (fields->principal) of_mean = eigen_of(mean.stress);
     for (int l = 0; l < body->elements.block[b].n; l++) {
       int tet = body->elements.number[b * W + l];
-      store_mean(fields, tet, l, &mean);
-      for (int k = 0; k < 4; k++)
-        store_point(fields, tet, k, l, &point[point_next_to(kind, body->mesh->tet[tet], k)]);
+      store_mean(fields, tet, l, &mean, &of_mean, volume_at(&body->elements, b, l));
+      for (int k = 0; k < 4; k++) {
+        int q = point_next_to(kind, body->mesh->tet[tet], k);
+        store_point(fields, tet, k, l, &point[q], &principal[q]);
+      }
     }
     if (first < 0) first = first_inverted(body, b, inverted);
   }

@@ -34,7 +34,9 @@ void study_error_label(const char *name, size_t size, char *label) {
   bool end = length > 4 && strcmp(name + length - 4, "_end") == 0;
   int base = (int)(end ? length - 4 : length);
   const char *when = end ? "at the end" : "largest over time";
-  if (strncmp(name, "probe.", 6) == 0)
+  if (strpbrk(name, "(@"))
+    snprintf(label, size, "relative error of %s", name);
+  else if (strncmp(name, "probe.", 6) == 0)
     snprintf(label, size, "error of probe %.*s, %s [m]", base - 6, name + 6, when);
   else if (strncmp(name, "mixed", 5) == 0)
     snprintf(label, size, "mixed error, %s", when);

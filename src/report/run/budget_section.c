@@ -185,6 +185,37 @@ static void write_probes(const json_t *budget, FILE *out) {
   }
 }
 
+/* What each part does to one of the run's quantities. */
+static void write_quantity(const char *name, const json_t *quantity, FILE *out) {
+  const json_t *parts = lookup(quantity, "parts");
+  page_element(out, "p", "%s, %s: %.6g as given, %.6g without all parts.", name,
+               lookup_text(quantity, "of"), lookup_number(quantity, "value"),
+               lookup_number(quantity, "reference"));
+  fputs(
+      "<div class=\"scroll\"><table>\n<thead><tr><th>part</th><th class=\"number\">change</th>"
+      "<th class=\"number\">relative</th><th>what is known</th></tr></thead>\n<tbody>\n",
+      out);
+  for (size_t i = 0; i < json_array_size(parts); i++) {
+    const json_t *part = json_array_get(parts, i);
+    fputs("<tr><th scope=\"row\">", out);
+    markup_text(out, lookup_text(part, "part"));
+    fputs("</th>", out);
+    page_number(out, lookup_number(part, "change"), 3);
+    page_number(out, lookup_number(part, "error"), 2);
+    fputs("<td>", out);
+    markup_text(out, lookup_text(part, "verdict"));
+    fputs("</td></tr>\n", out);
+  }
+  fputs("</tbody></table></div>\n", out);
+}
+
+static void write_quantities(const json_t *budget, FILE *out) {
+  json_t *all = (json_t *)lookup(budget, "quantities");
+  const char *name;
+  json_t *quantity;
+  json_object_foreach(all, name, quantity) write_quantity(name, quantity, out);
+}
+
 /* --- The section, and a page of it alone --- */
 
 void budget_write(const json_t *budget, FILE *out) {
@@ -196,6 +227,7 @@ void budget_write(const json_t *budget, FILE *out) {
   page_warning(lookup_text(budget, "mixed"), out);
   write_table(budget, out);
   write_probes(budget, out);
+  write_quantities(budget, out);
   page_section_end(out);
 }
 

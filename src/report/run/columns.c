@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "report/read/lookup.h"
+
 void columns_free(columns *c) {
   free(c->t);
   for (int k = 0; k < c->n; k++) free(c->y[k]);
@@ -36,6 +38,16 @@ void columns_drop_if_zero(columns *c) {
   if (c->n == 0 || !all_zero(c, c->n - 1)) return;
   c->n--;
   free(c->y[c->n]);
+}
+
+const char *columns_unit(const run_folder *run, const char *name) {
+  const char *dot = strrchr(name, '.');
+  char probe[160];
+  if (!dot || dot - name >= (long)sizeof probe) return "";
+  snprintf(probe, sizeof probe, "%.*s", (int)(dot - name), name);
+  const json_t *of = json_object_get(lookup(run->result, "probes"), probe);
+  const char *unit = json_string_value(json_object_get(json_object_get(of, "unit"), dot + 1));
+  return unit ? unit : "";
 }
 
 int columns_find_triple(const csv *table, const char *ending, int from) {

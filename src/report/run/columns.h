@@ -23,6 +23,9 @@ corot_status columns_add(columns *c, int column, const char *name, figure_style 
 /* Takes back the column added last where there is nothing to see in it. */
 void columns_drop_if_zero(columns *c);
 
+/* The unit of a column "PROBE.COMPONENT" as result.json tells it; "": it does not. */
+const char *columns_unit(const run_folder *run, const char *name);
+
 /* The first column from `from` on whose name ends in `ending`, as ".ux", and which has two more
    behind it; -1: there is none. */
 int columns_find_triple(const csv *table, const char *ending, int from);

@@ -14,4 +14,7 @@ void findings_warnings(const run_folder *run, FILE *out);
 /* A table of result.json's `extremes`, if it has any. */
 void findings_extremes(const run_folder *run, FILE *out);
 
+/* The same of `quantities`: what was asked for. */
+void findings_quantities(const run_folder *run, FILE *out);
+
 #endif

@@ -24,6 +24,55 @@ static corot_status probe(const run_folder *run, const csv *table, int column, i
   return status;
 }
 
+/* --- Probes of other quantities --- */
+
+static size_t probe_length(const char *name) {
+  const char *dot = strrchr(name, '.');
+  return dot ? (size_t)(dot - name) : 0;
+}
+
+/* Whether a column goes on with what is shown of the one before: the same probe and unit. */
+static bool goes_on(const run_folder *run, const csv *table, int i) {
+  const char *a = table->name[i - 1], *b = table->name[i];
+  size_t n = probe_length(a);
+  return n == probe_length(b) && memcmp(a, b, n) == 0 &&
+         strcmp(columns_unit(run, a), columns_unit(run, b)) == 0;
+}
+
+/* Columns `first` to first + n - 1 of one probe. */
+static corot_status other_probe(const run_folder *run, const csv *table, int first, int n,
+                                int number, FILE *out) {
+  char name[128], id[32], label[64];
+  const char *title = table->name[first], *unit = columns_unit(run, title);
+  snprintf(name, sizeof name, "%.*s", (int)probe_length(title), title);
+  snprintf(id, sizeof id, "quantity-%d", number);
+  snprintf(label, sizeof label, "%s%s%s", *unit ? "[" : "", unit, *unit ? "]" : "");
+  columns c;
+  corot_status status = columns_begin(run, table, &c);
+  for (int k = 0; k < n && status == COROT_OK; k++)
+    status =
+        columns_add(&c, first + k, table->name[first + k] + probe_length(title) + 1, FIGURE_LINE);
+  const figure f = {.id = id, .title = name, .y_label = label, .time = true};
+  status = columns_write(run, f, &c, status, out);
+  columns_free(&c);
+  return status;
+}
+
+corot_status run_figures_quantities(const run_folder *run, FILE *out) {
+  const csv *all = &run->probes;
+  int number = 0;
+  for (int i = 1, n; i < all->ncolumn; i += n) {
+    for (n = 1; i + n < all->ncolumn && goes_on(run, all, i + n);) n++;
+    const char *name = all->name[i];
+    if (!probe_length(name) || strcmp(name + probe_length(name), ".ux") == 0) continue;
+    const csv *table = run_folder_finest(run, all, name);
+    int first = csv_find(table, name);
+    if (first >= 0 && first + n <= table->ncolumn)
+      COROT_TRY(other_probe(run, table, first, n, number++, out));
+  }
+  return COROT_OK;
+}
+
 corot_status run_figures_probes(const run_folder *run, FILE *out) {
   int number = 0;
   for (int i = 0; (i = columns_find_triple(&run->probes, ".ux", i)) >= 0; i += 3) {
@@ -31,7 +80,7 @@ corot_status run_figures_probes(const run_folder *run, FILE *out) {
     int column = csv_find(table, run->probes.name[i]);
     if (column + 2 < table->ncolumn) COROT_TRY(probe(run, table, column, number++, out));
   }
-  return COROT_OK;
+  return run_figures_quantities(run, out);
 }
 
 /* One column of steps.csv as a figure of its own. */

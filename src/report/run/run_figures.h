@@ -8,6 +8,9 @@
 
 /* Each writes what there is; nothing where there is nothing. */
 corot_status run_figures_probes(const run_folder *run, FILE *out);
+
+/* Those of them that are no displacements, over time or load factor. */
+corot_status run_figures_quantities(const run_folder *run, FILE *out);
 corot_status run_figures_steps(const run_folder *run, FILE *out);
 corot_status run_figures_energy(const run_folder *run, FILE *out);
 corot_status run_figures_compare(const run_folder *run, FILE *out);

@@ -164,6 +164,19 @@ static void write_energy(const run_folder *run, FILE *out) {
   end_card(out);
 }
 
+/* The values of a probe that is no displacement, a line each. */
+static void write_values(const char *name, json_t *probe, FILE *out) {
+  json_t *values = json_object_get(probe, "value"), *value;
+  const json_t *units = json_object_get(probe, "unit");
+  const char *component;
+  json_object_foreach(values, component, value) {
+    const char *unit = json_string_value(json_object_get(units, component));
+    char title[160];
+    snprintf(title, sizeof title, "%.100s.%.40s", name, component);
+    page_fact(out, title, "%.5g %s", json_number_value(value), unit ? unit : "");
+  }
+}
+
 static void write_probes(const json_t *r, FILE *out) {
   json_t *probes = (json_t *)lookup(r, "probes"); /* jansson's iteration wants it so */
   if (json_object_size(probes) == 0) return;
@@ -172,6 +185,10 @@ static void write_probes(const json_t *r, FILE *out) {
   json_t *probe;
   json_object_foreach(probes, name, probe) {
     double u[3];
+    if (json_object_get(probe, "of")) {
+      write_values(name, probe, out);
+      continue;
+    }
     for (size_t i = 0; i < 3; i++)
       u[i] = json_number_value(json_array_get(json_object_get(probe, "u"), i));
     page_fact(out, name, "%.5g, %.5g, %.5g m", u[0], u[1], u[2]);
@@ -248,6 +265,7 @@ void run_summary_write(const run_folder *run, FILE *out) {
   write_reactions(r, out);
   write_cost(r, out);
   fputs("</div>\n", out);
+  findings_quantities(run, out);
   findings_extremes(run, out);
   page_section_end(out);
 }

@@ -8,6 +8,7 @@
 
 #include "columns.h"
 #include "report/read/lookup.h"
+#include "run_figures.h"
 
 /* Three columns of one name, at most, over the load factor; what is zero throughout is left out
    unless all are. */
@@ -46,7 +47,7 @@ corot_status static_figures_probes(const run_folder *run, FILE *out) {
   int number = 0;
   for (int i = 0; (i = columns_find_triple(table, ".ux", i)) >= 0; i += 3)
     COROT_TRY(probe(run, table, i, number++, out));
-  return COROT_OK;
+  return run_figures_quantities(run, out);
 }
 
 static corot_status reaction(const run_folder *run, int column, int number, FILE *out) {

@@ -43,8 +43,11 @@ static void write_references(const study_table *t, FILE *out) {
   const json_t *space = lookup(t->root, "space");
   for (size_t i = 0; i < json_array_size(space); i++) {
     const json_t *s = json_array_get(space, i);
-    page_element(out, "p", "Error of the mesh at mesh.refine %.0f, relative: %s.",
-                 lookup_number(s, "refine"), lookup_text(s, "verdict"));
+    const char *measure = lookup_text(s, "measure");
+    bool quantity = strpbrk(measure, "(@") != NULL;
+    page_element(out, "p", "Error of the mesh at mesh.refine %.0f, relative%s%s: %s.",
+                 lookup_number(s, "refine"), quantity ? ", of " : "", quantity ? measure : "",
+                 lookup_text(s, "verdict"));
   }
   if (t->nerror > 0 && isfinite(t->floor[t->measure]))
     page_element(out, "p",

@@ -9,6 +9,7 @@
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
 #include "budget_claims.h"
+#include "budget_quantities.h"
 #include "budget_text.h"
 #include "report/read/lookup.h"
 #include "study/measure/states_sum.h"
@@ -41,17 +42,20 @@ static double change(const trajectory *first, const trajectory *second, int i) {
 static json_t *signed_change(const budgeting *b, const trajectory *before, const trajectory *after,
                              int probe) {
   const yardstick *y = b->yardstick;
-  const int *dof = corot_model_dof(y->model)[y->probe[probe]];
+  const double *first = states_u(before, before->count - 1);
+  const double *second = states_u(after, after->count - 1);
   json_t *list = json_array();
   for (int c = 0; c < 3; c++)
-    json_array_append_new(list, json_text_real(dof[c] >= 0 ? change(before, after, dof[c]) : 0));
+    json_array_append_new(list, json_text_real(yardstick_probe(y, probe, c, second) -
+                                               yardstick_probe(y, probe, c, first)));
   return list;
 }
 
 static json_t *probes_json(const budgeting *b, const claim *c, const errors *bare,
                            const trajectory *after) {
   json_t *all = json_object();
-  for (int i = 0; i < b->scenario->nprobe && c->error.n > 0; i++) {
+  const yardstick *y = b->yardstick;
+  for (int i = 0; i < y->nprobe && c->error.n > 0; i++) {
     error_pair of = c->error.of[ERROR_PROBES + i];
     json_t *probe =
         json_pack("{s:o, s:o}", "max", json_text_real(of.max), "end", json_text_real(of.end));
@@ -61,7 +65,7 @@ static json_t *probes_json(const budgeting *b, const claim *c, const errors *bar
       set_real(probe, "", "difference_end", bare->of[ERROR_PROBES + i].end);
     }
     if (after) json_object_set_new(probe, "signed", signed_change(b, c->before, after, i));
-    all = json_text_with(all, b->scenario->probe[i].name, probe);
+    all = json_text_with(all, y->probe_def[i]->name, probe);
   }
   return all;
 }
@@ -312,14 +316,21 @@ static corot_status rate(budgeting *b, json_t **out) {
     if (status == COROT_OK && json_array_append_new(parts, part)) status = no_memory();
   }
   builds_sort(&b->builds);
+  json_t *quantities = NULL;
+  if (status == COROT_OK) status = budget_quantities(b, &quantities);
   if (status == COROT_OK) status = totals(b, &all, parts, out);
+  if (status == COROT_OK && json_object_set(*out, "quantities", quantities)) status = no_memory();
+  json_decref(quantities);
   json_decref(parts);
   budget_claims_free(&all);
   return status;
 }
 
 static void release(budgeting *b) {
-  for (int i = 0; i < b->nrun; i++) states_free(&b->run[i].states);
+  for (int i = 0; i < b->nrun; i++) {
+    states_free(&b->run[i].states);
+    free(b->run[i].quantity);
+  }
   builds_free(&b->builds);
   yardstick_destroy(b->yardstick);
   manifest_destroy(b->manifest);

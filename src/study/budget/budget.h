@@ -46,6 +46,7 @@
       lead to; "sum": of the parts; "interaction": total less sum;
       "check": how far two independent methods of integration differ, of time's part;
       "check_rtol": at that tolerance; "complete": no part is missing; "missing": their names;
+      "quantities": the scenario's, see budget_quantities.h;
       "first": what to change first, in words, and "verdict": the same;
       "runs": [{"run", "id", "status", "cpu", "spare": a try whose failure is no matter}],
       "builds", "mixed": as in a study's table (collect.h)}

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "app/text/json_text.h"
+#include "budget_quantities.h"
 #include "study/execute/store.h"
 #include "study/execute/variants.h"
 #include "study/measure/states_sum.h"
@@ -108,6 +109,8 @@ static corot_status load_run(budgeting *b, const char *dir, budget_run *run) {
     run->tets = tets_of(record.result);
     char *folder = store_path(dir, entry, "");
     status = folder ? states_read(folder, &run->states) : COROT_ENOMEM;
+    if (status == COROT_OK)
+      status = budget_quantities_read(b->scenario, record.result, &run->quantity);
     free(folder);
     if (status == COROT_OK && b->options->still) states_keep_last(&run->states);
   }

@@ -26,6 +26,7 @@ typedef struct budget_run {
   double cpu;                /* [s]; NaN: failed */
   double work;               /* steps, of an equilibrium Newton iterations, times tets; NaN */
   double tets;
+  double *quantity; /* [scenario's nquantity]; NULL: failed */
   const char *status;
 } budget_run;
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "budget_quantities.h"
 #include "report/read/lookup.h"
 #include "study/measure/claim.h"
 
@@ -201,6 +202,7 @@ void budget_print(const json_t *budget, FILE *out) {
     fprintf(out, "  %s\n", lookup_text(part, "verdict"));
   }
   print_probes(budget, out);
+  budget_quantities_print(budget, out);
   const char *first = json_string_value(json_object_get(budget, "first"));
   if (first) fprintf(out, "\n%s\n", first);
   const char *mixed = json_string_value(json_object_get(budget, "mixed"));

@@ -1,5 +1,6 @@
 /* `corot budget`: options, runs, text and page. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/command/cli.h"
@@ -42,6 +43,9 @@ static const char help[] =
     "folder,\n"
     "                       with --static out/MODEL-static-budget\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
+    "      --quantity Q     what each part does to a number of the run, too, such as "
+    "max(corner.ux);\n"
+    "                       any number of times, beside the scenario's own quantities\n"
     "      --skip PART      leaves a part out, by its name in the table: space, of a large mesh\n"
     "      --levels N       of the mesh: 2, the next one alone, which nothing checks, so the part\n"
     "                       is at least so large; 3, in any case; default: 3 where it takes "
@@ -58,6 +62,8 @@ static const char help[] =
 typedef struct arguments {
   budget_options options;
   variants_command command;
+  int nquantity;
+  quantity_option *quantity; /* [nquantity] with room for all arguments */
 } arguments;
 
 /* A run that failed leaves something open, but for one that was a mere try. */
@@ -72,11 +78,12 @@ static int complete(const json_t *budget) {
   return code;
 }
 
-enum { SKIP = 'K', LEVELS = 'L', STATIC = 'S' };
+enum { SKIP = 'K', LEVELS = 'L', STATIC = 'S', QUANTITY = 'Q' };
 
 static const struct option own[] = {{"skip", required_argument, NULL, SKIP},
                                     {"levels", required_argument, NULL, LEVELS},
                                     {"static", no_argument, NULL, STATIC},
+                                    {"quantity", required_argument, NULL, QUANTITY},
                                     {0}};
 
 static int take(void *context, int option, const char *value) {
@@ -86,6 +93,8 @@ static int take(void *context, int option, const char *value) {
     a->command.suffix = "-static-budget";
     return -1;
   }
+  if (option == QUANTITY)
+    return variants_take_quantity("corot budget", value, &a->quantity[a->nquantity++]);
   if (option == LEVELS) {
     if (parse_count(value, 3, &a->options.levels) && a->options.levels >= 2) return -1;
     return usage_error("corot budget", "--levels %s: expected 2 or 3", value);
@@ -101,6 +110,13 @@ static int take(void *context, int option, const char *value) {
 static corot_status write_budget(const void *budget, FILE *out) {
   budget_print(budget, out);
   return COROT_OK;
+}
+
+static int ask(void *context, variants_arguments *a) {
+  const arguments *own_arguments = context;
+  for (int i = 0; i < own_arguments->nquantity; i++)
+    a->set[a->nset++] = own_arguments->quantity[i].setting;
+  return -1;
 }
 
 static int make_budget(void *context, const scenario *s, const variants_arguments *a) {
@@ -127,7 +143,12 @@ int command_budget(int argc, char **argv) {
                              .suffix = "-budget",
                              .more = own,
                              .take = take,
+                             .ready = ask,
                              .go = make_budget}};
   a.command.context = &a;
-  return variants_command_run(&a.command, argc, argv);
+  a.quantity = calloc((size_t)argc, sizeof *a.quantity);
+  if (!a.quantity) return failure(corot_fail(COROT_ENOMEM, "out of memory"));
+  int code = variants_command_run(&a.command, argc, argv);
+  free(a.quantity);
+  return code;
 }

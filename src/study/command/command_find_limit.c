@@ -26,12 +26,19 @@ static const char help[] =
     "first unstable one. A run is unstable if the integrator gives up, or if its kinetic and\n"
     "elastic energy ever exceed those of the run at A, at their largest, by the factor of "
     "--energy.\n"
+    "With --quantity the question is where that number leaves its bound, in place of the energy's: "
+    "a\n"
+    "run is stable while it is below (or above) the bound.\n"
     "\n"
     "      --key KEY        the number that is varied, as frames.interval or integrator.step\n"
     "      --from A, --to B its range, 0 < A < B; the run at A must be stable\n"
     "      --scan N         values tried first, A and B included, 2 to 64; default 9\n"
     "      --precision P    the limit is known to this fraction; default 0.02\n"
     "      --energy F       how much more energy is too much, > 1; default 2\n"
+    "      --quantity Q     a number of the run, such as max(corner.ux) or corner.ux@end; see\n"
+    "                       corot schema quantities\n"
+    "      --below X        stable while Q < X;\n"
+    "      --above X        or while Q > X\n"
     "  -o, --output DIR     a folder for each run, and limit.json; default: out/MODEL-limit\n"
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
     "  -j, --jobs N         so many runs at once; default: the number of processors\n"
@@ -46,22 +53,28 @@ static const char help[] =
     "           --from 0.01 --to 2\n";
 
 static const struct option own[] = {
-    {"key", required_argument, NULL, 'K'},
-    {"from", required_argument, NULL, 'A'},
-    {"to", required_argument, NULL, 'B'},
-    {"scan", required_argument, NULL, 'N'},
-    {"precision", required_argument, NULL, 'P'},
-    {"energy", required_argument, NULL, 'F'},
-    {0},
+    {"key", required_argument, NULL, 'K'},       {"from", required_argument, NULL, 'A'},
+    {"to", required_argument, NULL, 'B'},        {"scan", required_argument, NULL, 'N'},
+    {"precision", required_argument, NULL, 'P'}, {"energy", required_argument, NULL, 'F'},
+    {"quantity", required_argument, NULL, 'Q'},  {"below", required_argument, NULL, 'L'},
+    {"above", required_argument, NULL, 'U'},     {0},
 };
 
 enum { SETTING_SIZE = 160 };
+
+/* The number that is asked for in place of the energy. */
+typedef struct bound {
+  bool asked;
+  quantity_option of;
+  double below, above; /* NaN: not given */
+} bound;
 
 typedef struct search {
   const char *key;
   char first[SETTING_SIZE]; /* it, and the smallest value */
   limit_def def;
   double factor; /* of energy */
+  bound bound;
   const scenario *scenario;
   const variants_arguments *arguments;
   double energy; /* at `from`, at its largest [J]; NaN: not yet known */
@@ -87,6 +100,10 @@ static int take(void *context, int option, const char *value) {
     return usage_error("corot find-limit", "--key %s: expected a key such as frames.interval",
                        value);
   }
+  if (option == 'Q') {
+    s->bound.asked = true;
+    return variants_take_quantity("corot find-limit", value, &s->bound.of);
+  }
   if (!parse_number(value, &number))
     return usage_error("corot find-limit", "%s: expected a number", value);
   switch (option) {
@@ -95,6 +112,12 @@ static int take(void *context, int option, const char *value) {
       return -1;
     case 'B':
       s->def.to = number;
+      return -1;
+    case 'L':
+      s->bound.below = number;
+      return -1;
+    case 'U':
+      s->bound.above = number;
       return -1;
     case 'P':
       s->def.precision = number;
@@ -143,14 +166,36 @@ static corot_status enter_build(search *s, const study_run *run) {
   return status;
 }
 
+/* Of a run that is done. */
+static corot_status judge_quantity(const search *s, const study_run *run, limit_trial *trial) {
+  const bound *b = &s->bound;
+  run_record record;
+  COROT_TRY(store_look(s->arguments->options.dir, run, &record));
+  const json_t *all = json_object_get(record.result, "quantities");
+  const json_t *found = json_object_get(all, b->of.name), *value = json_object_get(found, "value");
+  const char *why = json_string_value(json_object_get(found, "reason"));
+  if (json_is_number(value)) trial->quantity = json_number_value(value);
+  trial->stable =
+      !(trial->quantity >= b->below) && !(trial->quantity <= b->above) && !isnan(trial->quantity);
+  if (isnan(trial->quantity))
+    snprintf(trial->reason, sizeof trial->reason, "%.100s has no value: %.120s", b->of.text,
+             why ? why : "");
+  else if (!trial->stable)
+    snprintf(trial->reason, sizeof trial->reason, "%.200s = %.6g", b->of.text, trial->quantity);
+  run_record_free(&record);
+  return COROT_OK;
+}
+
 static corot_status judge(search *s, const study_run *run, limit_trial *trial) {
   run_record record;
   COROT_TRY(store_look(s->arguments->options.dir, run, &record));
+  trial->quantity = NAN;
   trial->stable = record.state == RUN_DONE;
   snprintf(trial->reason, sizeof trial->reason, "%s", record.reason ? record.reason : "");
   run_record_free(&record);
   COROT_TRY(enter_build(s, run));
   if (!trial->stable) return COROT_OK;
+  if (s->bound.asked) return judge_quantity(s, run, trial);
 
   char *dir = store_path(s->arguments->options.dir, run, "");
   double energy;
@@ -203,18 +248,26 @@ static corot_status try_values(void *context, int n, limit_trial *trial) {
 
 /* --- What was found --- */
 
+static json_t *bound_json(const bound *b) {
+  if (!b->asked) return json_null();
+  return json_pack("{s:s, s:o, s:o}", "of", b->of.text, "below", json_text_real(b->below), "above",
+                   json_text_real(b->above));
+}
+
 static json_t *result_json(search *s, const limit_result *r) {
   json_t *trials = json_array();
   for (int i = 0; i < r->ntrial; i++) {
     const limit_trial *t = &r->trial[i];
     trials = json_text_push(
-        trials, json_pack("{s:f, s:b, s:o}", "value", t->value, "stable", t->stable, "reason",
+        trials, json_pack("{s:f, s:b, s:o, s:o}", "value", t->value, "stable", t->stable,
+                          "quantity", json_text_real(t->quantity), "reason",
                           *t->reason ? json_text_string(t->reason) : json_null()));
   }
   builds_sort(&s->made_by);
-  return json_pack("{s:o, s:s, s:s, s:o, s:o, s:i, s:f, s:o, s:o, s:o}", "title",
+  return json_pack("{s:o, s:s, s:s, s:o, s:o, s:o, s:i, s:f, s:o, s:o, s:o}", "title",
                    json_text_string(s->scenario->title), "scenario", s->scenario->path, "key",
-                   s->key, "stable", r->stable > 0 ? json_real(r->stable) : json_null(), "unstable",
+                   s->key, "quantity", bound_json(&s->bound), "stable",
+                   r->stable > 0 ? json_real(r->stable) : json_null(), "unstable",
                    json_text_real(r->unstable), "stable_again", r->nreturn, "energy_factor",
                    s->factor, "energy", json_text_real(s->energy), "mixed",
                    builds_sentence(s->made_by.list), "trials", trials);
@@ -254,6 +307,12 @@ static int ready(void *context, variants_arguments *a) {
   if (!s->key) return usage_error("corot find-limit", "--key is missing");
   if (isnan(s->def.from)) return usage_error("corot find-limit", "--from is missing");
   if (isnan(s->def.to)) return usage_error("corot find-limit", "--to is missing");
+  bool bounded = !isnan(s->bound.below) || !isnan(s->bound.above);
+  if (s->bound.asked && !bounded)
+    return usage_error("corot find-limit", "--quantity wants --below or --above");
+  if (bounded && !s->bound.asked)
+    return usage_error("corot find-limit", "--below and --above are of a --quantity");
+  if (s->bound.asked) a->set[a->nset++] = s->bound.of.setting;
   snprintf(s->first, sizeof s->first, "%s=%.9g", s->key, s->def.from);
   a->set[a->nset++] = s->first;
   return -1;
@@ -280,8 +339,10 @@ static int find(void *context, const scenario *of, const variants_arguments *a) 
 }
 
 int command_find_limit(int argc, char **argv) {
-  search s = {
-      .def = {.from = NAN, .to = NAN, .nscan = 9, .precision = 0.02}, .factor = 2, .energy = NAN};
+  search s = {.def = {.from = NAN, .to = NAN, .nscan = 9, .precision = 0.02},
+              .factor = 2,
+              .bound = {.below = NAN, .above = NAN},
+              .energy = NAN};
   const variants_command c = {.program = "corot find-limit",
                               .help = help,
                               .suffix = "-limit",

@@ -92,6 +92,19 @@ int variants_command_run(const variants_command *c, int argc, char **argv) {
   return code;
 }
 
+int variants_take_quantity(const char *program, const char *text, quantity_option *out) {
+  quantity q;
+  size_t at;
+  if (quantity_parse(text, &q, &at) != COROT_OK) {
+    quantity_point("--quantity", text, at);
+    return usage_error(program, "%s", corot_error());
+  }
+  quantity_print(&q, out->text);
+  quantity_name(&q, out->name);
+  snprintf(out->setting, sizeof out->setting, "quantities.%s=%s", out->name, out->text);
+  return -1;
+}
+
 int variants_interrupted(int signal_number) {
   fputs("interrupted; the same command goes on from here\n", stderr);
   return 128 + signal_number;

@@ -19,7 +19,8 @@ typedef struct variants_command {
   const char *suffix;        /* of the default folder, out/MODELSUFFIX */
   const struct option *more; /* options of its own, or NULL */
   int (*take)(void *context, int option, const char *value); /* one of them: -1, or an exit code */
-  /* After all options, NULL or: -1, or an exit code. May add one setting. */
+  /* After all options, NULL or: -1, or an exit code. May add a setting for each option with a
+     value of its own that was given. */
   int (*ready)(void *context, variants_arguments *a);
   /* The scenario has the settings. Returns the exit code. */
   int (*go)(void *context, const scenario *s, const variants_arguments *a);
@@ -28,6 +29,15 @@ typedef struct variants_command {
 
 /* The whole command; returns the exit code. */
 int variants_command_run(const variants_command *c, int argc, char **argv);
+
+/* A quantity of the command line, and the setting that asks a scenario for it. */
+typedef struct quantity_option {
+  char text[QUANTITY_TEXT], name[QUANTITY_TEXT]; /* as it is printed; of its key */
+  char setting[2 * QUANTITY_TEXT + 16];
+} quantity_option;
+
+/* --quantity TEXT: -1, or an exit code. */
+int variants_take_quantity(const char *program, const char *text, quantity_option *out);
 
 /* Words and exit code of one that a signal ended. */
 int variants_interrupted(int signal_number);

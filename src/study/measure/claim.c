@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "states_sum.h"
 
@@ -28,12 +29,11 @@ typedef struct level_pair {
 
 static void probe_products(const yardstick *y, const trajectory *first, const trajectory *second,
                            int probe, double product[3]) {
-  const int *dof = corot_model_dof(y->model)[y->probe[probe]];
   product[0] = product[1] = product[2] = 0;
   for (int k = 0; k < first->count; k++)
     for (int c = 0; c < 3; c++) {
-      if (dof[c] < 0) continue;
-      double x = states_u(first, k)[dof[c]], z = states_u(second, k)[dof[c]];
+      double x = yardstick_probe(y, probe, c, states_u(first, k));
+      double z = yardstick_probe(y, probe, c, states_u(second, k));
       product[0] += x * x;
       product[1] += z * z;
       product[2] += x * z;
@@ -128,6 +128,45 @@ corot_status claim_by_order(yardstick *y, const trajectory *raised, const trajec
   COROT_TRY(find_rest(y, raised, finer, c));
   c->is_open = !(2 * c->rest.of[ERROR_DISPLACEMENT].max <= c->error.of[ERROR_DISPLACEMENT].max);
   return COROT_OK;
+}
+
+/* --- One number --- */
+
+static corot_status one_error(double value, errors *out) {
+  if (isnan(value)) return COROT_OK;
+  out->of = calloc(1, sizeof *out->of);
+  if (!out->of) return corot_fail(COROT_ENOMEM, "out of memory");
+  out->n = 1;
+  out->of[0] = (error_pair){value, value};
+  return COROT_OK;
+}
+
+corot_status claim_of_numbers(int mesh_order, int nlevel, const double *q, double known, claim *c,
+                              double *limit) {
+  double first = q[1] - q[0], last = q[nlevel == 3 ? 2 : 1], tends_to = last;
+  c->is_space = nlevel > 0;
+  c->nlevel = nlevel;
+  if (nlevel == 3) {
+    double second = q[2] - q[1], cosine = first * second < 0 ? -1 : 1;
+    c->convergence = convergence_observe_of(mesh_order, fabs(first), fabs(second), cosine,
+                                            isnan(known) ? 0 : known);
+    tends_to += c->convergence.remainder * second;
+  }
+  c->is_open = c->is_space && !c->convergence.asymptotic;
+  COROT_TRY(one_error(known, &c->known));
+  COROT_TRY(one_error(fabs(last - q[0]), &c->shown));
+  COROT_TRY(one_error(fabs(tends_to - q[0]), &c->error));
+  *limit = tends_to;
+  return COROT_OK;
+}
+
+void claim_scale(claim *c, double size) {
+  errors *const all[] = {&c->known, &c->shown, &c->error};
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < all[i]->n; k++) {
+      error_pair *e = &all[i]->of[k];
+      *e = (error_pair){error_relative(e->max, size), error_relative(e->end, size)};
+    }
 }
 
 /* --- Bounds --- */

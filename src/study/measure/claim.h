@@ -50,6 +50,13 @@ corot_status claim_by_levels(yardstick *y, const trajectory *middle, const traje
    error, this is open. */
 corot_status claim_by_order(yardstick *y, const trajectory *raised, const trajectory *finer,
                             claim *c);
+/* The same of one number, its errors in the place of the displacement's: from q[0] to q[1] (nlevel
+   0), or of a mesh of that order by its next one or two octasections, q [nlevel]. `known`: what
+   they are known by, NaN: nobody knows; *limit: what they tend to. Errors are in the number's own
+   unit; claim_scale() divides them by a size. */
+corot_status claim_of_numbers(int mesh_order, int nlevel, const double *q, double known, claim *c,
+                              double *limit);
+void claim_scale(claim *c, double size);
 
 /* Of error measure i (errors.h), over time or at the end. */
 claim_bound claim_bounds(const claim *c, int i, bool end);

@@ -9,6 +9,7 @@
 #include "app/text/no_memory.h"
 #include "collect_json.h"
 #include "collect_measure.h"
+#include "collect_quantities.h"
 #include "collect_shared.h"
 #include "collect_space.h"
 #include "report/read/lookup.h"
@@ -28,6 +29,18 @@ static corot_status note(corot_status status, char **out) {
 }
 
 /* --- References --- */
+
+/* The errors of the second run against the first, by name; those of norms are measured. */
+static corot_status measure_floor(measuring *g, const json_t *second, table_reference *t) {
+  double *value = NULL;
+  COROT_TRY(quantities_read(g->m, second, &value));
+  corot_status status = quantities_measure(g->m, value, t->quantity, &t->quantity_floor);
+  free(value);
+  COROT_TRY(status);
+  t->floor_json =
+      quantities_with_errors(g->m, t->quantity_floor, errors_json(g->yardstick, &t->floor));
+  return t->floor_json ? COROT_OK : no_memory();
+}
 
 static corot_status look_reference(measuring *g, int index, table_reference *t) {
   const study_reference *r = &g->m->reference[index];
@@ -50,7 +63,8 @@ static corot_status look_reference(measuring *g, int index, table_reference *t) 
         measure_run(g, &g->m->run[r->run[1]], record[1].result, index, &t->floor, &ignored);
     t->known = measured == COROT_OK;
     status = note(measured, &t->note);
-    if (t->known && !(t->floor_json = errors_json(g->yardstick, &t->floor))) status = no_memory();
+    if (status == COROT_OK) status = quantities_read(g->m, record[0].result, &t->quantity);
+    if (status == COROT_OK && t->known) status = measure_floor(g, record[1].result, t);
   }
   /* which builds made them */
   for (int i = 0; i < 2; i++) {
@@ -71,14 +85,18 @@ static corot_status measure_cell(measuring *g, const table_reference *references
   bool known = r && r->known;
   t->approximations = approximations_of(result);
   COROT_TRY(costs_read(g->dir, t->run, result, &g->builds, &t->cost));
+  COROT_TRY(quantities_read(g->m, result, &t->quantity));
   corot_status status =
       measure_run(g, t->run, result, known ? c->reference : -1, &t->error, &t->drift);
   if (status != COROT_OK) return note(status, &t->note);
   if (r && !known) return copy_text("its reference is not known", &t->note);
   if (!known) return COROT_OK;
+  COROT_TRY(quantities_measure(g->m, t->quantity, r->quantity, &t->quantity_error));
   t->measured = true;
-  t->error_json = errors_json(g->yardstick, &t->error);
-  t->unrated = errors_unrated(g->yardstick, &t->error, &r->floor);
+  t->error_json =
+      quantities_with_errors(g->m, t->quantity_error, errors_json(g->yardstick, &t->error));
+  t->unrated = quantities_with_unrated(g->m, t->quantity_error, r->quantity_floor,
+                                       errors_unrated(g->yardstick, &t->error, &r->floor));
   return t->error_json && t->unrated ? COROT_OK : no_memory();
 }
 
@@ -121,6 +139,13 @@ static corot_status look_cell(measuring *g, const table_reference *references, i
 
 /* --- The whole --- */
 
+/* -1: it is unknown. */
+static int find_measure(const manifest *m) {
+  for (int i = 0; i < m->nquantity; i++)
+    if (strcmp(m->quantity[i].text, m->measure) == 0) return ERROR_PROBES + i;
+  return error_named(m->measure);
+}
+
 static corot_status collect(measuring *g, table_reference *references, table_row *rows,
                             json_t **out) {
   const manifest *m = g->m;
@@ -129,7 +154,7 @@ static corot_status collect(measuring *g, table_reference *references, table_row
   table_rows t = {.n = m->ncell,
                   .row = rows,
                   .reference = references,
-                  .measure = error_named(m->measure),
+                  .measure = find_measure(m),
                   .cost = m->cost};
   if (t.measure < 0 || !is_cost(t.cost))
     return corot_fail(COROT_EFORMAT, "%s/study.json: unknown measure or cost", g->dir);
@@ -146,6 +171,8 @@ static void free_rows(int n, table_row *row) {
     free(row[i].reason);
     free(row[i].note);
     errors_free(&row[i].error);
+    free(row[i].quantity);
+    free(row[i].quantity_error);
     json_decref(row[i].error_json);
     json_decref(row[i].unrated);
     json_decref(row[i].approximations);
@@ -159,6 +186,8 @@ static void free_references(int n, table_reference *reference) {
     free(reference[i].reason);
     free(reference[i].note);
     errors_free(&reference[i].floor);
+    free(reference[i].quantity);
+    free(reference[i].quantity_floor);
     json_decref(reference[i].floor_json);
     json_decref(reference[i].approximations);
   }

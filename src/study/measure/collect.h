@@ -4,6 +4,7 @@
      title, cost, measure   as in the study file; corot: the version that made the runs
      builds      of the runs that are done, the build of most runs first (builds.h)
      mixed       a sentence where there are several: which runs are of which; null: there are not
+     quantities  those that all runs are asked for, as text
      columns     names of the cells' coordinates
      series      names, in alphabetical order
      shared      a sentence: what errors are of, and what the runs have in common with their
@@ -14,7 +15,9 @@
        cost        cpu, cpu_min, cpu_max, wall, wall_min, wall_max [s]: median and extremes of
                    `repeats` timed repetitions, or of the one run if that is 0;
                    steps, rhs, factorisations, solves
-       error       by name, as in errors.h: the largest over time, and NAME_end at the end
+       quantity    values by text; null: the run has none
+       error       by name, as in errors.h: the largest over time, and NAME_end at the end; of a
+                   quantity, by its text, relative to the reference's value
        digits      mescd
        below_floor the study's measure is not rated, as it is below ten times the floor
        unrated     all errors of which that is true
@@ -24,12 +27,14 @@
        shared      approximations that it has in common with its reference, in words
        warnings    the codes of what the run warns of, each once: a list (app/scenario/warnings.h)
      references  {runs: [two ids], methods, rtol, settings, status, reason, agree, parts_at [s],
-                  floor: error of the one against the other, digits, note}
+                  quantity: values of the first run, floor: error of the one against the other,
+                  digits, note}
      space       of the meshes, where mesh.refine is varied: by references of neighbouring levels,
-                 {reference, refine, levels, error, bound, low, high, floor, order, verdict} as in
-                 a budget (budget.h)
+                 {measure: displacement or a quantity, reference, refine, levels, error, bound, low,
+                 high, floor, order, verdict} as in a budget (budget.h)
      fits        {series, tolerance_key, exponent, constant, residual, points, verdict} of the
                  study's measure, over the points that are rated
+     quantity_fits  the same, and {measure}, of each quantity that is not the study's measure
      rankings    {error, best: [{series, id, cost, tolerance}]}: for each power of ten the
                  cheapest cell of each series that is at least so good, the cheapest series first
 

@@ -11,8 +11,9 @@
 
 /* All that a yardstick depends on: the scenario without what only the solution depends on. */
 static char *yardstick_key(const json_t *result) {
-  static const char *const solution[] = {"title",   "integrator", "linear_solver", "frames", "time",
-                                         "statics", "start",      "compare",       "output"};
+  static const char *const solution[] = {"title",  "integrator", "linear_solver", "frames",
+                                         "time",   "statics",    "start",         "compare",
+                                         "output", "quantities"};
   json_t *solid = json_copy(json_object_get(result, "scenario"));
   for (size_t i = 0; i < sizeof solution / sizeof *solution; i++)
     json_object_del(solid, solution[i]);

@@ -17,6 +17,8 @@ typedef struct table_row {
   bool measured;
   errors error;
   drift drift;
+  double *quantity;             /* [nquantity] values; NULL: the run is not done */
+  double *quantity_error;       /* [nquantity] where it is measured */
   json_t *error_json, *unrated; /* of what is measured, by name */
   json_t *approximations;       /* that the run makes; NULL: it is not done */
   json_t *warnings;             /* the codes of the run's own, each once: a list */
@@ -29,6 +31,8 @@ typedef struct table_reference {
   char *note;      /* why there is no floor */
   bool known;      /* the floor is */
   errors floor;
+  double *quantity;       /* [nquantity] of the first run; NULL: it is not done */
+  double *quantity_floor; /* [nquantity] where the floor is known */
   json_t *floor_json;
   json_t *approximations; /* that its runs make; NULL: they are not done */
 } table_reference;
@@ -38,8 +42,16 @@ typedef struct table_rows {
   int n;
   const table_row *row;
   const table_reference *reference;
-  int measure;
+  int measure; /* a norm (errors.h), or ERROR_PROBES and the number of a quantity */
   const char *cost;
 } table_rows;
+
+/* The error of a row, and the floor of a reference, by the measure of the table; of rows that are
+   measured and references that are known. */
+double row_error(const table_rows *t, const table_row *r);
+double row_floor(const table_rows *t, const table_reference *r);
+
+/* Whether it is rated; false where it is not known. */
+bool row_is_rated(const table_rows *t, const table_row *r, const table_reference *reference);
 
 #endif

@@ -8,9 +8,10 @@
 #include "app/text/json_text.h"
 #include "fit.h"
 
-static const error_pair *floor_of(const table_rows *t, const table_row *r) {
+/* NULL: there is none that is known. */
+static const table_reference *reference_of(const table_rows *t, const table_row *r) {
   int k = r->cell->reference;
-  return k >= 0 && t->reference[k].known ? &t->reference[k].floor.of[t->measure] : NULL;
+  return k >= 0 && t->reference[k].known ? &t->reference[k] : NULL;
 }
 
 static const char *key_of(const table_row *r) {
@@ -25,10 +26,9 @@ static bool go_together(const table_row *a, const table_row *b) {
 /* --- Fits --- */
 
 static bool is_point(const table_rows *t, const table_row *r) {
-  const error_pair *floor = floor_of(t, r);
-  double error = r->measured ? r->error.of[t->measure].max : 0;
-  return r->cell->tolerance > 0 && floor && error > 0 && isfinite(error) &&
-         is_rated(&r->error.of[t->measure], floor, false);
+  const table_reference *reference = reference_of(t, r);
+  double error = r->measured && reference ? row_error(t, r) : 0;
+  return r->cell->tolerance > 0 && error > 0 && isfinite(error) && row_is_rated(t, r, reference);
 }
 
 static json_t *fit_json(const table_row *r, const power_fit *f) {
@@ -50,7 +50,7 @@ json_t *collect_fits(const table_rows *t) {
     for (next = i; next < t->n && go_together(&t->row[i], &t->row[next]); next++) {
       if (!is_point(t, &t->row[next])) continue;
       tolerance[n] = t->row[next].cell->tolerance;
-      error[n++] = t->row[next].error.of[t->measure].max;
+      error[n++] = row_error(t, &t->row[next]);
     }
     if (!t->row[i].cell->tolerance_key) continue;
     power_fit f = fit_power(n, tolerance, error);
@@ -64,9 +64,9 @@ json_t *collect_fits(const table_rows *t) {
 
 /* What the error is at most, as far as the reference is known. */
 static double bound(const table_rows *t, const table_row *r) {
-  const error_pair *floor = floor_of(t, r);
-  if (!r->measured || !floor) return INFINITY;
-  return r->error.of[t->measure].max + floor->max;
+  const table_reference *reference = reference_of(t, r);
+  if (!r->measured || !reference) return INFINITY;
+  return row_error(t, r) + row_floor(t, reference);
 }
 
 /* The cheapest row of a series with an error of at most `target`; NULL: there is none. */

@@ -36,16 +36,38 @@ static int find_level(const table_reference *t, int n, int i, int octasections) 
   return -1;
 }
 
-static json_t *space_json(const table_reference *t, int index, const claim *c) {
+/* `of`: what it is about. */
+static json_t *space_json(const table_reference *t, int index, const char *of, const claim *c) {
   claim_bound b = claim_bounds(c, ERROR_DISPLACEMENT, false);
   char verdict[512];
   claim_verdict(c, "no cell has it", sizeof verdict, verdict);
   return json_pack(
-      "{s:i, s:I, s:i, s:o, s:s, s:o, s:o, s:o, s:o, s:s}", "reference", index, "refine",
-      json_integer_value(refine_of(t)), "levels", c->nlevel, "error", json_text_real(b.value),
-      "bound", claim_words[b.kind], "low", json_text_real(b.low), "high", json_text_real(b.high),
-      "floor", json_text_real(b.floor), "order",
+      "{s:s, s:i, s:I, s:i, s:o, s:s, s:o, s:o, s:o, s:o, s:s}", "measure", of, "reference", index,
+      "refine", json_integer_value(refine_of(t)), "levels", c->nlevel, "error",
+      json_text_real(b.value), "bound", claim_words[b.kind], "low", json_text_real(b.low), "high",
+      json_text_real(b.high), "floor", json_text_real(b.floor), "order",
       json_text_real(c->nlevel == NLEVEL ? c->convergence.order : NAN), "verdict", verdict);
+}
+
+/* The same levels of quantity k, relative to what they tend to. */
+static corot_status measure_quantity(measuring *g, const table_reference *t,
+                                     const int level[NLEVEL], int k, json_t *list) {
+  double q[NLEVEL];
+  int nlevel = level[2] >= 0 ? 3 : 2;
+  for (int i = 0; i < nlevel; i++) q[i] = t[level[i]].quantity[k];
+  double floor = t[level[0]].quantity_floor[k];
+  for (int i = 0; i < nlevel; i++)
+    if (!isfinite(q[i]) || !isfinite(floor)) return COROT_OK; /* there is nothing to compare */
+  claim c = {0};
+  double limit;
+  corot_status status = claim_of_numbers(corot_mesh_order(g->yardstick->mesh), nlevel, q,
+                                         floor * fabs(q[0]), &c, &limit);
+  if (status == COROT_OK) claim_scale(&c, fabs(limit));
+  if (status == COROT_OK &&
+      json_array_append_new(list, space_json(&t[level[0]], level[0], g->m->quantity[k].text, &c)))
+    status = no_memory();
+  claim_free(&c);
+  return status;
 }
 
 /* Of reference i, against the next one or two levels. */
@@ -62,8 +84,11 @@ static corot_status measure_levels(measuring *g, const table_reference *t, const
   }
   if (status == COROT_OK)
     status = claim_by_levels(g->yardstick, &states[1], level[2] >= 0 ? &states[2] : NULL, &c);
-  if (status == COROT_OK && json_array_append_new(list, space_json(&t[level[0]], level[0], &c)))
+  if (status == COROT_OK &&
+      json_array_append_new(list, space_json(&t[level[0]], level[0], error_words[0], &c)))
     status = no_memory();
+  for (int k = 0; k < g->m->nquantity && status == COROT_OK; k++)
+    status = measure_quantity(g, t, level, k, list);
   claim_free(&c);
   for (int k = 0; k < NLEVEL; k++) states_free(&states[k]);
   return status;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/scenario/probe_location.h"
 #include "states_sum.h"
 
 const char *const error_words[ERROR_PROBES] = {"displacement", "velocity", "energy", "mixed"};
@@ -23,15 +24,13 @@ bool is_rated(const error_pair *error, const error_pair *known, bool end) {
 /* --- The yardstick --- */
 
 static corot_status find_probes(yardstick *y, const scenario *s) {
-  y->nprobe = s->nprobe;
-  y->probe_def = s->probe;
+  y->probe_def = calloc((size_t)s->nprobe + 1, sizeof *y->probe_def);
   y->probe = calloc((size_t)s->nprobe + 1, sizeof *y->probe);
-  if (!y->probe) return corot_fail(COROT_ENOMEM, "out of memory");
+  if (!y->probe_def || !y->probe) return corot_fail(COROT_ENOMEM, "out of memory");
   for (int i = 0; i < s->nprobe; i++) {
-    const probe_def *p = &s->probe[i];
-    y->probe[i] = p->node >= 0 ? p->node : corot_mesh_nearest(y->mesh, p->point);
-    if (y->probe[i] >= y->mesh->nnode)
-      return corot_fail(COROT_EINVAL, "probe %s: there is no node %d", p->name, y->probe[i]);
+    if (!probe_is_plain(&s->probe[i])) continue;
+    y->probe_def[y->nprobe] = &s->probe[i];
+    COROT_TRY(probe_locate(&s->probe[i], y->mesh, &y->probe[y->nprobe++]));
   }
   return COROT_OK;
 }
@@ -65,6 +64,7 @@ void yardstick_destroy(yardstick *y) {
   corot_model_destroy(y->model);
   corot_mesh_destroy(y->mesh);
   free(y->stiffness);
+  free(y->probe_def);
   free(y->probe);
   free(y->work);
   free(y);
@@ -138,8 +138,7 @@ static void find_scales(pairing *p) {
   }
 }
 
-/* Where the reference does not move at all there is no scale, and an error is infinite. */
-static double relative(double error, double scale) {
+double error_relative(double error, double scale) {
   return scale > 0 ? error / scale : error > 0 ? INFINITY : 0;
 }
 
@@ -158,13 +157,22 @@ static double mixed_error(const pairing *p, const double *difference, const doub
   return worst;
 }
 
+double yardstick_probe(const yardstick *y, int k, int c, const double *x) {
+  const corot_location *at = &y->probe[k];
+  double sum = 0;
+  for (int a = 0; a < at->nnode; a++) {
+    int i = corot_model_dof(y->model)[at->node[a]][c];
+    if (i >= 0) sum += at->weight[a] * x[i];
+  }
+  return sum;
+}
+
 static void enter_probes(pairing *p, const double *du) {
-  const int(*dof)[3] = corot_model_dof(p->y->model);
   for (int k = 0; k < p->y->nprobe; k++) {
     double square = 0;
     for (int c = 0; c < 3; c++) {
-      int i = dof[p->y->probe[k]][c];
-      if (i >= 0) square += du[i] * du[i];
+      double d = yardstick_probe(p->y, k, c, du);
+      square += d * d;
     }
     enter(p, ERROR_PROBES + k, sqrt(square));
   }
@@ -179,9 +187,9 @@ static void compare(pairing *p, int at, int at_reference) {
 
   take(p, u, states_u(p->run, at), du);
   take(p, v, states_v(p->run, at), dv);
-  enter(p, ERROR_DISPLACEMENT, relative(mass_norm(p->y, du), p->scale[0]));
-  enter(p, ERROR_VELOCITY, relative(mass_norm(p->y, dv), p->scale[1]));
-  enter(p, ERROR_ENERGY, relative(energy_norm(p->y, du), p->scale[2]));
+  enter(p, ERROR_DISPLACEMENT, error_relative(mass_norm(p->y, du), p->scale[0]));
+  enter(p, ERROR_VELOCITY, error_relative(mass_norm(p->y, dv), p->scale[1]));
+  enter(p, ERROR_ENERGY, error_relative(energy_norm(p->y, du), p->scale[2]));
   enter(p, ERROR_MIXED, fmax(mixed_error(p, du, u, length), mixed_error(p, dv, v, speed)));
   enter_probes(p, du);
   if (p->e->of[ERROR_DISPLACEMENT].max > 1e-3 && isnan(p->e->parting))

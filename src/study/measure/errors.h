@@ -14,7 +14,7 @@
                    tolerances that `auto` stands for (include/corot/integrate.h); -log10 of it at
                    the end is "mescd", the mixed error significant correct digits of the Test Set
                    for IVP Solvers (Mazzia & Magherini, release 2.4, 2008)
-     probe.NAME    |u - r| of the probe's node [m]
+     probe.NAME    |u - r| at the point or node of a probe that is its displacement [m]
 
    each at the end, and the largest over time. The reference may be of a finer mesh: its nodes begin
    with those of the coarser. */
@@ -43,8 +43,11 @@ typedef struct error_pair {
 /* known: how far the reference is from the truth, as far as is known; NaN: nobody knows. */
 bool is_rated(const error_pair *error, const error_pair *known, bool end);
 
+/* error / scale; where there is no scale, as the reference does not move, an error is infinite. */
+double error_relative(double error, double scale);
+
 typedef struct errors {
-  int n;          /* ERROR_PROBES and the number of probes */
+  int n;          /* ERROR_PROBES and the number of such probes */
   error_pair *of; /* [n] */
   double parting; /* the first time at which the displacement's exceeds 1e-3 [s]; NaN: none */
 } errors;
@@ -56,9 +59,10 @@ typedef struct yardstick {
   corot_state *state;
   double (*stiffness)[9]; /* K at rest, as blocks */
   int nprobe;
-  const probe_def *probe_def; /* [nprobe] of the scenario */
-  int *probe;                 /* [nprobe] nodes */
-  double *work;               /* [3][n] */
+  const probe_def **probe_def; /* [nprobe] those of the scenario that are displacements of a point
+                                  or a node */
+  corot_location *probe;       /* [nprobe] */
+  double *work;                /* [3][n] */
 } yardstick;
 
 /* The scenario must outlive it. */
@@ -71,6 +75,9 @@ corot_status errors_measure(yardstick *y, const trajectory *run, const trajector
                             errors *out);
 corot_status errors_copy(const errors *e, errors *out);
 void errors_free(errors *e);
+
+/* Component c of x [n], a displacement or a difference of two, at probe k. */
+double yardstick_probe(const yardstick *y, int k, int c, const double *x);
 
 /* x' M z, each [n]. */
 double yardstick_product(yardstick *y, const double *x, const double *z);

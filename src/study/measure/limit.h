@@ -10,6 +10,7 @@
 typedef struct limit_trial {
   double value;
   bool stable;
+  double quantity;  /* by which that was judged; NaN: by none, or it has no value */
   char reason[256]; /* where it is not stable: why */
 } limit_trial;
 

@@ -91,6 +91,20 @@ static corot_status read_heads(manifest *m, const char *where) {
   return read_texts(json_object_get(m->root, "columns"), where, "columns", &m->ncolumn, &m->column);
 }
 
+/* A study of an earlier version has none. */
+static corot_status read_quantities(manifest *m, const char *where) {
+  const json_t *list = json_object_get(m->root, "quantities");
+  m->nquantity = (int)json_array_size(list);
+  m->quantity = calloc((size_t)m->nquantity + 1, sizeof *m->quantity);
+  if (!m->quantity) return no_memory();
+  for (int i = 0; i < m->nquantity; i++) {
+    const json_t *entry = json_array_get(list, (size_t)i);
+    m->quantity[i] = (study_quantity){.text = text_of(entry, "of"), .name = text_of(entry, "name")};
+    if (!m->quantity[i].text || !m->quantity[i].name) return malformed(where, "quantities");
+  }
+  return COROT_OK;
+}
+
 static corot_status read_lists(manifest *m, const char *where) {
   const json_t *runs = json_object_get(m->root, "runs");
   const json_t *cells = json_object_get(m->root, "cells");
@@ -119,6 +133,7 @@ corot_status manifest_from_json(json_t *root, const char *where, manifest **out)
   }
   m->root = root;
   corot_status status = read_heads(m, where);
+  if (status == COROT_OK) status = read_quantities(m, where);
   if (status == COROT_OK) status = read_lists(m, where);
   if (status == COROT_OK)
     *out = m;
@@ -134,6 +149,7 @@ void manifest_destroy(manifest *m) {
   free(m->cell);
   free(m->reference);
   free(m->column);
+  free(m->quantity);
   json_decref(m->root);
   free(m);
 }

@@ -35,6 +35,8 @@ typedef struct manifest {
   const char *title, *name, *base, *version; /* base: the scenario's path, absolute */
   const char *identity;                      /* the same: the same study, be it extended */
   const char *cost, *measure;
+  int nquantity;
+  study_quantity *quantity; /* [nquantity] that every run is asked for */
   int repeat;
   int ncolumn;
   const char **column; /* [ncolumn] of the cells, in alphabetical order */

@@ -9,6 +9,7 @@
 
 #include "app/folder/folder.h"
 #include "app/folder/hash.h"
+#include "app/run/quantities.h"
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
 
@@ -50,6 +51,7 @@ static corot_status mesh_digest(planner *p, const scenario *s, char digest[HASH_
     corot_mesh *mesh = NULL;
     corot_model *model = NULL; /* built once, for what may be wrong with it */
     status = scenario_build(s, &mesh, NULL, &model);
+    if (status == COROT_OK) status = quantities_check(s, model, p->study->still);
     if (status == COROT_OK) hash_mesh(mesh, digest);
     if (status == COROT_OK && json_object_set_new(p->mesh_at, text, json_string(digest)))
       status = no_memory();
@@ -189,7 +191,7 @@ static json_t *reference_settings(const planner *p, int nset, const setting *set
   json_t *object = json_object();
   for (int i = 0; i < nset; i++) {
     bool ours = is_solution(set[i].key) && i < nset - 1 - p->study->nreference_set;
-    if (ours || is_below(set[i].key, "output")) continue;
+    if (ours || is_below(set[i].key, "output") || is_below(set[i].key, "quantities")) continue;
     object = json_text_with(object, set[i].key, study_value_json(set[i].value));
   }
   return object;
@@ -291,6 +293,14 @@ static json_t *column_names(const study *s) {
   return list;
 }
 
+static json_t *quantity_list(const study *s) {
+  json_t *list = json_array();
+  for (int i = 0; i < s->nquantity; i++)
+    list = json_text_push(
+        list, json_pack("{s:s, s:s}", "of", s->quantity[i].text, "name", s->quantity[i].name));
+  return list;
+}
+
 /* Of the title and of what the base says, without defaults: those are the version's. */
 static corot_status identify(const study *s, char digest[HASH_SIZE]) {
   config *base = NULL;
@@ -320,11 +330,11 @@ static corot_status finish(planner *p, manifest **out) {
   COROT_TRY(find_base(s, &base));
   json_t *path = json_text_string(base);
   free(base);
-  json_t *root =
-      json_pack("{s:s, s:s, s:o, s:s, s:s, s:i, s:s, s:s, s:o, s:O, s:O, s:O}", "study", s->title,
-                "name", s->name, "base", path, "identity", digest, "corot", corot_version(),
-                "repeat", s->repeat, "cost", s->cost, "measure", s->measure, "columns",
-                column_names(s), "references", p->references, "cells", p->cells, "runs", p->runs);
+  json_t *root = json_pack(
+      "{s:s, s:s, s:o, s:s, s:s, s:i, s:s, s:s, s:o, s:o, s:O, s:O, s:O}", "study", s->title,
+      "name", s->name, "base", path, "identity", digest, "corot", corot_version(), "repeat",
+      s->repeat, "cost", s->cost, "measure", s->measure, "quantities", quantity_list(s), "columns",
+      column_names(s), "references", p->references, "cells", p->cells, "runs", p->runs);
   return root ? manifest_from_json(root, s->path, out) : no_memory();
 }
 

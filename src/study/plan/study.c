@@ -43,7 +43,6 @@ static corot_status read_heads(study *s, const char *path) {
   s->tolerance = config_find(root, "tolerance");
   s->group = config_find(root, "group");
   s->cost = config_find(root, "cost")->text;
-  s->measure = config_find(root, "measure")->text;
   return check_base(s);
 }
 
@@ -116,6 +115,7 @@ static corot_status read_all(study *s, const char *path) {
   COROT_TRY(schema_apply(&study_schema, s->tree));
   COROT_TRY(read_heads(s, path));
   COROT_TRY(study_read_settings(s->tree, config_find(s->tree->root, "set"), &s->nset, &s->set));
+  COROT_TRY(study_read_measures(s));
   COROT_TRY(read_reference(s));
   COROT_TRY(read_grids(s));
   return study_make_cells(s);

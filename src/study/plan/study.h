@@ -29,6 +29,15 @@ typedef struct grid {
   const config_node *const *exclude; /* [nexclude] maps: a cell that has all their values is out */
 } grid;
 
+/* The errors that are measured of every run with a reference, as collect.h has them. */
+#define STUDY_NORMS "displacement|velocity|energy|mixed"
+
+/* A quantity that every run is asked for. */
+typedef struct study_quantity {
+  const char *text; /* as quantity_print() writes it */
+  const char *name; /* in the scenario's `quantities` */
+} study_quantity;
+
 /* One run that the study asks for. */
 typedef struct cell {
   int nplace, nset;
@@ -59,7 +68,9 @@ typedef struct study {
 
   const config_node *tolerance; /* list of keys: the first that is a coordinate of a cell */
   const config_node *group;     /* list of columns that name the series; NULL: all the others */
-  const char *cost, *measure;   /* by which cells are compared */
+  const char *cost, *measure;   /* by which cells are compared: a norm, or a quantity's text */
+  int nquantity;
+  const study_quantity *quantity; /* [nquantity] */
 
   int ncell;
   cell *cell; /* [ncell] none twice the same coordinates */
@@ -86,6 +97,9 @@ corot_status study_read_axes(config *tree, const config_node *list, int nabove, 
 /* The keys of a map with their values, in the order of the keys. */
 corot_status study_read_settings(config *tree, const config_node *map, int *nset,
                                  const setting **set);
+
+/* measure, quantity, and the settings that ask for it, after `set`. */
+corot_status study_read_measures(study *s);
 
 /* Makes study.cell from study.grid. */
 corot_status study_make_cells(study *s);

@@ -48,7 +48,7 @@ static const schema_key keys[] = {
   {"tolerance",            SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  "[integrator.rtol, integrator.step]", 0, "the key that makes a run finer along a series; of several, the first that is varied"},
   {"group",                SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  0, 0, "the columns that tell series apart; default: all but the tolerance"},
   {"cost",                 CHOICE,        OPTIONAL, ANY,      "",  "cpu", "cpu|wall|steps|rhs|factorisations|solves", "by which runs are compared"},
-  {"measure",              CHOICE,        OPTIONAL, ANY,      "",  "displacement", "displacement|velocity|energy|mixed", "the error by which runs are compared"},
+  {"measure",              SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  "displacement", 0, "the error by which runs are compared: displacement, velocity, energy, mixed, or that of a quantity, such as max(corner.ux), as in quantities of a scenario; of several, by the first, and all runs are asked for all quantities"},
 };
 /* clang-format on */
 

@@ -41,7 +41,7 @@ static bool among(const char *word, size_t n, const char *const *list) {
 
 /* Whether a coordinate has the name of a column of ours. */
 static bool is_taken(const char *key) {
-  static const char *const prefix[] = {"cost.", "error.", "drift."};
+  static const char *const prefix[] = {"cost.", "error.", "drift.", "quantity."};
   for (size_t i = 0; i < COUNT(prefix); i++)
     if (strncasecmp(key, prefix[i], strlen(prefix[i])) == 0) return true;
   return among(key, COUNT(before), before) || among(key, COUNT(after), after) ||
@@ -75,11 +75,23 @@ static corot_status add_errors(flat *f, json_t *errors) {
   return COROT_OK;
 }
 
-static corot_status fill(flat *f, const json_t *columns, json_t *errors) {
+/* A table of an earlier version has no list of them. */
+static corot_status add_quantities(flat *f, const json_t *quantities) {
+  for (size_t i = 0; i < json_array_size(quantities); i++) {
+    const char *text = json_string_value(json_array_get(quantities, i));
+    if (!text) return corot_fail(COROT_EFORMAT, "table.json: not a table of a study");
+    COROT_TRY(add(f, "quantity", "quantity.", text));
+  }
+  return COROT_OK;
+}
+
+static corot_status fill(flat *f, const json_t *table, json_t *errors) {
+  const json_t *columns = json_object_get(table, "columns");
   COROT_TRY(add_all(f, NULL, "", COUNT(before), before));
   COROT_TRY(add_coordinates(f, columns));
   COROT_TRY(add_all(f, NULL, "", COUNT(after), after));
   COROT_TRY(add_all(f, "cost", "cost.", COUNT(costs), costs));
+  COROT_TRY(add_quantities(f, json_object_get(table, "quantities")));
   COROT_TRY(add_errors(f, errors));
   COROT_TRY(add_all(f, "drift", "drift.", COUNT(drifts), drifts));
   return add_all(f, NULL, "", COUNT(last), last);
@@ -91,11 +103,12 @@ corot_status flat_make(const json_t *table, flat *out) {
   if (!json_is_array(columns) || !json_is_array(cells))
     return corot_fail(COROT_EFORMAT, "table.json: not a table of a study");
   json_t *errors = richest_errors(cells);
-  size_t n = json_array_size(columns) + json_object_size(errors) + COUNT(before) + COUNT(after) +
-             COUNT(costs) + COUNT(drifts) + COUNT(last);
+  size_t n = json_array_size(columns) + json_array_size(json_object_get(table, "quantities")) +
+             json_object_size(errors) + COUNT(before) + COUNT(after) + COUNT(costs) +
+             COUNT(drifts) + COUNT(last);
   flat f = {.column = calloc(n, sizeof *f.column)};
   if (!f.column) return corot_fail(COROT_ENOMEM, "out of memory");
-  corot_status status = fill(&f, columns, errors);
+  corot_status status = fill(&f, table, errors);
   if (status == COROT_OK)
     *out = f;
   else

@@ -45,6 +45,7 @@ static bool is_unrated(const json_t *cell, const char *name) {
 static void write_cell(const json_t *cell, const column *c, char text[CELL]) {
   const json_t *value = value_of(cell, c);
   bool error = c->group && strcmp(c->group, "error") == 0;
+  bool quantity = c->group && strcmp(c->group, "quantity") == 0;
   bool doubtful = error && is_unrated(cell, c->key);
   if (json_is_string(value))
     escape_line_cut(json_string_value(value), CELL, text);
@@ -54,6 +55,7 @@ static void write_cell(const json_t *cell, const column *c, char text[CELL]) {
     snprintf(text, CELL,
              doubtful   ? "(%.1e)"
              : error    ? "%.2e"
+             : quantity ? "%.6g"
              : c->group ? "%.4g"
                         : "%.2f",
              json_real_value(value));
@@ -79,6 +81,7 @@ static void lay_out(const json_t *table, layout *l) {
   static const char *const errors[] = {"displacement", "velocity", "energy"};
   const json_t *columns = json_object_get(table, "columns");
   const json_t *cells = json_object_get(table, "cells");
+  const json_t *quantities = json_object_get(table, "quantities");
   /* the columns */
   for (size_t i = 0; i < json_array_size(columns); i++) {
     const char *key = json_string_value(json_array_get(columns, i));
@@ -93,6 +96,12 @@ static void lay_out(const json_t *table, layout *l) {
   for (size_t i = 0; i < sizeof errors / sizeof *errors; i++)
     add(l, errors[i], "error", errors[i], true);
   add(l, "digits", NULL, "digits", true);
+  for (size_t i = 0; i < json_array_size(quantities); i++) {
+    const char *text = json_string_value(json_array_get(quantities, i));
+    if (!text) continue;
+    add(l, text, "quantity", text, true);
+    add(l, "error", "error", text, true);
+  }
 
   /* each as wide as its widest cell */
   char text[CELL];
@@ -150,16 +159,18 @@ static void print_space(const json_t *list, FILE *out) {
   if (json_array_size(list) > 0) fputs("\nspace, by references of neighbouring levels\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *s = json_array_get(list, i);
-    fprintf(out, "  mesh.refine %.0f, reference %.0f: %s\n", number_at(s, "refine"),
-            number_at(s, "reference"), text_at(s, "verdict"));
+    bool quantity = strpbrk(text_at(s, "measure"), "(@") != NULL;
+    fprintf(out, "  mesh.refine %.0f, reference %.0f%s%s: %s\n", number_at(s, "refine"),
+            number_at(s, "reference"), quantity ? ", " : "", quantity ? text_at(s, "measure") : "",
+            text_at(s, "verdict"));
   }
 }
 
 static void print_fits(const json_t *list, FILE *out) {
-  if (json_array_size(list) > 0) fputs("\nerror = constant * tolerance^exponent\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *f = json_array_get(list, i);
-    fputs("  ", out);
+    bool measure = json_is_string(json_object_get(f, "measure"));
+    fprintf(out, "  %s%s", measure ? text_at(f, "measure") : "", measure ? ", " : "");
     escape_line(text_at(f, "series"), out);
     fputs(": ", out);
     if (json_is_number(json_object_get(f, "exponent")))
@@ -212,7 +223,10 @@ corot_status table_print(const json_t *table, FILE *out) {
     fprintf(out, "\n%s\n", text_at(table, "mixed"));
   COROT_TRY(print_references(json_object_get(table, "references"), out));
   print_space(json_object_get(table, "space"), out);
+  if (json_array_size(json_object_get(table, "fits")) > 0)
+    fputs("\nerror = constant * tolerance^exponent\n", out);
   print_fits(json_object_get(table, "fits"), out);
+  print_fits(json_object_get(table, "quantity_fits"), out);
   print_rankings(table, out);
   return COROT_OK;
 }

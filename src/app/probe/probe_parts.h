@@ -1,0 +1,44 @@
+/* Inside of probes: one of them, on its part of the mesh. */
+#ifndef COROT_APP_PROBE_PROBE_PARTS_H
+#define COROT_APP_PROBE_PROBE_PARTS_H
+
+#include "probe_fields.h"
+
+/* Where a quantity is looked at: rows of a field, by their numbers. */
+typedef struct samples {
+  int n;
+  const int *row;      /* [n] nodes, or tets; NULL: 0, 1, ... */
+  int per;             /* rows that follow one another of each: points of a tet */
+  double *weight;      /* [n] NULL: the same for all; */
+  bool by_volume;      /* or the volume of each tet */
+  const double *value; /* the first row; of nodes that of the moment */
+  int stride;
+  /* places in tets that are looked at by themselves */
+  corot_points *points; /* or NULL */
+  corot_point_fields at;
+  corot_location *place; /* [n] */
+} samples;
+
+typedef struct probe {
+  const probe_def *def;
+  const probe_quantity *quantity;
+  corot_location at; /* of a point or a node */
+  samples samples;   /* of a point or a node, too */
+  int first, n;      /* columns */
+  probe_where where[6];
+} probe;
+
+/* The samples of a probe, whose location is known. COROT_ENOMEM. */
+corot_status samples_create(const corot_model *model, probe *p, probe_fields *f);
+void samples_clear(samples *s);
+
+/* The row and, of several at a tet, the place of sample i. */
+probe_where samples_where(const probe *p, const corot_mesh *mesh, int i);
+
+/* What of the fields the probe needs. */
+unsigned probe_needs(const probe_def *p);
+
+/* value [p->n] of the moment whose fields were found; sets p->where. */
+corot_status probe_value(probe *p, const probe_fields *f, const probe_moment *now, double *value);
+
+#endif

@@ -1,0 +1,81 @@
+/* The table of what can be probed. */
+#include "probe_quantity.h"
+
+#include <stddef.h>
+
+const char *const probe_takes[] = {"", "mean", "sum", "max", "min", NULL};
+const char *const probe_parts[] = {"total", "internal", "viscous", "inertial", "load", NULL};
+const char *const probe_components[] = {"",   "x",  "y",  "z", "magnitude", "xx", "yy", "zz",
+                                        "xy", "yz", "zx", "1", "2",         "3",  NULL};
+
+#define ENERGY(name) \
+  { name, OF_BODY, 1, {"value"}, .unit = "J" }
+
+const probe_quantity probe_quantities[NPROBE_OF] = {
+    [PROBE_DISPLACEMENT] = {"displacement",
+                            OF_NODES,
+                            3,
+                            {"ux", "uy", "uz"},
+                            .unit = "m",
+                            .component = COMPONENT_VECTOR,
+                            .length = "u"},
+    [PROBE_VELOCITY] = {"velocity",
+                        OF_NODES,
+                        3,
+                        {"vx", "vy", "vz"},
+                        .unit = "m/s",
+                        .component = COMPONENT_VECTOR,
+                        .length = "v"},
+    [PROBE_ACCELERATION] = {"acceleration",
+                            OF_NODES,
+                            3,
+                            {"ax", "ay", "az"},
+                            .unit = "m/s^2",
+                            .component = COMPONENT_VECTOR,
+                            .length = "a"},
+    [PROBE_REACTION] = {"reaction",
+                        SUM_OVER_NODES,
+                        6,
+                        {"fx", "fy", "fz", "mx", "my", "mz"},
+                        .unit = "N",
+                        .moment_unit = "N m",
+                        .about = true},
+    [PROBE_FORCE] = {"force",
+                     SUM_OVER_NODES,
+                     6,
+                     {"fx", "fy", "fz", "mx", "my", "mz"},
+                     .unit = "N",
+                     .moment_unit = "N m",
+                     .about = true},
+    [PROBE_STRESS] = {"stress",
+                      OF_TETS,
+                      6,
+                      {"xx", "yy", "zz", "xy", "yz", "zx"},
+                      .unit = "Pa",
+                      .component = COMPONENT_TENSOR},
+    [PROBE_PRINCIPAL] =
+        {"principal", OF_TETS, 3, {"p1", "p2", "p3"}, .unit = "Pa", .component = COMPONENT_VALUE},
+    [PROBE_VON_MISES] = {"von_mises", OF_TETS, 1, {"value"}, .unit = "Pa"},
+    [PROBE_STRAIN] = {"strain",
+                      OF_TETS,
+                      6,
+                      {"xx", "yy", "zz", "xy", "yz", "zx"},
+                      .unit = "",
+                      .component = COMPONENT_TENSOR},
+    [PROBE_FRAME_ANGLE] = {"frame_angle", OF_TETS, 1, {"value"}, .unit = "rad"},
+    [PROBE_DET] = {"det", OF_TETS, 1, {"value"}, .unit = ""},
+    [PROBE_VOLUME] = {"volume", SUM_OVER_TETS, 1, {"value"}, .unit = "m^3"},
+    [PROBE_MOMENTUM] = {"momentum", SUM_OVER_NODES, 3, {"px", "py", "pz"}, .unit = "kg m/s"},
+    [PROBE_ANGULAR_MOMENTUM] = {"angular_momentum",
+                                SUM_OVER_NODES,
+                                3,
+                                {"lx", "ly", "lz"},
+                                .unit = "kg m^2/s",
+                                .about = true},
+    [PROBE_ELASTIC] = {"elastic", SUM_OVER_TETS, 1, {"value"}, .unit = "J"},
+    [PROBE_KINETIC] = {"kinetic", SUM_OVER_NODES, 1, {"value"}, .unit = "J"},
+    [PROBE_DISSIPATED] = ENERGY("dissipated"),
+    [PROBE_EXTERNAL_WORK] = ENERGY("external_work"),
+    [PROBE_BALANCE] = ENERGY("balance"),
+    [PROBE_FRAME_ENERGY] = ENERGY("frame_energy"),
+};
