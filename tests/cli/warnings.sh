@@ -105,7 +105,10 @@ expect 0 check blocks.yaml; out "nothing holds the part of the body with node 8 
 out "it can move along x, y and z and turn about x, y and z"
 
 has probe check pull.yaml --set 'probes.corner.point=[0.1, 0.1, 0.6]'
-lacks probe check pull.yaml --set 'probes.corner.point=[0.1, 0.1, 0.42]'
+has probe check pull.yaml --set 'probes.corner.point=[0.1, 0.1, 0.42]'
+lacks probe check pull.yaml --set 'probes.corner.point=[0.1, 0.1, 0.4000001]'
+has probe check pull.yaml --set 'probes.corner={point: [0.1, 0.1, 0.6], nearest: true}'
+lacks probe check pull.yaml --set 'probes.corner={point: [0.1, 0.1, 0.42], nearest: true}'
 lacks probe check pull.yaml --set 'probes.corner.point=[0.05, 0.05, 0.35]' # the middle of a cell
 lacks probe check pull.yaml --set 'probes.corner={node: 3}'
 
