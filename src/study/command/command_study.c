@@ -217,6 +217,7 @@ static int run_study(const char *path, arguments *a) {
 
 static int command_study_run(int argc, char **argv) {
   arguments a = {.o = execute_defaults()};
+  a.o.pilot = true;
   int code = -1;
   opterr = 0;
   for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":o:j:qh", options, NULL)) != -1;)

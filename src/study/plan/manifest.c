@@ -44,6 +44,9 @@ static corot_status read_run(const json_t *entry, const char *where, study_run *
   run->hash = text_of(entry, "hash");
   if (!run->id || strlen(run->id) != 16 || strspn(run->id, "0123456789abcdef") != 16 || !run->hash)
     return malformed(where, "a run without its identity");
+  const json_t *end = json_object_get(entry, "t_end"), *work = json_object_get(entry, "work");
+  run->t_end = json_is_number(end) ? json_number_value(end) : NAN;
+  run->work = json_is_number(work) && json_number_value(work) > 0 ? json_number_value(work) : 1;
   return read_texts(json_object_get(entry, "set"), where, "runs", &run->nset, &run->set);
 }
 

@@ -17,7 +17,7 @@ typedef struct planner {
   json_t *runs, *cells, *references; /* lists in the making */
   json_t *run_at;                    /* hash -> index */
   json_t *reference_at;              /* settings of the first run -> index */
-  json_t *mesh_at;                   /* mesh and groups as scenarios say -> digest of the mesh */
+  json_t *mesh_at;                   /* mesh and groups as scenarios say -> [digest, tets] */
   double tightest;                   /* rtol of the cells */
   setting quiet, binary;             /* no fields, but states */
 } planner;
@@ -36,28 +36,50 @@ static corot_status make_setting(config *tree, const char *key, const char *text
 
 /* --- Runs --- */
 
-static corot_status mesh_digest(planner *p, const scenario *s, char digest[HASH_SIZE]) {
+/* What is known of the mesh of a scenario. */
+typedef struct mesh_facts {
+  char digest[HASH_SIZE];
+  double tets; /* a tet of ten nodes is six */
+} mesh_facts;
+
+static corot_status look_at_mesh(planner *p, const scenario *s, const char *said,
+                                 mesh_facts *facts) {
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL; /* built once, for what may be wrong with it */
+  corot_status status = scenario_build(s, &mesh, NULL, &model);
+  if (status == COROT_OK) {
+    hash_mesh(mesh, facts->digest);
+    facts->tets = mesh->ntet * (corot_mesh_order(mesh) == 2 ? 6.0 : 1.0);
+    json_t *entry = json_pack("[s, f]", facts->digest, facts->tets);
+    if (json_object_set_new(p->mesh_at, said, entry)) status = no_memory();
+  }
+  corot_model_destroy(model);
+  corot_mesh_destroy(mesh);
+  return status;
+}
+
+static corot_status find_mesh(planner *p, const scenario *s, mesh_facts *facts) {
   json_t *said = json_pack("{s:O, s:O}", "mesh", json_object_get(s->resolved, "mesh"), "groups",
                            json_object_get(s->resolved, "groups"));
   char *text = json_text_dump_plain(said, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   json_decref(said);
   if (!text) return no_memory();
-  const char *known = json_string_value(json_object_get(p->mesh_at, text));
+  const json_t *known = json_object_get(p->mesh_at, text);
   corot_status status = COROT_OK;
   if (known) {
-    memcpy(digest, known, HASH_SIZE);
+    memcpy(facts->digest, json_string_value(json_array_get(known, 0)), HASH_SIZE);
+    facts->tets = json_real_value(json_array_get(known, 1));
   } else {
-    corot_mesh *mesh = NULL;
-    corot_model *model = NULL; /* built once, for what may be wrong with it */
-    status = scenario_build(s, &mesh, NULL, &model);
-    if (status == COROT_OK) hash_mesh(mesh, digest);
-    if (status == COROT_OK && json_object_set_new(p->mesh_at, text, json_string(digest)))
-      status = no_memory();
-    corot_model_destroy(model);
-    corot_mesh_destroy(mesh);
+    status = look_at_mesh(p, s, text, facts);
   }
   free(text);
   return status;
+}
+
+static double guess_work(const planner *p, const scenario *s, double tets) {
+  const corot_integrator_def *d = &s->integrator;
+  if (p->study->still) return tets;
+  return tets * s->t_end / (d->step > 0 ? d->step : cbrt(d->rtol));
 }
 
 /* "KEY=VALUE" for each setting. */
@@ -80,16 +102,18 @@ static json_t *assignments(config *tree, int nset, const setting *set) {
 static corot_status find_run(planner *p, const scenario *s, int nset, const setting *set,
                              json_int_t *index) {
   hashes h;
-  char digest[HASH_SIZE], id[17];
-  COROT_TRY(mesh_digest(p, s, digest));
-  COROT_TRY(hashes_with(s->resolved, digest, &h));
+  mesh_facts mesh;
+  char id[17];
+  COROT_TRY(find_mesh(p, s, &mesh));
+  COROT_TRY(hashes_with(s->resolved, mesh.digest, &h));
   if (p->study->still) hashes_static(&h);
   const json_t *known = json_object_get(p->run_at, h.run);
   *index = known ? json_integer_value(known) : (json_int_t)json_array_size(p->runs);
   if (known) return COROT_OK;
   snprintf(id, sizeof id, "%.16s", h.run);
-  json_t *run = json_pack("{s:s, s:s, s:o}", "id", id, "hash", h.run, "set",
-                          assignments(p->study->tree, nset, set));
+  json_t *run = json_pack("{s:s, s:s, s:o, s:f, s:f}", "id", id, "hash", h.run, "set",
+                          assignments(p->study->tree, nset, set), "t_end", s->t_end, "work",
+                          guess_work(p, s, mesh.tets));
   if (json_array_append_new(p->runs, run) ||
       json_object_set_new(p->run_at, h.run, json_integer(*index)))
     return no_memory();
