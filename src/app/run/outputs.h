@@ -6,6 +6,7 @@
 #include "app/folder/write_csv.h"
 #include "app/scenario/scenario.h"
 #include "history.h"
+#include "thin.h"
 
 typedef struct outputs outputs;
 
@@ -40,8 +41,9 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
    first instant was written, and before later ones up to this are. */
 corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e);
 
-/* Adds a row to steps.csv. */
+/* Adds a row to steps.csv, if the step has one (thin.h); and what it has, once it is closed. */
 corot_status outputs_step(outputs *o, const step_row *row);
+steps_count outputs_steps(const outputs *o);
 
 /* The name of each file, i = 0, 1, ...; NULL beyond the last. */
 const char *outputs_file(int i);

@@ -5,6 +5,7 @@
 
 #include "app/folder/write_csv.h"
 #include "app/scenario/scenario.h"
+#include "thin.h"
 
 /* What is known before the first moment. It outlives the writers, but for `dir`. */
 typedef struct writer_source {
@@ -13,6 +14,7 @@ typedef struct writer_source {
   const corot_model *model;
   const int *node;         /* [scenario->nprobe] of the probes */
   struct history *history; /* which writes history.csv by itself */
+  steps_count *steps;      /* of steps.csv, kept up to date until that is closed */
 } writer_source;
 
 /* A moment that is written. */

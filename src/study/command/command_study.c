@@ -28,7 +28,10 @@ static const char help[] =
     "varied\n"
     "along axes, and against references. Each run is a process with a folder of its own. A study\n"
     "that was stopped or killed goes on where it was; runs that are done are not repeated. What\n"
-    "they say together is in table.json, table.csv and report.html, a page to look at.\n"
+    "they say together is in table.json, table.csv and report.html, a page to look at; the tables\n"
+    "are there, of what is done, while a study goes on. DIR/names has a link to each run by what\n"
+    "it sets. Cells run first, the cheapest alone, which tells how long it will all take;\n"
+    "references follow. Where stderr is no terminal a line every half minute says how far it is.\n"
     "\n"
     "  -o, --output DIR    the study's folder, made if need be; default: out/STUDY in this folder\n"
     "  -j, --jobs N        so many runs at once; default: one a processor\n"
@@ -41,7 +44,8 @@ static const char help[] =
     "                      study.json, table.json, table.csv, index.sqlite, report.html\n"
     "  -q, --quiet         nothing on stderr but errors\n"
     "\n"
-    "  status DIR          how far a study is, by the files' sizes, not by what is in them\n"
+    "  status DIR          how far a study and each run that is going on is, by the sizes of "
+    "files\n"
     "  collect DIR         table.json, table.csv and index.sqlite anew, from the folders of the "
     "runs;\n"
     "                      exit code 1: files of runs are not as the runs have left them\n"
@@ -162,6 +166,11 @@ static int conclude(const execute_options *o, const execute_totals *t, int signa
   return t->nfailed > 0 ? EXIT_CHECK : EXIT_OK;
 }
 
+typedef struct partial {
+  const manifest *m;
+  const char *dir;
+} partial;
+
 /* Runs of another version are other runs: they stay where they are, and are not used. */
 static void tell_version(const char *dir) {
   manifest *before = NULL;
@@ -172,7 +181,16 @@ static void tell_version(const char *dir) {
   manifest_destroy(before);
 }
 
-static int execute_here(const manifest *m, const execute_options *o) {
+/* Tables of the runs that are done so far, for whoever looks; what goes wrong here goes wrong at
+   the end, too. */
+static void write_partial(void *context) {
+  const partial *p = context;
+  int ndamaged;
+  (void)write_tables(p->m, p->dir, true, NULL, &ndamaged);
+}
+
+static int execute_here(const manifest *m, execute_options *o) {
+  partial so_far = {m, o->dir};
   store_lock lock;
   execute_totals totals;
   int signal_number;
@@ -180,6 +198,7 @@ static int execute_here(const manifest *m, const execute_options *o) {
   corot_status status = store_enter(o->dir, m, o->shard, o->nshard, o->force, &lock);
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
+  if (o->nshard == 1) o->tick = write_partial, o->context = &so_far;
   status = execute_study(m, o, &totals, &signal_number);
   if (status == COROT_OK) status = store_check(o->dir, lock);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
