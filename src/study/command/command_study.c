@@ -11,6 +11,7 @@
 #include "app/text/escape.h"
 #include "app/text/say.h"
 #include "command_folder.h"
+#include "reference_methods.h"
 #include "study/execute/execute.h"
 #include "study/execute/pool.h"
 #include "study/execute/store.h"
@@ -189,8 +190,21 @@ static void write_partial(void *context) {
   (void)write_tables(p->m, p->dir, true, NULL, &ndamaged);
 }
 
-static int execute_here(const manifest *m, execute_options *o) {
-  partial so_far = {m, o->dir};
+/* In a folder that is ours. */
+static corot_status execute_in(study *s, execute_options *o, manifest **m, execute_totals *totals,
+                               int *signal_number) {
+  COROT_TRY(reference_methods_choose(s, o, m, signal_number));
+  if (*signal_number) {
+    *totals = (execute_totals){.nrun = (*m)->nrun};
+    return COROT_OK;
+  }
+  partial so_far = {*m, o->dir};
+  if (o->nshard == 1) o->tick = write_partial, o->context = &so_far;
+  return execute_study(*m, o, totals, signal_number);
+}
+
+static int execute_here(study *s, manifest **plan, execute_options *o) {
+  const manifest *m = *plan;
   store_lock lock;
   execute_totals totals;
   int signal_number;
@@ -198,8 +212,8 @@ static int execute_here(const manifest *m, execute_options *o) {
   corot_status status = store_enter(o->dir, m, o->shard, o->nshard, o->force, &lock);
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
-  if (o->nshard == 1) o->tick = write_partial, o->context = &so_far;
-  status = execute_study(m, o, &totals, &signal_number);
+  status = execute_in(s, o, plan, &totals, &signal_number);
+  m = *plan;
   if (status == COROT_OK) status = store_check(o->dir, lock);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
@@ -218,16 +232,17 @@ static int run_study(const char *path, arguments *a) {
   manifest *m = NULL;
   corot_status status = study_read(path, &s);
   status = read_failure(status, path);
-  if (status == COROT_OK) status = plan_study(s, &m);
   char *folder = status == COROT_OK && !a->o.dir ? folder_path("out", s->name) : NULL;
   if (folder) a->o.dir = folder;
+  if (status == COROT_OK && a->o.dir) reference_methods_recall(s, a->o.dir);
+  if (status == COROT_OK) status = plan_study(s, &m);
   int code;
   if (status != COROT_OK || !a->o.dir)
     code = failure(status);
   else if (a->dry)
     code = (status = execute_dry(m, &a->o, stdout)) == COROT_OK ? EXIT_OK : failure(status);
   else
-    code = execute_here(m, &a->o);
+    code = execute_here(s, &m, &a->o);
   free(folder);
   manifest_destroy(m);
   study_destroy(s);

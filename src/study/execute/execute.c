@@ -11,6 +11,7 @@
 #include "execute_one.h"
 #include "execute_timed.h"
 #include "names.h"
+#include "pilot.h"
 #include "pool.h"
 
 execute_options execute_defaults(void) {
@@ -91,26 +92,16 @@ static corot_status start(execution *e, int i) {
   return COROT_OK;
 }
 
-/* "0.31 s", "2:05 min", "3:10 h". */
-static void describe_time(double s, size_t size, char *text) {
-  if (s < 60)
-    snprintf(text, size, "%.2g s", s);
-  else if (s < 3600)
-    snprintf(text, size, "%.0f:%02.0f min", floor(s / 60), floor(fmod(s, 60)));
-  else
-    snprintf(text, size, "%.0f:%02.0f h", floor(s / 3600), floor(fmod(s / 60, 60)));
-}
-
 static void tell_estimate(const execution *e, const task *pilot) {
   double unit = e->tally[1].wall / e->tally[1].work, reference = e->o->reference_unit;
   double cells = unit * e->tally[1].waiting;
   double others = (reference > 0 ? reference : unit) * e->tally[0].waiting;
   char name[RUN_NAME], time[4][32];
   run_name(e->m, (int)(pilot->run - e->m->run), name);
-  describe_time(e->tally[1].wall, sizeof time[0], time[0]);
-  describe_time(cells, sizeof time[1], time[1]);
-  describe_time(others, sizeof time[2], time[2]);
-  describe_time(execution_left(e), sizeof time[3], time[3]);
+  describe_duration(e->tally[1].wall, sizeof time[0], time[0]);
+  describe_duration(cells, sizeof time[1], time[1]);
+  describe_duration(others, sizeof time[2], time[2]);
+  describe_duration(execution_left(e), sizeof time[3], time[3]);
   execution_clear(e);
   fprintf(stderr, "pilot: %s took %s; the other cells are about %s of work", name, time[0],
           time[1]);

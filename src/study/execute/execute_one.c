@@ -27,11 +27,12 @@ static double unit_of(const execution *e, bool is_cell) {
   return other->work > 0 ? other->wall / other->work : NAN;
 }
 
-/* By how far it has come or, at its beginning, by its work. */
+/* By how far it has come or, as long as that cannot be seen, by its work; NaN: that was too low. */
 static double left_of_run(const execution *e, const task *t) {
   double reached = run_reached(e->o->dir, t->run), since = wall_clock() - t->started;
   if (reached > 0.02) return since * (1 - reached) / reached;
-  return fmax(0, unit_of(e, t->is_cell) * t->run->work - since);
+  double left = unit_of(e, t->is_cell) * t->run->work - since;
+  return left > 0 ? left : NAN;
 }
 
 double execution_left(const execution *e) {
@@ -40,10 +41,10 @@ double execution_left(const execution *e) {
     if (e->tally[kind].waiting > 0) sum += unit_of(e, kind == 1) * e->tally[kind].waiting;
   for (int i = 0; i < e->nrunning; i++) {
     double left = left_of_run(e, &e->task[e->running[i]]);
-    sum += left;
+    sum += left; /* NaN stays */
     longest = fmax(longest, left);
   }
-  return fmax(sum / e->o->njob, longest);
+  return sum / e->o->njob > longest ? sum / e->o->njob : sum == sum ? longest : NAN;
 }
 
 /* --- Progress --- */
@@ -112,7 +113,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
   if (status == COROT_OK) {
     int n = 0;
     argv[n++] = "corot";
-    argv[n++] = e->o->command ? e->o->command : "run";
+    argv[n++] = e->m->still ? "static" : "run";
     argv[n++] = e->m->base;
     argv[n++] = "--quiet";
     argv[n++] = "--force"; /* the folder is the study's, whatever an earlier attempt has left */

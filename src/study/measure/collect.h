@@ -4,12 +4,14 @@
      title, cost, measure   as in the study file; corot: the version that made the runs
      builds      of the runs that are done, the build of most runs first (builds.h)
      mixed       a sentence where there are several: which runs are of which; null: there are not
+     static      true: of equilibria, as of corot static
      columns     names of the cells' coordinates
      series      names, in alphabetical order
      shared      a sentence: what errors are of, and what the runs have in common with their
                  references, so that no error says anything of it
      cells       by series, each from coarse to fine:
-       id, series, settings {column: value}, tolerance, tolerance_key
+       id, series, settings {column: value}, tolerance, tolerance_key; of
+                  mesh.refine the tolerance is 2^-refine
        status      done | failed | missing;  reason: of a failure, or why it was lost
        cost        cpu, cpu_min, cpu_max, wall, wall_min, wall_max [s]: median and extremes of
                    `repeats` timed repetitions, or of the one run if that is 0;
@@ -25,13 +27,12 @@
        warnings    the codes of what the run warns of, each once: a list (app/scenario/warnings.h)
      references  {runs: [two ids], methods, rtol, settings, status, reason, agree, parts_at [s],
                   floor: error of the one against the other, digits, note}
-     space       of the meshes, where mesh.refine is varied: by references of neighbouring levels,
-                 {reference, refine, levels, error, bound, low, high, floor, order, verdict} as in
-                 a budget (budget.h)
-     fits        {series, tolerance_key, exponent, constant, residual, points, verdict} of the
-                 study's measure, over the points that are rated
-     rankings    {error, best: [{series, id, cost, tolerance}]}: for each power of ten the
-                 cheapest cell of each series that is at least so good, the cheapest series first
+     space       of the meshes, where mesh.refine is varied and each has its own references: by
+   references of neighbouring levels, {reference, refine, levels, error, bound, low, high, floor,
+   order, verdict} as in a budget (budget.h) fits        {series, tolerance_key, exponent, constant,
+   residual, points, verdict} of the study's measure, over the points that are rated rankings
+   {error, best: [{series, id, cost, tolerance}]}: for each power of ten the cheapest cell of each
+   series that is at least so good, the cheapest series first
 
    What is not known is null. */
 #ifndef COROT_STUDY_MEASURE_COLLECT_H

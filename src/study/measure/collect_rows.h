@@ -40,6 +40,8 @@ typedef struct table_rows {
   const table_reference *reference;
   int measure;
   const char *cost;
+  bool still; /* rows are of equilibria */
+  bool total; /* errors are those of the mesh, too: but for rows on their reference's mesh */
 } table_rows;
 
 #endif

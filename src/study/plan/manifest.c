@@ -88,6 +88,7 @@ static corot_status read_heads(manifest *m, const char *where) {
   m->identity = text_of(m->root, "identity");
   m->cost = text_of(m->root, "cost");
   m->measure = text_of(m->root, "measure");
+  m->still = json_is_true(json_object_get(m->root, "static"));
   m->repeat = (int)json_integer_value(json_object_get(m->root, "repeat"));
   if (!m->title || !m->name || !m->base || !m->version || !m->identity || !m->cost || !m->measure)
     return malformed(where, "one of its heads is missing");

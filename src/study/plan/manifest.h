@@ -39,6 +39,7 @@ typedef struct manifest {
   const char *identity;                      /* the same: the same study, be it extended */
   const char *cost, *measure;
   int repeat;
+  bool still; /* runs are searches for equilibria */
   int ncolumn;
   const char **column; /* [ncolumn] of the cells, in alphabetical order */
   int nrun, ncell, nreference;
