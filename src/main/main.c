@@ -12,6 +12,7 @@
 #include "app/command/cli.h"
 #include "report/command/commands.h"
 #include "study/command/command_study.h"
+#include "study/execute/template.h"
 
 #include "crash.h"
 
@@ -105,6 +106,7 @@ int main(int argc, char **argv) {
   crash_watch();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
   signal(SIGXFSZ, SIG_IGN); /* so is a file that may not grow further */
+  template_serve(&argc, &argv);
   int code = dispatch("corot", help, table, argc, argv);
   if (fflush(stdout) != 0 || ferror(stdout)) {
     fprintf(stderr, "corot: standard output: %s\n", strerror(errno));

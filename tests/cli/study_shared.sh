@@ -35,7 +35,7 @@ cat >mixed.yaml <<'YAML'
 study: references by green
 base: model.yaml
 set: {time.end: 0.02, integrator.rtol: 1e-3}
-reference: {set: {strain: green}, rtol: 1e-6}
+reference: {set: {strain: green}, mesh: own, rtol: 1e-6}
 axes: [{key: strain, values: [polar, green]}, {key: mesh.refine, values: [0, 1, 2]}]
 YAML
 expect 0 study mixed.yaml -o mixed --quiet; no_err

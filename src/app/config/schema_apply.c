@@ -363,20 +363,37 @@ static corot_status apply_given(const application *a, config_node *map, const ch
   return COROT_OK;
 }
 
-static corot_status add_default(const application *a, config_node *map, const schema_key *key) {
+static corot_status parse_default(config *tree, const char *text, config_node **node) {
   static const config_source table = {.name = "default"};
-  config_source *source = config_alloc(a->tree, 1, sizeof *source);
+  config_source *source = config_alloc(tree, 1, sizeof *source);
   if (!source) return corot_fail(COROT_ENOMEM, "out of memory");
   *source = table;
-  source->text = key->fallback;
-  source->size = strlen(key->fallback);
-  config_node *node = NULL;
-  COROT_TRY(config_parse(a->tree, source, false, &node));
-  node->source = NULL;
-  for (config_node *c = node->child; c; c = c->next) c->source = NULL;
-  node->key = last_segment(key->path);
-  config_append(map, node);
-  return apply_value(a, node, key);
+  source->text = text;
+  source->size = strlen(text);
+  COROT_TRY(config_parse(tree, source, false, node));
+  (*node)->source = NULL;
+  for (config_node *c = (*node)->child; c; c = c->next) c->source = NULL;
+  return COROT_OK;
+}
+
+/* Numbers and words stand for themselves: most defaults need no parser. */
+static bool is_word(const char *text) {
+  static const char first[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  static const char rest[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-";
+  return *text && strchr(first, *text) && text[strspn(text, rest)] == '\0';
+}
+
+static corot_status add_default(const application *a, config_node *map, const schema_key *key) {
+  const char *name = last_segment(key->path);
+  if (is_word(key->fallback)) {
+    COROT_TRY(config_add_text(a->tree, map, name, key->fallback));
+  } else {
+    config_node *node = NULL;
+    COROT_TRY(parse_default(a->tree, key->fallback, &node));
+    node->key = name;
+    config_append(map, node);
+  }
+  return apply_value(a, map->last, key);
 }
 
 /* Exactly one, or at most one, of the keys marked so. */

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,6 +89,18 @@ corot_status folder_lock_stands(const char *dir, bool *stands) {
   free(path);
   if (status == COROT_OK) *stands = *owner;
   return status;
+}
+
+bool folder_lock_is_alive(const char *dir) {
+  char *path = folder_path(dir, FOLDER_LOCK_NAME), owner[OWNER] = "", host[256] = "",
+       name[257] = "";
+  long pid = 0;
+  bool known = path && look(path, owner) == COROT_OK &&
+               sscanf(owner, OWNER_WORD "%ld on %256s", &pid, name) >= 1 && pid > 0;
+  free(path);
+  gethostname(host, sizeof host - 1);
+  if (known && strcmp(host, name) == 0) return kill((pid_t)pid, 0) == 0 || errno == EPERM;
+  return known;
 }
 
 corot_status folder_enter(const char *dir, folder_lock *lock) {

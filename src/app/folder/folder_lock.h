@@ -25,6 +25,10 @@ void folder_leave(folder_lock *lock);
 /* Whether a run has left its lock there, or holds it. */
 corot_status folder_lock_stands(const char *dir, bool *stands);
 
+/* Whether the process that holds it, by what it has written there, lives: one of another machine is
+   taken to. Takes no lock. */
+bool folder_lock_is_alive(const char *dir);
+
 /* The name of its file in a folder; and the lock itself: a descriptor, or -1 with errno, which is
    EWOULDBLOCK where another process holds it. Safe in a handler of signals. */
 #define FOLDER_LOCK_NAME ".lock-run"

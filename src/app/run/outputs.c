@@ -32,6 +32,7 @@ struct outputs {
   ledger ledger;         /* of the last moment */
   history *history;
   quantities *quantities;
+  steps_count steps;
   observed seen;          /* all but its history and its jumps */
   double energy_at_start; /* [J] */
   long count;             /* moments written */
@@ -76,7 +77,8 @@ static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
                                 .scenario = o->scenario,
                                 .model = o->model,
                                 .probes = o->probes,
-                                .history = o->history};
+                                .history = o->history,
+                                .steps = &o->steps};
   for (int i = 0; i < NWRITER; i++) {
     const writer_ops *ops = writers[i];
     if (ops->use != use) continue;
@@ -261,6 +263,8 @@ json_t *outputs_reactions(const outputs *o) {
     if (writers[i] == &reactions_writer && o->writer[i]) return reactions_last(o->writer[i]);
   return NULL;
 }
+
+steps_count outputs_steps(const outputs *o) { return o->steps; }
 
 long outputs_count(const outputs *o) { return o->count; }
 

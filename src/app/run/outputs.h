@@ -5,6 +5,7 @@
 
 #include "app/scenario/warnings.h"
 #include "history.h"
+#include "thin.h"
 
 typedef struct outputs outputs;
 
@@ -38,8 +39,9 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
 corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
                              const corot_energies *e);
 
-/* Adds a row to steps.csv. */
+/* Adds a row to steps.csv, if the step has one (thin.h); and what it has, once it is closed. */
 corot_status outputs_step(outputs *o, const step_row *row);
+steps_count outputs_steps(const outputs *o);
 
 /* The name of each file, i = 0, 1, ...; NULL beyond the last. */
 const char *outputs_file(int i);

@@ -132,6 +132,13 @@ static json_t *observed_part(const run_summary *run) {
                    json_text_real(o->turned.turned), "stress_jumps", json_text_real(o->jumps));
 }
 
+/* Who reads steps.csv must know whether each step is there. */
+static json_t *steps_part(const outputs *o) {
+  steps_count n = outputs_steps(o);
+  return json_pack("{s:o, s:o, s:s}", "steps", integer(n.steps), "rows", integer(n.rows), "kept",
+                   thin_rule(&n));
+}
+
 json_t *result_versions(void) {
   return json_pack("{s:s, s:s, s:s}", "corot", corot_version(), "sundials",
                    corot_sundials_version(), "compiler", provenance_compiler);
@@ -145,7 +152,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
   COROT_TRY(provenance_make(&provenance));
   json_t *result = json_pack(
       "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
-      "s:o, s:o,"
+      "s:o, s:o, s:o,"
       " s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
@@ -157,8 +164,9 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
       timings_part(run), "memory", memory_part(run), "probes", outputs_probes(o), "energy",
       energy_part(o), "quantities", outputs_quantities(o), "extremes", extremes_part(o), "observed",
-      observed_part(run), "versions", result_versions(), "provenance", provenance, "hashes",
-      "scenario", h->scenario, "mesh", h->mesh, "run", h->run, "scenario", s->resolved);
+      observed_part(run), "steps_csv", steps_part(o), "versions", result_versions(), "provenance",
+      provenance, "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run, "scenario",
+      s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
   return COROT_OK;

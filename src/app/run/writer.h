@@ -4,6 +4,7 @@
 #define COROT_APP_RUN_WRITER_H
 
 #include "app/probe/probe.h"
+#include "thin.h"
 
 /* What is known before the first moment. It outlives the writers, but for `dir`. */
 typedef struct writer_source {
@@ -12,6 +13,7 @@ typedef struct writer_source {
   const corot_model *model;
   const probes *probes;
   struct history *history; /* which writes history.csv by itself */
+  steps_count *steps;      /* of steps.csv, kept up to date until that is closed */
 } writer_source;
 
 /* A moment that is written. */

@@ -69,20 +69,54 @@ const writer_ops energy_writer = {
 
 /* --- steps.csv --- */
 
+typedef struct steps {
+  table *table;
+  steps_count *count;
+  step_row last;
+  bool waits; /* the last step has no row yet */
+} steps;
+
 static corot_status open_steps(const writer_source *source, void **writer) {
-  table *t = NULL;
-  COROT_TRY(steps_open(source->dir, &t));
-  *writer = t;
+  steps *s = calloc(1, sizeof *s);
+  if (!s) return corot_fail(COROT_ENOMEM, "the steps: out of memory");
+  corot_status status = steps_open(source->dir, &s->table);
+  if (status != COROT_OK) {
+    free(s);
+    return status;
+  }
+  s->count = source->steps;
+  *s->count = (steps_count){.all = source->scenario->write_all_steps};
+  *writer = s;
   return COROT_OK;
 }
 
-static corot_status write_step(void *writer, const step_row *row) { return steps_add(writer, row); }
+static corot_status write_step(void *writer, const step_row *row) {
+  steps *s = writer;
+  s->last = *row;
+  long number = ++s->count->steps;
+  s->waits = !s->count->all && !thin_keeps(number, row->events);
+  if (s->waits) return COROT_OK;
+  s->count->rows++;
+  return steps_add(s->table, row);
+}
+
+static corot_status close_steps(void *writer) {
+  steps *s = writer;
+  corot_status status = COROT_OK;
+  if (s->waits) {
+    s->count->rows++;
+    status = steps_add(s->table, &s->last);
+  }
+  corot_status closed = table_close(s->table);
+  free(s);
+  return status == COROT_OK ? closed : status;
+}
 
 const writer_ops steps_writer = {
     .file = "steps.csv",
     .open = open_steps,
     .step = write_step,
-    .close = close_table,
+    .close = close_steps,
 };
 
 /* --- history.csv: by the history itself, at the end of each step --- */

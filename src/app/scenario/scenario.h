@@ -92,10 +92,11 @@ typedef struct scenario {
   int nquantity;
   const quantity_def *quantity; /* [nquantity] */
 
-  bool write_fields;  /* output.fields: vtu */
-  int field_every;    /* every so many output times */
-  bool write_history; /* output.history: true */
-  bool write_states;  /* output.states: binary */
+  bool write_fields;    /* output.fields: vtu */
+  int field_every;      /* every so many output times */
+  bool write_history;   /* output.history: true */
+  bool write_all_steps; /* output.steps: all */
+  bool write_states;    /* output.states: binary */
 
   json_t *resolved;      /* the whole scenario, defaults and overrides included */
   struct config *source; /* the file as a tree, for the places in messages; owns the memory */

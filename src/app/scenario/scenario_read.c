@@ -166,6 +166,7 @@ static void read_output(scenario *s) {
   s->title = text_at(root, "title");
   s->write_fields = text_is(root, "output.fields", "vtu");
   s->write_history = text_is(root, "output.history", "true");
+  s->write_all_steps = config_find(root, "output.steps") && text_is(root, "output.steps", "all");
   s->write_states = text_is(root, "output.states", "binary");
   s->field_every = (int)number_at(root, "output.every");
 }

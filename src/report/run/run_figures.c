@@ -6,6 +6,7 @@
 
 #include "columns.h"
 #include "report/page/figure.h"
+#include "report/read/lookup.h"
 
 static corot_status probe(const run_folder *run, const csv *table, int column, int number,
                           FILE *out) {
@@ -120,6 +121,10 @@ corot_status run_figures_steps(const run_folder *run, FILE *out) {
        true, false, FIGURE_POINTS},
   };
   if (run->steps.nrow == 0) return COROT_OK;
+  double steps = lookup_number(run->result, "steps_csv.steps");
+  if (steps > lookup_number(run->result, "steps_csv.rows"))
+    fprintf(out, "<p class=\"note\">Of %.0f steps, %d are shown: %s.</p>\n", steps, run->steps.nrow,
+            lookup_text(run->result, "steps_csv.kept"));
   for (size_t k = 0; k < sizeof figures / sizeof *figures; k++)
     COROT_TRY(step_chart(run, &figures[k], out));
   return COROT_OK;

@@ -257,7 +257,6 @@ static corot_status refine_again(budgeting *b, int nset, const char *const *set,
 corot_status budget_runs_make(budgeting *b, int nset, const char *const *set,
                               const execute_options *options, int *signal_number) {
   execute_options o = *options;
-  o.command = b->options->still ? "static" : "run";
   plan_runs(b);
   COROT_TRY(carry_out(b, nset, set, &o, signal_number));
   if (*signal_number) return COROT_OK;

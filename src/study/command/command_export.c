@@ -8,6 +8,7 @@
 #include "app/command/cli.h"
 #include "app/folder/folder.h"
 #include "command_folder.h"
+#include "reference_methods.h"
 #include "study/execute/store.h"
 #include "study/plan/plan.h"
 #include "study/tables/export.h"
@@ -73,8 +74,9 @@ static int export_study(const char *path, const char *dir, bool force, export_fo
   manifest *m = NULL;
   corot_status status = study_read(path, &s);
   status = read_failure(status, path);
-  if (status == COROT_OK) status = plan_study(s, &m);
   char *folder = status == COROT_OK && !dir ? folder_path("out", s->name) : NULL;
+  if (status == COROT_OK && (dir || folder)) reference_methods_recall(s, dir ? dir : folder);
+  if (status == COROT_OK) status = plan_study(s, &m);
   if (status == COROT_OK && !dir && !folder) status = COROT_ENOMEM;
   if (status == COROT_OK) status = write_runs(m, path, dir ? dir : folder, force, write);
   free(folder);

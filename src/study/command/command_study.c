@@ -11,6 +11,7 @@
 #include "app/text/escape.h"
 #include "app/text/say.h"
 #include "command_folder.h"
+#include "reference_methods.h"
 #include "study/execute/execute.h"
 #include "study/execute/pool.h"
 #include "study/execute/store.h"
@@ -28,7 +29,10 @@ static const char help[] =
     "varied\n"
     "along axes, and against references. Each run is a process with a folder of its own. A study\n"
     "that was stopped or killed goes on where it was; runs that are done are not repeated. What\n"
-    "they say together is in table.json, table.csv and report.html, a page to look at.\n"
+    "they say together is in table.json, table.csv and report.html, a page to look at; the tables\n"
+    "are there, of what is done, while a study goes on. DIR/names has a link to each run by what\n"
+    "it sets. Cells run first, the cheapest alone, which tells how long it will all take;\n"
+    "references follow. Where stderr is no terminal a line every half minute says how far it is.\n"
     "\n"
     "  -o, --output DIR    the study's folder, made if need be; default: out/STUDY in this folder\n"
     "  -j, --jobs N        so many runs at once; default: one a processor\n"
@@ -41,7 +45,8 @@ static const char help[] =
     "                      study.json, table.json, table.csv, index.sqlite, report.html\n"
     "  -q, --quiet         nothing on stderr but errors\n"
     "\n"
-    "  status DIR          how far a study is, by the files' sizes, not by what is in them\n"
+    "  status DIR          how far a study and each run that is going on is, by the sizes of "
+    "files\n"
     "  collect DIR         table.json, table.csv and index.sqlite anew, from the folders of the "
     "runs;\n"
     "                      exit code 1: files of runs are not as the runs have left them\n"
@@ -162,6 +167,11 @@ static int conclude(const execute_options *o, const execute_totals *t, int signa
   return t->nfailed > 0 ? EXIT_CHECK : EXIT_OK;
 }
 
+typedef struct partial {
+  const manifest *m;
+  const char *dir;
+} partial;
+
 /* Runs of another version are other runs: they stay where they are, and are not used. */
 static void tell_version(const char *dir) {
   manifest *before = NULL;
@@ -172,7 +182,29 @@ static void tell_version(const char *dir) {
   manifest_destroy(before);
 }
 
-static int execute_here(const manifest *m, const execute_options *o) {
+/* Tables of the runs that are done so far, for whoever looks; what goes wrong here goes wrong at
+   the end, too. */
+static void write_partial(void *context) {
+  const partial *p = context;
+  int ndamaged;
+  (void)write_tables(p->m, p->dir, true, NULL, &ndamaged);
+}
+
+/* In a folder that is ours. */
+static corot_status execute_in(study *s, execute_options *o, manifest **m, execute_totals *totals,
+                               int *signal_number) {
+  COROT_TRY(reference_methods_choose(s, o, m, signal_number));
+  if (*signal_number) {
+    *totals = (execute_totals){.nrun = (*m)->nrun};
+    return COROT_OK;
+  }
+  partial so_far = {*m, o->dir};
+  if (o->nshard == 1) o->tick = write_partial, o->context = &so_far;
+  return execute_study(*m, o, totals, signal_number);
+}
+
+static int execute_here(study *s, manifest **plan, execute_options *o) {
+  const manifest *m = *plan;
   store_lock lock;
   execute_totals totals;
   int signal_number;
@@ -180,7 +212,8 @@ static int execute_here(const manifest *m, const execute_options *o) {
   corot_status status = store_enter(o->dir, m, o->shard, o->nshard, o->force, &lock);
   if (status != COROT_OK) return failure(status);
   if (!o->quiet) announce(m, o);
-  status = execute_study(m, o, &totals, &signal_number);
+  status = execute_in(s, o, plan, &totals, &signal_number);
+  m = *plan;
   if (status == COROT_OK) status = store_check(o->dir, lock);
   int code = status == COROT_OK ? conclude(o, &totals, signal_number) : failure(status);
   if (status == COROT_OK && !signal_number && o->nshard == 1) {
@@ -199,16 +232,17 @@ static int run_study(const char *path, arguments *a) {
   manifest *m = NULL;
   corot_status status = study_read(path, &s);
   status = read_failure(status, path);
-  if (status == COROT_OK) status = plan_study(s, &m);
   char *folder = status == COROT_OK && !a->o.dir ? folder_path("out", s->name) : NULL;
   if (folder) a->o.dir = folder;
+  if (status == COROT_OK && a->o.dir) reference_methods_recall(s, a->o.dir);
+  if (status == COROT_OK) status = plan_study(s, &m);
   int code;
   if (status != COROT_OK || !a->o.dir)
     code = failure(status);
   else if (a->dry)
     code = (status = execute_dry(m, &a->o, stdout)) == COROT_OK ? EXIT_OK : failure(status);
   else
-    code = execute_here(m, &a->o);
+    code = execute_here(s, &m, &a->o);
   free(folder);
   manifest_destroy(m);
   study_destroy(s);
@@ -217,6 +251,7 @@ static int run_study(const char *path, arguments *a) {
 
 static int command_study_run(int argc, char **argv) {
   arguments a = {.o = execute_defaults()};
+  a.o.pilot = true;
   int code = -1;
   opterr = 0;
   for (int answer; code < 0 && (answer = getopt_long(argc, argv, ":o:j:qh", options, NULL)) != -1;)

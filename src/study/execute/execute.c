@@ -1,13 +1,17 @@
 /* Starts what is missing, several at a time, and then what has to be tried again. */
 #include "execute.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "app/run/run_clock.h"
 #include "app/text/no_memory.h"
 #include "builds.h"
 #include "execute_one.h"
 #include "execute_timed.h"
+#include "names.h"
+#include "pilot.h"
 #include "pool.h"
 
 execute_options execute_defaults(void) {
@@ -26,7 +30,8 @@ static bool *find_cells(const manifest *m) {
   return is_cell;
 }
 
-/* References come first, as they take longest. */
+/* Cells come first: what they cost is known before their errors are, and what is wrong with a study
+   shows in them. */
 static corot_status list_tasks(execution *e) {
   const manifest *m = e->m;
   bool *is_cell = find_cells(m);
@@ -36,9 +41,9 @@ static corot_status list_tasks(execution *e) {
     return no_memory();
   }
   int count = 0;
-  for (int cells = 0; cells < 2; cells++)
+  for (int others = 0; others < 2; others++)
     for (int i = 0; i < m->nrun; i++)
-      if (is_cell[i] == (cells == 1) && count++ % e->o->nshard == e->o->shard - 1)
+      if (is_cell[i] == (others == 0) && count++ % e->o->nshard == e->o->shard - 1)
         e->task[e->ntask++] = (task){.run = &m->run[i], .is_cell = is_cell[i]};
   free(is_cell);
   return COROT_OK;
@@ -77,17 +82,61 @@ static corot_status look_all(execution *e) {
   return status;
 }
 
+static corot_status start(execution *e, int i) {
+  task *t = &e->task[i];
+  t->due = false;
+  e->tally[t->is_cell].waiting -= t->run->work;
+  COROT_TRY(store_clear(e->o->dir, t->run));
+  COROT_TRY(execution_start(e, i, "", NULL));
+  execution_show(e);
+  return COROT_OK;
+}
+
+static void tell_estimate(const execution *e, const task *pilot) {
+  double unit = e->tally[1].wall / e->tally[1].work, reference = e->o->reference_unit;
+  double cells = unit * e->tally[1].waiting;
+  double others = (reference > 0 ? reference : unit) * e->tally[0].waiting;
+  char name[RUN_NAME], time[4][32];
+  run_name(e->m, (int)(pilot->run - e->m->run), name);
+  describe_duration(e->tally[1].wall, sizeof time[0], time[0]);
+  describe_duration(cells, sizeof time[1], time[1]);
+  describe_duration(others, sizeof time[2], time[2]);
+  describe_duration(execution_left(e), sizeof time[3], time[3]);
+  execution_clear(e);
+  fprintf(stderr, "pilot: %s took %s; the other cells are about %s of work", name, time[0],
+          time[1]);
+  if (others > 0) fprintf(stderr, ", their references %s", time[2]);
+  fprintf(stderr, ": some %s with %d at once\n", time[3], e->o->njob);
+}
+
+/* The cell of the least work goes first, where others follow. */
+static corot_status run_pilot(execution *e, int due) {
+  int pilot = -1;
+  for (int i = 0; i < e->ntask; i++)
+    if (e->task[i].due && e->task[i].is_cell &&
+        (pilot < 0 || e->task[i].run->work < e->task[pilot].run->work))
+      pilot = i;
+  if (!e->o->pilot || pilot < 0 || due < 3) return COROT_OK;
+  COROT_TRY(start(e, pilot));
+  COROT_TRY(execution_wait(e));
+  if (e->task[pilot].state == RUN_DONE && !e->o->quiet && !pool_signal())
+    tell_estimate(e, &e->task[pilot]);
+  return COROT_OK;
+}
+
 static corot_status run_all(execution *e) {
   int due = 0;
-  for (int i = 0; i < e->ntask; i++) due += e->task[i].due;
+  for (int i = 0; i < e->ntask; i++) {
+    due += e->task[i].due;
+    if (e->task[i].due) e->tally[e->task[i].is_cell].waiting += e->task[i].run->work;
+  }
   execution_begin(e, "runs", due);
+  COROT_TRY(run_pilot(e, due));
   for (int i = 0; i < e->ntask && !pool_signal(); i++) {
     if (!e->task[i].due) continue;
     if (pool_is_full()) COROT_TRY(execution_wait(e));
     if (pool_signal()) break;
-    COROT_TRY(store_clear(e->o->dir, e->task[i].run));
-    COROT_TRY(execution_start(e, i, "", NULL));
-    execution_show(e);
+    COROT_TRY(start(e, i));
   }
   while (!pool_is_empty()) COROT_TRY(execution_wait(e));
   return COROT_OK;
@@ -137,8 +186,10 @@ static corot_status execute(execution *e) {
 
 corot_status execute_study(const manifest *m, const execute_options *o, execute_totals *totals,
                            int *signal_number) {
-  execution e = {.m = m, .o = o};
+  execution e = {.m = m, .o = o, .ticked = wall_clock()};
   e.progress = o->progress && !o->quiet && isatty(STDERR_FILENO);
+  e.lines = o->progress && !o->quiet && !e.progress;
+  names_link(m, o->dir);
   corot_status status = execute(&e);
   if (status == COROT_OK) {
     add_up(&e, totals);

@@ -12,7 +12,40 @@
 #include "app/run/run_clock.h"
 #include "app/text/no_memory.h"
 #include "app/text/say.h"
-#include "pool.h"
+#include "names.h"
+#include "reached.h"
+
+enum { LINE_S = 30 }; /* between lines that stay */
+
+/* --- What is left --- */
+
+/* Wall time over work; NaN: not known. */
+static double unit_of(const execution *e, bool is_cell) {
+  const tally *t = &e->tally[is_cell], *other = &e->tally[!is_cell];
+  if (t->work > 0) return t->wall / t->work;
+  if (!is_cell && e->o->reference_unit > 0) return e->o->reference_unit;
+  return other->work > 0 ? other->wall / other->work : NAN;
+}
+
+/* By how far it has come or, as long as that cannot be seen, by its work; NaN: that was too low. */
+static double left_of_run(const execution *e, const task *t) {
+  double reached = run_reached(e->o->dir, t->run), since = wall_clock() - t->started;
+  if (reached > 0.02) return since * (1 - reached) / reached;
+  double left = unit_of(e, t->is_cell) * t->run->work - since;
+  return left > 0 ? left : NAN;
+}
+
+double execution_left(const execution *e) {
+  double sum = 0, longest = 0;
+  for (int kind = 0; kind < 2; kind++)
+    if (e->tally[kind].waiting > 0) sum += unit_of(e, kind == 1) * e->tally[kind].waiting;
+  for (int i = 0; i < e->nrunning; i++) {
+    double left = left_of_run(e, &e->task[e->running[i]]);
+    sum += left; /* NaN stays */
+    longest = fmax(longest, left);
+  }
+  return sum / e->o->njob > longest ? sum / e->o->njob : sum == sum ? longest : NAN;
+}
 
 /* --- Progress --- */
 
@@ -20,17 +53,40 @@ void execution_begin(execution *e, const char *what, int due) {
   e->what = what;
   e->due = due;
   e->finished = 0;
-  e->started = wall_clock();
+  e->shown = wall_clock();
 }
 
-void execution_show(const execution *e) {
-  if (!e->progress) return;
-  fprintf(stderr, "\r\033[K%s: %d of %d", e->what, e->finished, e->due);
-  if (e->nfailed > 0) fprintf(stderr, ", %d failed", e->nfailed);
-  if (e->finished > 0) {
-    double left = (wall_clock() - e->started) * (e->due - e->finished) / e->finished;
-    fprintf(stderr, ", %.0f:%02.0f min left", floor(left / 60), floor(fmod(left, 60)));
+/* "; running: NAME 45 %, ...", all too many left out. */
+static void show_running(const execution *e) {
+  enum { MOST = 4 };
+  char name[RUN_NAME];
+  for (int i = 0; i < e->nrunning && i < MOST; i++) {
+    const task *t = &e->task[e->running[i]];
+    double reached = run_reached(e->o->dir, t->run);
+    run_name(e->m, (int)(t->run - e->m->run), name);
+    fprintf(stderr, "%s%s", i ? ", " : "; running: ", name);
+    if (isfinite(reached)) fprintf(stderr, " %.0f %%", floor(100 * reached));
   }
+  if (e->nrunning > MOST) fputs(", ...", stderr);
+}
+
+static void show_line(const execution *e) {
+  double left = execution_left(e);
+  fprintf(stderr, "%s: %d of %d", e->what, e->finished, e->due);
+  if (e->nfailed > 0) fprintf(stderr, ", %d failed", e->nfailed);
+  if (isfinite(left))
+    fprintf(stderr, ", %.0f:%02.0f min left", floor(left / 60), floor(fmod(left, 60)));
+  if (e->lines) show_running(e);
+}
+
+void execution_show(execution *e) {
+  if (!e->progress && !e->lines) return;
+  double now = wall_clock();
+  if (now - e->shown < (e->lines ? LINE_S : 0.2)) return;
+  e->shown = now;
+  if (e->progress) fputs("\r\033[K", stderr);
+  show_line(e);
+  if (e->lines) fputc('\n', stderr);
   fflush(stderr);
 }
 
@@ -57,7 +113,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
   if (status == COROT_OK) {
     int n = 0;
     argv[n++] = "corot";
-    argv[n++] = e->o->command ? e->o->command : "run";
+    argv[n++] = e->m->still ? "static" : "run";
     argv[n++] = e->m->base;
     argv[n++] = "--quiet";
     argv[n++] = "--force"; /* the folder is the study's, whatever an earlier attempt has left */
@@ -69,6 +125,10 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
     }
     if (more) argv[n++] = "--set", argv[n++] = more;
     status = pool_start(i, argv, messages, e->o->timeout);
+  }
+  if (status == COROT_OK) {
+    e->task[i].started = wall_clock();
+    e->running[e->nrunning++] = i;
   }
   free(argv);
   free(messages);
@@ -108,6 +168,14 @@ static void explain(int ended, double timeout, size_t size, char *reason) {
     snprintf(reason, size, "exit code %d", ended);
 }
 
+static void add_up(execution *e, const task *t, const json_t *result) {
+  const json_t *wall = json_object_get(json_object_get(result, "timings"), "wall");
+  tally *sum = &e->tally[t->is_cell];
+  if (!json_is_number(wall)) return;
+  sum->wall += json_number_value(wall);
+  sum->work += t->run->work;
+}
+
 /* Books a run that has ended, by what its folder says. */
 static corot_status conclude(execution *e, int i, int ended) {
   task *t = &e->task[i];
@@ -133,16 +201,38 @@ static corot_status conclude(execution *e, int i, int ended) {
   t->lost = record.state == RUN_MISSING;
   t->again = t->lost && ended != 0 && e->nretry < MOST_RETRIES && !pool_signal();
   e->nnew += record.state == RUN_DONE;
+  if (record.state == RUN_DONE) add_up(e, t, record.result);
   e->nfailed += record.state == RUN_FAILED;
   if (record.state != RUN_DONE && !pool_signal() && !t->again) execution_tell(e, t, reason);
   run_record_free(&record);
   return status;
 }
 
+/* Seldom enough to take less than a hundredth of the time. */
+static void tick(execution *e) {
+  double now = wall_clock();
+  if (!e->o->tick || now - e->ticked < fmax(10, 100 * e->tick_s)) return;
+  e->o->tick(e->o->context);
+  e->ticked = wall_clock();
+  e->tick_s = e->ticked - now;
+}
+
+static void stop_running(execution *e, int i) {
+  int at = 0;
+  while (at < e->nrunning && e->running[at] != i) at++;
+  if (at < e->nrunning) e->running[at] = e->running[--e->nrunning];
+}
+
 corot_status execution_wait(execution *e) {
-  int i, ended;
-  COROT_TRY(pool_wait(&i, &ended));
+  int i = -1, ended;
+  while (i < 0) {
+    COROT_TRY(pool_wait_for(e->lines ? LINE_S : 1, &i, &ended));
+    if (i < 0) execution_show(e);
+  }
+  stop_running(e, i);
   e->finished++;
+  COROT_TRY(conclude(e, i, ended));
   execution_show(e);
-  return conclude(e, i, ended);
+  tick(e);
+  return COROT_OK;
 }

@@ -31,6 +31,7 @@ static corot_status repeat_once(execution *e, int i, timings *t) {
   bool found = false;
   COROT_TRY(execution_start(e, i, "timed", "output={fields: none, states: none}"));
   COROT_TRY(pool_wait(&same, &ended));
+  e->nrunning = 0;
   if (ended == 0) COROT_TRY(enter_times(e, e->task[i].run, t, &found));
   if (found) return COROT_OK;
   if (store_is_timeout(ended) || pool_signal()) return COROT_OK;

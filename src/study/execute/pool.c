@@ -1,31 +1,31 @@
-/* fork, exec and wait, with signals handed on. */
+/* Processes begun, as copies of a template or by fork and exec, and waited for, with signals handed
+   on. */
 #include "pool.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/time.h>
+#include <sys/select.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "app/run/run_clock.h"
 #include "app/run/stop.h"
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
+#include "template.h"
 
 /* The handler of signals has no other way to know of them. */
 static struct {
   int size, count;
+  long started;                 /* processes so far */
   volatile pid_t pid[POOL_MAX]; /* 0: free */
   int job[POOL_MAX];
   volatile sig_atomic_t stop;
-  struct sigaction before[STOP_SIGNALS];
+  struct sigaction before[STOP_SIGNALS], child_before;
 } pool;
+
+/* That a process has ended need not be heeded, but ends a wait. */
+static void notice(int number) { (void)number; }
 
 /* A limit of our own is none of theirs. */
 static void hand_on(int number) {
@@ -47,10 +47,13 @@ corot_status pool_open(int size) {
     return corot_fail(COROT_EINVAL, "%d processes at once; 1 to %d are possible", size, POOL_MAX);
   pool.size = size;
   pool.count = 0;
+  pool.started = 0;
   pool.stop = 0;
   for (int i = 0; i < size; i++) pool.pid[i] = 0;
   struct sigaction action = {.sa_handler = hand_on, .sa_flags = SA_RESTART};
   sigemptyset(&action.sa_mask);
+  sigaction(SIGCHLD, &(struct sigaction){.sa_handler = notice, .sa_flags = SA_RESTART},
+            &pool.child_before);
   for (int i = 0; i < STOP_SIGNALS; i++) {
     sigaction(stop_signals[i], &action, &pool.before[i]);
     if (is_ignored(i)) sigaction(stop_signals[i], &pool.before[i], NULL);
@@ -61,57 +64,33 @@ corot_status pool_open(int size) {
 void pool_close(void) {
   int job, ended;
   while (!pool_is_empty() && pool_wait(&job, &ended) == COROT_OK) continue;
+  template_stop();
   for (int i = 0; i < STOP_SIGNALS; i++) sigaction(stop_signals[i], &pool.before[i], NULL);
+  sigaction(SIGCHLD, &pool.child_before, NULL);
 }
 
 bool pool_is_full(void) { return pool.count == pool.size; }
 bool pool_is_empty(void) { return pool.count == 0; }
 int pool_signal(void) { return pool.stop; }
 
-/* A timer outlives execv. It comes again, as the first signal is but a request. */
-static void limit_time(double timeout) {
-  if (!(timeout > 0)) return;
-  struct itimerval limit = {.it_interval.tv_sec = 5};
-  limit.it_value.tv_sec = (time_t)timeout;
-  limit.it_value.tv_usec = (suseconds_t)(1e6 * (timeout - floor(timeout)));
-  if (limit.it_value.tv_sec == 0 && limit.it_value.tv_usec == 0) limit.it_value.tv_usec = 1;
-  setitimer(ITIMER_REAL, &limit, NULL);
-}
-
-/* A pipe would keep it waiting for a reader. */
-static int open_messages(const char *path) {
-  struct stat info;
-  int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_NOFOLLOW | O_NONBLOCK, 0666);
-  if (file >= 0 && fstat(file, &info) == 0 && S_ISREG(info.st_mode)) return file;
-  if (file >= 0 || errno == ENXIO || errno == ELOOP)
-    dprintf(STDERR_FILENO, "%s: is not a regular file, and stays as it is\n", path);
-  return -1;
-}
-
-/* In the new process: never returns. */
-static void become(const char *const *argv, const char *messages, pid_t parent,
-                   const sigset_t *mask, double timeout) {
-#ifdef __linux__
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127); /* it died before */
-#else
-  (void)parent;
-#endif
+/* In a new process. */
+static void heed_signals(void) {
   for (int i = 0; i < STOP_SIGNALS; i++)
     if (!is_ignored(i)) signal(stop_signals[i], SIG_DFL);
-  limit_time(timeout);
+}
+
+/* The first process begins as the program does: it may be the only one. */
+static pid_t begin(const char *const *argv, const char *messages, const sigset_t *mask,
+                   double timeout) {
+  if (pool.started++ > 0 && template_start(heed_signals, mask)) {
+    pid_t copy = template_copy(argv, messages, timeout);
+    if (copy > 0) return copy;
+  }
+  pid_t parent = getpid(), child = fork();
+  if (child != 0) return child;
+  heed_signals();
+  template_become(parent, messages, timeout);
   sigprocmask(SIG_SETMASK, mask, NULL);
-  int nothing = open("/dev/null", O_RDONLY);
-  int file = open_messages(messages);
-  if (nothing < 0 || file < 0) _exit(5);
-  dup2(nothing, 0);
-  dup2(file, 1);
-  dup2(file, 2);
-  if (nothing > 2) close(nothing);
-  if (file > 2) close(file);
-  /* one thread each: they share the machine, and sums do not depend on how many run */
-  setenv("OPENBLAS_NUM_THREADS", "1", 0);
-  setenv("OMP_NUM_THREADS", "1", 0);
   execv("/proc/self/exe", (char *const *)argv);
   _exit(127);
 }
@@ -126,8 +105,7 @@ corot_status pool_start(int job, const char *const *argv, const char *messages, 
   sigemptyset(&all);
   for (int i = 0; i < STOP_SIGNALS; i++) sigaddset(&all, stop_signals[i]);
   sigprocmask(SIG_BLOCK, &all, &before);
-  pid_t parent = getpid(), child = fork();
-  if (child == 0) become(argv, messages, parent, &before, timeout);
+  pid_t child = begin(argv, messages, &before, timeout);
   int why = errno;
   if (child > 0) {
     pool.pid[slot] = child;
@@ -152,4 +130,29 @@ corot_status pool_wait(int *job, int *ended) {
   *job = pool.job[slot];
   *ended = WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
   return COROT_OK;
+}
+
+/* Whether one has ended, within that time. SIGCHLD is let in nowhere but in the wait: none is
+   missed. */
+static bool has_ended(double seconds) {
+  double until = wall_clock() + seconds;
+  sigset_t child, before;
+  siginfo_t info = {0};
+  sigemptyset(&child);
+  sigaddset(&child, SIGCHLD);
+  sigprocmask(SIG_BLOCK, &child, &before);
+  while (waitid(P_ALL, 0, &info, WEXITED | WNOWAIT | WNOHANG) == 0 && info.si_pid == 0) {
+    double left = until - wall_clock();
+    if (!(left > 0)) break;
+    struct timespec rest = {.tv_sec = (time_t)left};
+    rest.tv_nsec = (long)(1e9 * (left - (double)rest.tv_sec));
+    pselect(0, NULL, NULL, NULL, &rest, &before);
+  }
+  sigprocmask(SIG_SETMASK, &before, NULL);
+  return info.si_pid != 0;
+}
+
+corot_status pool_wait_for(double seconds, int *job, int *ended) {
+  *job = -1;
+  return has_ended(seconds) ? pool_wait(job, ended) : COROT_OK;
 }

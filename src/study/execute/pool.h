@@ -32,4 +32,7 @@ corot_status pool_start(int job, const char *const *argv, const char *messages, 
    the signal that killed it. */
 corot_status pool_wait(int *job, int *ended);
 
+/* The same, but for so many seconds at most; then *job is -1. */
+corot_status pool_wait_for(double seconds, int *job, int *ended);
+
 #endif

@@ -14,7 +14,7 @@ typedef struct variant {
 typedef struct variants {
   const char *what; /* they are for: the beginning of the title of the study that they make */
   const scenario *scenario;
-  bool still; /* their equilibria: options->command is "static" */
+  bool still; /* their equilibria, as of corot static */
   int nset;
   const char *const *set; /* [nset] "KEY=VALUE" for all of them, in order; the scenario has them */
   int nvariant;

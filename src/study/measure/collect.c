@@ -155,9 +155,11 @@ static corot_status collect(measuring *g, table_reference *references, table_row
                   .row = rows,
                   .reference = references,
                   .measure = find_measure(m),
-                  .cost = m->cost};
+                  .cost = m->cost,
+                  .still = m->still};
   if (t.measure < 0 || !is_cost(t.cost))
     return corot_fail(COROT_EFORMAT, "%s/study.json: unknown measure or cost", g->dir);
+  t.total = table_is_total(&t);
   json_t *space;
   COROT_TRY(collect_space(g, references, &space));
   builds_sort(&g->builds);

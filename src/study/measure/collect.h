@@ -5,12 +5,14 @@
      builds      of the runs that are done, the build of most runs first (builds.h)
      mixed       a sentence where there are several: which runs are of which; null: there are not
      quantities  those that all runs are asked for, as text
+     static      true: of equilibria, as of corot static
      columns     names of the cells' coordinates
      series      names, in alphabetical order
      shared      a sentence: what errors are of, and what the runs have in common with their
                  references, so that no error says anything of it
      cells       by series, each from coarse to fine:
-       id, series, settings {column: value}, tolerance, tolerance_key
+       id, series, settings {column: value}, tolerance, tolerance_key; of
+                  mesh.refine the tolerance is 2^-refine
        status      done | failed | missing;  reason: of a failure, or why it was lost
        cost        cpu, cpu_min, cpu_max, wall, wall_min, wall_max [s]: median and extremes of
                    `repeats` timed repetitions, or of the one run if that is 0;

@@ -71,7 +71,8 @@ corot_status costs_read(const char *dir, const study_run *run, const json_t *res
                         builds *made_by, costs *out) {
   const json_t *count = json_object_get(result, "statistics");
   const json_t *time = json_object_get(result, "timings");
-  costs c = {.steps = number_at(count, "nst"),
+  const char *steps = json_object_get(count, "nst") ? "nst" : "nstep"; /* of the load */
+  costs c = {.steps = number_at(count, steps),
              .rhs = number_at(count, "nfe"),
              .factorisations = number_at(count, "nfactor"),
              .solves = number_at(count, "nsolve")};

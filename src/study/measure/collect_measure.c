@@ -1,6 +1,7 @@
 /* Trajectories from the folders of runs, and the model they belong to. */
 #include "collect_measure.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -105,7 +106,8 @@ corot_status measure_run(measuring *g, const study_run *run, const json_t *resul
   COROT_TRY(hold_yardstick(g, result));
   char *path = store_path(g->dir, run, "");
   if (!path) return COROT_ENOMEM;
-  corot_status status = drift_measure(g->yardstick, g->scenario, path, d);
+  *d = (drift){NAN, NAN}; /* equilibria have no books of that kind */
+  corot_status status = g->m->still ? COROT_OK : drift_measure(g->yardstick, g->scenario, path, d);
   free(path);
   COROT_TRY(status);
   if (reference < 0) return COROT_OK;

@@ -44,6 +44,8 @@ typedef struct table_rows {
   const table_reference *reference;
   int measure; /* a norm (errors.h), or ERROR_PROBES and the number of a quantity */
   const char *cost;
+  bool still; /* rows are of equilibria */
+  bool total; /* errors are those of the mesh, too: but for rows on their reference's mesh */
 } table_rows;
 
 /* The error of a row, and the floor of a reference, by the measure of the table; of rows that are

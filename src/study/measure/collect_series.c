@@ -2,10 +2,12 @@
 #include "collect_series.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/text/json_text.h"
+#include "collect_shared.h"
 #include "fit.h"
 
 /* NULL: there is none that is known. */
@@ -25,9 +27,12 @@ static bool go_together(const table_row *a, const table_row *b) {
 
 /* --- Fits --- */
 
+static bool is_of_mesh(const char *key) { return key && strcmp(key, "mesh.refine") == 0; }
+
 static bool is_point(const table_rows *t, const table_row *r) {
   const table_reference *reference = reference_of(t, r);
   double error = r->measured && reference ? row_error(t, r) : 0;
+  if (is_of_mesh(r->cell->tolerance_key) && r->measured && cell_shares_mesh(t, r)) return false;
   return r->cell->tolerance > 0 && error > 0 && isfinite(error) && row_is_rated(t, r, reference);
 }
 
@@ -35,6 +40,8 @@ static json_t *fit_json(const table_row *r, const power_fit *f) {
   char words[64];
   const char *key = r->cell->tolerance_key;
   fit_verdict(f, key && strstr(key, "tol"), sizeof words, words);
+  if (is_of_mesh(key) && f->n == 2)
+    snprintf(words, sizeof words, "order %.2f, by two meshes", f->exponent);
   return json_pack("{s:s, s:s?, s:o, s:o, s:o, s:i, s:s}", "series", r->cell->series,
                    "tolerance_key", key, "exponent", json_text_real(f->exponent), "constant",
                    json_text_real(f->constant), "residual", json_text_real(f->residual), "points",
@@ -66,6 +73,7 @@ json_t *collect_fits(const table_rows *t) {
 static double bound(const table_rows *t, const table_row *r) {
   const table_reference *reference = reference_of(t, r);
   if (!r->measured || !reference) return INFINITY;
+  if (t->total && cell_shares_mesh(t, r)) return INFINITY; /* nobody knows its mesh's */
   return row_error(t, r) + row_floor(t, reference);
 }
 

@@ -85,6 +85,15 @@ static bool is_shared(const table_rows *t, const table_row *r, int kind) {
   return strcmp(word_at(r->approximations, kind), word_at(reference_of(t, r), kind)) == 0;
 }
 
+bool cell_shares_mesh(const table_rows *t, const table_row *r) { return is_shared(t, r, MESH); }
+
+bool table_is_total(const table_rows *t) {
+  bool total = false;
+  for (int i = 0; i < t->n && !total; i++)
+    total = t->row[i].measured && !cell_shares_mesh(t, &t->row[i]);
+  return total;
+}
+
 /* Adds to a list in words. */
 static void append(char *text, size_t size, const char *item) {
   size_t used = strlen(text);
@@ -122,6 +131,22 @@ static kind_summary summarize(const table_rows *t, int kind) {
   return s;
 }
 
+/* Where errors are those of the mesh, too: at which nodes, and in which cells they are not. */
+static void tell_of_meshes(const table_rows *t, size_t size, char *text) {
+  int measured = 0, same = 0, n = 0;
+  if (!t->total) return;
+  for (int i = 0; i < t->n; i++) {
+    measured += t->row[i].measured;
+    same += t->row[i].measured && cell_shares_mesh(t, &t->row[i]);
+  }
+  n = snprintf(text, size,
+               " They are total errors, the mesh's included, at the nodes of each cell's mesh.");
+  if (same > 0)
+    snprintf(text + n, size - (size_t)n,
+             " %d of %d cells have the reference's own mesh, whose error is not in theirs.", same,
+             measured);
+}
+
 json_t *table_shared(const table_rows *t) {
   char of[NKIND * TEXT] = "", same[NKIND * TEXT] = "", own[NKIND * TEXT] = "";
   bool measured = false;
@@ -140,13 +165,15 @@ json_t *table_shared(const table_rows *t) {
   /* the sentence */
   char text[4 * NKIND * TEXT];
   int n = snprintf(text, sizeof text,
-                   *of ? "Errors are those of time, %s" : "Errors are those of time alone%s", of);
+                   *of ? "Errors are those of %s, %s" : "Errors are those of %s alone%s",
+                   t->still ? "the iteration" : "time", of);
   if (*same)
     n += snprintf(text + n, sizeof text - (size_t)n, "; all runs and references share: %s", same);
   if (*own)
     n += snprintf(text + n, sizeof text - (size_t)n, "; each run shares with its reference: its %s",
                   own);
-  snprintf(text + n, sizeof text - (size_t)n, "%s.",
-           *same || *own ? ". How wrong these are, corot budget says" : "");
+  n += snprintf(text + n, sizeof text - (size_t)n, "%s.",
+                *same || *own ? ". How wrong these are, corot budget says" : "");
+  tell_of_meshes(t, sizeof text - (size_t)n, text + n);
   return json_string(text);
 }

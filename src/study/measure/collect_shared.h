@@ -9,6 +9,10 @@
    kind. The caller's. */
 json_t *approximations_of(const json_t *result);
 
+/* Whether a row, which is measured, has the mesh of its reference; and whether some do not. */
+bool cell_shares_mesh(const table_rows *t, const table_row *r);
+bool table_is_total(const table_rows *t);
+
 /* Those that a row has in common with its reference, in words; and a sentence for all rows. */
 json_t *cell_shared(const table_rows *t, const table_row *r);
 json_t *table_shared(const table_rows *t);

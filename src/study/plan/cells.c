@@ -200,9 +200,7 @@ static corot_status add_grid(study *s, const grid *g) {
 }
 
 static double tolerance_of(const cell *c) {
-  double number = 0;
-  if (c->tolerance) config_parse_number(c->tolerance->value, &number);
-  return number;
+  return c->tolerance ? study_tolerance(c->tolerance) : 0;
 }
 
 /* By series, from coarse to fine in each by one kind of tolerance, then by the coordinates. */

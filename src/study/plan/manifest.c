@@ -44,6 +44,9 @@ static corot_status read_run(const json_t *entry, const char *where, study_run *
   run->hash = text_of(entry, "hash");
   if (!run->id || strlen(run->id) != 16 || strspn(run->id, "0123456789abcdef") != 16 || !run->hash)
     return malformed(where, "a run without its identity");
+  const json_t *end = json_object_get(entry, "t_end"), *work = json_object_get(entry, "work");
+  run->t_end = json_is_number(end) ? json_number_value(end) : NAN;
+  run->work = json_is_number(work) && json_number_value(work) > 0 ? json_number_value(work) : 1;
   return read_texts(json_object_get(entry, "set"), where, "runs", &run->nset, &run->set);
 }
 
@@ -85,6 +88,7 @@ static corot_status read_heads(manifest *m, const char *where) {
   m->identity = text_of(m->root, "identity");
   m->cost = text_of(m->root, "cost");
   m->measure = text_of(m->root, "measure");
+  m->still = json_is_true(json_object_get(m->root, "static"));
   m->repeat = (int)json_integer_value(json_object_get(m->root, "repeat"));
   if (!m->title || !m->name || !m->base || !m->version || !m->identity || !m->cost || !m->measure)
     return malformed(where, "one of its heads is missing");

@@ -12,6 +12,9 @@ typedef struct study_run {
   const char *id; /* the first 16 digits, the name of its folder */
   int nset;
   const char **set; /* [nset] "KEY=VALUE" */
+  double t_end;     /* of its scenario [s]; NaN: an older study.json does not say */
+  double work; /* how much it is, as far as can be told beforehand, in a unit of its own (plan.h):
+                  1 where the file does not say */
 } study_run;
 
 typedef struct study_cell {
@@ -38,6 +41,7 @@ typedef struct manifest {
   int nquantity;
   study_quantity *quantity; /* [nquantity] that every run is asked for */
   int repeat;
+  bool still; /* runs are searches for equilibria */
   int ncolumn;
   const char **column; /* [ncolumn] of the cells, in alphabetical order */
   int nrun, ncell, nreference;

@@ -58,6 +58,8 @@ static corot_status read_measure(study *s, const config_node *node, bool first,
   quantity q;
   size_t at;
   if (is_norm(node->text)) {
+    if (s->still && strcmp(node->text, "velocity") == 0)
+      return config_fail(node, "nothing moves in a static study");
     if (first) s->measure = node->text;
     return COROT_OK;
   }

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,9 +19,10 @@ typedef struct planner {
   json_t *runs, *cells, *references; /* lists in the making */
   json_t *run_at;                    /* hash -> index */
   json_t *reference_at;              /* settings of the first run -> index */
-  json_t *mesh_at;                   /* mesh and groups as scenarios say -> digest of the mesh */
+  json_t *mesh_at;                   /* mesh and groups as scenarios say -> [digest, tets] */
   double tightest;                   /* rtol of the cells */
-  setting quiet, binary;             /* no fields, but states */
+  int refine[2], order[2]; /* the least and the largest mesh.refine and order of the cells */
+  setting quiet, binary;   /* no fields, but states */
 } planner;
 
 /* --- Settings that stand in no file --- */
@@ -37,29 +39,52 @@ static corot_status make_setting(config *tree, const char *key, const char *text
 
 /* --- Runs --- */
 
-static corot_status mesh_digest(planner *p, const scenario *s, char digest[HASH_SIZE]) {
+/* What is known of the mesh of a scenario. */
+typedef struct mesh_facts {
+  char digest[HASH_SIZE];
+  double tets; /* a tet of ten nodes is six */
+} mesh_facts;
+
+static corot_status look_at_mesh(planner *p, const scenario *s, const char *said,
+                                 mesh_facts *facts) {
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL; /* built once, for what may be wrong with it */
+  corot_status status = scenario_build(s, &mesh, NULL, &model);
+  if (status == COROT_OK) status = quantities_check(s, model, p->study->still);
+  if (status == COROT_OK) {
+    hash_mesh(mesh, facts->digest);
+    facts->tets = mesh->ntet * (corot_mesh_order(mesh) == 2 ? 6.0 : 1.0);
+    json_t *entry = json_pack("[s, f]", facts->digest, facts->tets);
+    if (json_object_set_new(p->mesh_at, said, entry)) status = no_memory();
+  }
+  corot_model_destroy(model);
+  corot_mesh_destroy(mesh);
+  return status;
+}
+
+static corot_status find_mesh(planner *p, const scenario *s, mesh_facts *facts) {
   json_t *said = json_pack("{s:O, s:O}", "mesh", json_object_get(s->resolved, "mesh"), "groups",
                            json_object_get(s->resolved, "groups"));
   char *text = json_text_dump_plain(said, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
   json_decref(said);
   if (!text) return no_memory();
-  const char *known = json_string_value(json_object_get(p->mesh_at, text));
+  const json_t *known = json_object_get(p->mesh_at, text);
   corot_status status = COROT_OK;
   if (known) {
-    memcpy(digest, known, HASH_SIZE);
+    memcpy(facts->digest, json_string_value(json_array_get(known, 0)), HASH_SIZE);
+    facts->tets = json_real_value(json_array_get(known, 1));
   } else {
-    corot_mesh *mesh = NULL;
-    corot_model *model = NULL; /* built once, for what may be wrong with it */
-    status = scenario_build(s, &mesh, NULL, &model);
-    if (status == COROT_OK) status = quantities_check(s, model, p->study->still);
-    if (status == COROT_OK) hash_mesh(mesh, digest);
-    if (status == COROT_OK && json_object_set_new(p->mesh_at, text, json_string(digest)))
-      status = no_memory();
-    corot_model_destroy(model);
-    corot_mesh_destroy(mesh);
+    status = look_at_mesh(p, s, text, facts);
   }
   free(text);
   return status;
+}
+
+static double guess_work(const planner *p, const scenario *s, double tets) {
+  const corot_integrator_def *d = &s->integrator;
+  double work = tets * sqrt(tets);
+  if (p->study->still) return work;
+  return work * s->t_end / (d->step > 0 ? d->step : cbrt(d->rtol));
 }
 
 /* "KEY=VALUE" for each setting. */
@@ -82,16 +107,18 @@ static json_t *assignments(config *tree, int nset, const setting *set) {
 static corot_status find_run(planner *p, const scenario *s, int nset, const setting *set,
                              json_int_t *index) {
   hashes h;
-  char digest[HASH_SIZE], id[17];
-  COROT_TRY(mesh_digest(p, s, digest));
-  COROT_TRY(hashes_with(s->resolved, digest, &h));
+  mesh_facts mesh;
+  char id[17];
+  COROT_TRY(find_mesh(p, s, &mesh));
+  COROT_TRY(hashes_with(s->resolved, mesh.digest, &h));
   if (p->study->still) hashes_static(&h);
   const json_t *known = json_object_get(p->run_at, h.run);
   *index = known ? json_integer_value(known) : (json_int_t)json_array_size(p->runs);
   if (known) return COROT_OK;
   snprintf(id, sizeof id, "%.16s", h.run);
-  json_t *run = json_pack("{s:s, s:s, s:o}", "id", id, "hash", h.run, "set",
-                          assignments(p->study->tree, nset, set));
+  json_t *run = json_pack("{s:s, s:s, s:o, s:f, s:f}", "id", id, "hash", h.run, "set",
+                          assignments(p->study->tree, nset, set), "t_end", s->t_end, "work",
+                          guess_work(p, s, mesh.tets));
   if (json_array_append_new(p->runs, run) ||
       json_object_set_new(p->run_at, h.run, json_integer(*index)))
     return no_memory();
@@ -128,9 +155,22 @@ static bool is_below(const char *key, const char *map) {
   return strncmp(key, map, length) == 0 && (key[length] == '\0' || key[length] == '.');
 }
 
-/* What has to do with how the equations are solved, and with what is written of it. */
-static bool is_solution(const char *key) {
+/* What has to do with how the equations are solved, and with what is written of it. Equilibria
+   along a load are those that its steps have led to. */
+static bool is_solution(const planner *p, const char *key) {
+  if (p->study->still && (is_below(key, "statics.tolerance") || is_below(key, "statics.frames")))
+    return true;
   return is_below(key, "integrator") || is_below(key, "linear_solver") || is_below(key, "output");
+}
+
+/* Whether cells differ in the resolution of the mesh, and have one reference for all that. */
+static bool has_finest_mesh(const planner *p) {
+  return !p->study->reference_is_own &&
+         (p->refine[0] != p->refine[1] || p->order[0] != p->order[1]);
+}
+
+static bool is_resolution(const char *key) {
+  return strcmp(key, "mesh.refine") == 0 || strcmp(key, "mesh.order") == 0;
 }
 
 /* What the reference sets, the cell need not. */
@@ -142,22 +182,61 @@ static bool is_overruled(const study *s, const char *key) {
 
 static double reference_rtol(const planner *p) {
   if (p->study->reference_rtol > 0) return p->study->reference_rtol;
+  if (p->study->still) return 1e-12;
   return fmax(fmin(1e-9, p->tightest / 100), 1e-11);
+}
+
+/* A setting of a number or a word, by a format. */
+static corot_status add_setting(config *tree, const char *key, setting *set, int *n,
+                                const char *format, ...) {
+  char *text = config_alloc(tree, 64, 1);
+  if (!text) return no_memory();
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, 64, format, arguments);
+  va_end(arguments);
+  return make_setting(tree, key, text, &set[(*n)++]);
+}
+
+/* How references are solved; `method` is a word of the integrator. */
+static corot_status add_solution(const planner *p, const char *method, setting *set, int *n) {
+  config *tree = p->study->tree;
+  double rtol = reference_rtol(p);
+  if (p->study->still) {
+    COROT_TRY(add_setting(tree, "statics.tolerance", set, n, "%.4g", rtol));
+    COROT_TRY(add_setting(tree, "statics.frames", set, n, "exact"));
+  } else {
+    COROT_TRY(add_setting(tree, "integrator", set, n, "{method: %s, rtol: %.4g}", method, rtol));
+  }
+  return add_setting(tree, "linear_solver", set, n, "auto");
+}
+
+static corot_status add_finest_mesh(const planner *p, setting *set, int *n) {
+  config *tree = p->study->tree;
+  if (p->refine[0] != p->refine[1] && !is_overruled(p->study, "mesh.refine"))
+    COROT_TRY(add_setting(tree, "mesh.refine", set, n, "%d", p->refine[1]));
+  if (p->order[0] != p->order[1] && !is_overruled(p->study, "mesh.order"))
+    COROT_TRY(add_setting(tree, "mesh.order", set, n, "%d", p->order[1]));
+  return COROT_OK;
+}
+
+/* Whether a reference has that setting of its cell. */
+static bool is_taken_over(const planner *p, const char *key) {
+  return !is_solution(p, key) && !is_overruled(p->study, key) &&
+         !(has_finest_mesh(p) && is_resolution(key));
 }
 
 /* The cell's settings with the reference's way of solving in the place of its own. */
 static corot_status refer(planner *p, const cell *c, const char *method, int *nset, setting **out) {
   const study *s = p->study;
-  setting *set = config_alloc(s->tree, (size_t)(c->nset + s->nreference_set + 4), sizeof *set);
-  char *text = config_alloc(s->tree, 64, 1);
-  if (!set || !text) return no_memory();
+  setting *set = config_alloc(s->tree, (size_t)(c->nset + s->nreference_set + 11), sizeof *set);
+  if (!set) return no_memory();
   int n = 0;
   set[n++] = p->quiet;
   for (int i = 0; i < c->nset; i++)
-    if (!is_solution(c->set[i].key) && !is_overruled(s, c->set[i].key)) set[n++] = c->set[i];
-  snprintf(text, 64, "{method: %s, rtol: %.4g}", method, reference_rtol(p));
-  COROT_TRY(make_setting(s->tree, "integrator", text, &set[n++]));
-  COROT_TRY(make_setting(s->tree, "linear_solver", "auto", &set[n++]));
+    if (is_taken_over(p, c->set[i].key)) set[n++] = c->set[i];
+  if (has_finest_mesh(p)) COROT_TRY(add_finest_mesh(p, set, &n));
+  COROT_TRY(add_solution(p, method, set, &n));
   for (int i = 0; i < s->nreference_set; i++) set[n++] = s->reference_set[i];
   set[n++] = p->binary;
   *nset = n;
@@ -176,12 +255,27 @@ static corot_status add_reference_run(planner *p, const cell *c, int nset, const
   return json_array_append_new(runs, json_integer(index)) ? no_memory() : COROT_OK;
 }
 
+/* The load in steps of half the length, on the way to the same equilibrium; after all other
+   settings. */
+static corot_status halve_steps(planner *p, const cell *c, int *nset, setting *set) {
+  scenario *s = NULL;
+  COROT_TRY(read_scenario(p, c, *nset, set, &s));
+  double longest = s->statics.max_step / 2, first = fmin(s->statics.first_step, longest);
+  double shortest = fmin(s->statics.min_step, first);
+  scenario_destroy(s);
+  config *tree = p->study->tree;
+  COROT_TRY(add_setting(tree, "statics.min_step", set, nset, "%.17g", shortest));
+  COROT_TRY(add_setting(tree, "statics.first_step", set, nset, "%.17g", first));
+  return add_setting(tree, "statics.max_step", set, nset, "%.17g", longest);
+}
+
 /* The two runs; `first` [nfirst] are the settings of the one. */
 static corot_status make_reference(planner *p, const cell *c, int nfirst, const setting *first,
                                    json_t *runs) {
   setting *second;
   int nsecond;
   COROT_TRY(refer(p, c, p->study->reference_method[1], &nsecond, &second));
+  if (p->study->still) COROT_TRY(halve_steps(p, c, &nsecond, second));
   COROT_TRY(add_reference_run(p, c, nfirst, first, runs));
   return add_reference_run(p, c, nsecond, second, runs);
 }
@@ -190,7 +284,7 @@ static corot_status make_reference(planner *p, const cell *c, int nfirst, const 
 static json_t *reference_settings(const planner *p, int nset, const setting *set) {
   json_t *object = json_object();
   for (int i = 0; i < nset; i++) {
-    bool ours = is_solution(set[i].key) && i < nset - 1 - p->study->nreference_set;
+    bool ours = is_solution(p, set[i].key) && i < nset - 1 - p->study->nreference_set;
     if (ours || is_below(set[i].key, "output") || is_below(set[i].key, "quantities")) continue;
     object = json_text_with(object, set[i].key, study_value_json(set[i].value));
   }
@@ -214,9 +308,12 @@ static corot_status find_reference(planner *p, const cell *c, json_int_t *index)
   if (!known) {
     json_t *runs = json_array();
     status = make_reference(p, c, nset, set, runs);
-    json_t *entry = json_pack("{s:o, s:[s, s], s:f, s:o}", "runs", runs, "methods",
-                              p->study->reference_method[0], p->study->reference_method[1], "rtol",
-                              reference_rtol(p), "settings", reference_settings(p, nset, set));
+    bool still = p->study->still;
+    json_t *entry =
+        json_pack("{s:o, s:[s, s], s:f, s:o}", "runs", runs, "methods",
+                  still ? "newton" : p->study->reference_method[0],
+                  still ? "newton in half steps" : p->study->reference_method[1], "rtol",
+                  reference_rtol(p), "settings", reference_settings(p, nset, set));
     if (json_array_append_new(p->references, entry) ||
         json_object_set_new(p->reference_at, text, json_integer(*index)))
       status = status == COROT_OK ? no_memory() : status;
@@ -234,6 +331,17 @@ static json_t *cell_settings(const cell *c) {
   return object;
 }
 
+/* What references depend on of all cells. */
+static void observe(planner *p, const scenario *s) {
+  bool first = json_array_size(p->cells) == 0;
+  int order = s->order > 0 ? s->order : 1;
+  if (s->integrator.step == 0) p->tightest = fmin(p->tightest, s->integrator.rtol);
+  p->refine[0] = first || s->refine < p->refine[0] ? s->refine : p->refine[0];
+  p->refine[1] = first || s->refine > p->refine[1] ? s->refine : p->refine[1];
+  p->order[0] = first || order < p->order[0] ? order : p->order[0];
+  p->order[1] = first || order > p->order[1] ? order : p->order[1];
+}
+
 static corot_status add_cell(planner *p, const cell *c) {
   /* its settings: no fields, what the cell sets, states in binary */
   setting *set = config_alloc(p->study->tree, (size_t)c->nset + 2, sizeof *set);
@@ -247,13 +355,12 @@ static corot_status add_cell(planner *p, const cell *c) {
   json_int_t run = 0;
   COROT_TRY(read_scenario(p, c, c->nset + 2, set, &s));
   corot_status status = find_run(p, s, c->nset + 2, set, &run);
-  if (s->integrator.step == 0) p->tightest = fmin(p->tightest, s->integrator.rtol);
+  if (status == COROT_OK) observe(p, s);
   scenario_destroy(s);
   COROT_TRY(status);
 
   /* its entry */
-  double tolerance = NAN;
-  if (c->tolerance) config_parse_number(c->tolerance->value, &tolerance);
+  double tolerance = study_tolerance(c->tolerance);
   json_t *entry =
       json_pack("{s:I, s:o, s:s, s:o, s:s?, s:n}", "run", run, "settings", cell_settings(c),
                 "series", c->series, "tolerance", c->tolerance ? json_real(tolerance) : json_null(),
@@ -331,10 +438,12 @@ static corot_status finish(planner *p, manifest **out) {
   json_t *path = json_text_string(base);
   free(base);
   json_t *root = json_pack(
-      "{s:s, s:s, s:o, s:s, s:s, s:i, s:s, s:s, s:o, s:o, s:O, s:O, s:O}", "study", s->title,
+      "{s:s, s:s, s:o, s:s, s:s, s:i, s:b, s:s, s:s, s:o, s:o, s:O, s:O, s:O}", "study", s->title,
       "name", s->name, "base", path, "identity", digest, "corot", corot_version(), "repeat",
-      s->repeat, "cost", s->cost, "measure", s->measure, "quantities", quantity_list(s), "columns",
-      column_names(s), "references", p->references, "cells", p->cells, "runs", p->runs);
+      s->repeat, "static", s->still, "cost", s->cost, "measure", s->measure, "quantities",
+      quantity_list(s), "columns", column_names(s), "references", p->references, "cells", p->cells,
+      "runs", p->runs);
+  if (s->pilot) root = json_text_with(root, "pilot", json_incref(s->pilot));
   return root ? manifest_from_json(root, s->path, out) : no_memory();
 }
 

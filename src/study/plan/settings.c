@@ -1,4 +1,5 @@
 /* Keys of a scenario and values for them, as a study file writes them. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,6 +100,12 @@ int study_compare_values(const config_node *a, const config_node *b) {
 
 bool study_same_value(const config_node *a, const config_node *b) {
   return study_compare_values(a, b) == 0;
+}
+
+double study_tolerance(const setting *tolerance) {
+  double number;
+  if (!tolerance || !config_parse_number(tolerance->value, &number)) return NAN;
+  return strcmp(tolerance->key, "mesh.refine") == 0 ? exp2(-number) : number;
 }
 
 /* --- Settings --- */

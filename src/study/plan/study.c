@@ -39,6 +39,7 @@ static corot_status read_heads(study *s, const char *path) {
   s->base = config_beside(s->tree, path, s->base_node->text);
   if (!s->path || !s->name || !s->base) return no_memory();
   if (!*s->title) return config_fail(config_find(root, "study"), "the title is empty");
+  s->still = strcmp(config_find(root, "static")->text, "true") == 0;
   s->repeat = (int)config_find(root, "repeat")->number;
   s->tolerance = config_find(root, "tolerance");
   s->group = config_find(root, "group");
@@ -52,11 +53,18 @@ static corot_status read_reference(study *s) {
   s->referred = strcmp(config_find(node, "use")->text, "auto") == 0;
   if (methods->nchild != 2)
     return config_fail(methods, "two methods: how far they agree is what is known");
+  if (s->still && methods->source)
+    return config_fail(methods, "a static study has no methods: its references are Newton's");
+  s->reference_is_own = strcmp(config_find(node, "mesh")->text, "own") == 0;
+  COROT_TRY(study_read_settings(s->tree, config_find(node, "set"), &s->nreference_set,
+                                &s->reference_set));
+  s->reference_is_open = !methods->source;
+  for (int i = 0; i < s->nreference_set; i++)
+    if (strncmp(s->reference_set[i].key, "integrator", 10) == 0) s->reference_is_open = false;
   s->reference_method[0] = methods->child->text;
   s->reference_method[1] = methods->last->text;
   s->reference_rtol = config_find(node, "rtol")->number;
-  return study_read_settings(s->tree, config_find(node, "set"), &s->nreference_set,
-                             &s->reference_set);
+  return COROT_OK;
 }
 
 /* The entries of one list after those of the other. */
@@ -150,6 +158,7 @@ corot_status study_read_text(const char *path, const char *text, size_t size, st
 
 void study_destroy(study *s) {
   if (!s) return;
+  json_decref(s->pilot);
   config_destroy(s->tree);
   free(s);
 }

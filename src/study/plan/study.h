@@ -57,12 +57,16 @@ typedef struct study {
   int ngrid;
   const grid *grid;
   int repeat; /* timed repetitions */
-  bool still; /* runs are searches for the equilibrium, as of corot static; false where a file is
-                 read */
+  bool still; /* runs are searches for the equilibrium, as of corot static */
 
   bool referred;         /* errors are measured, against references */
   double reference_rtol; /* 0: by the tightest cell */
+  bool reference_is_own; /* each mesh has its own; else one on the finest, where meshes differ in
+                            mesh.refine and mesh.order */
   const char *reference_method[2];
+  bool reference_is_open; /* nobody has said these two */
+  json_t *pilot; /* by which they were chosen, for study.json: {"methods": two, "cost": {method:
+                    s}}; NULL: they were not */
   int nreference_set;
   const setting *reference_set;
 
@@ -112,6 +116,10 @@ json_t *study_value_json(const config_node *value);
 
 /* An order of values by what they mean, as of qsort: numbers before ~ and null before words. */
 int study_compare_values(const config_node *a, const config_node *b);
+
+/* What a tolerance amounts to, the smaller the finer: its number; of mesh.refine 2^-number. NaN: it
+   is none. */
+double study_tolerance(const setting *tolerance);
 
 /* Whether two values mean the same: 1e-3 and 0.001 do, 1 and "1" do not. */
 bool study_same_value(const config_node *a, const config_node *b);

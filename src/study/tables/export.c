@@ -37,7 +37,7 @@ corot_status export_commands(const manifest *m, const export_target *t, FILE *ou
   for (int i = 0; i < m->nrun; i++) {
     fputs(ONE_THREAD, out);
     escape_shell(t->program, out);
-    fputs(" run ", out);
+    fputs(m->still ? " static " : " run ", out);
     escape_shell(m->base, out);
     fputs(" --quiet --force --output ", out);
     escape_shell(t->dir, out);
@@ -101,6 +101,7 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
   fprintf(out, ": %d runs. snakemake --snakefile THIS --cores all\n", m->nrun);
   fputs("PROGRAM = ", out);
   escape_python(t->program, out);
+  fprintf(out, "\nCOMMAND = \"%s\"", m->still ? "static" : "run");
   fputs("\nBASE = ", out);
   escape_python(m->base, out);
   fputs("\nDIR = ", out);
@@ -116,7 +117,7 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
       "    output: DIR + \"/runs/{id}/result.json\"\n"
       "    params: settings=lambda wildcards: RUNS[wildcards.id]\n"
       "    shell: \"" ONE_THREAD
-      "{PROGRAM:q} run {BASE:q} --quiet --force --output {DIR:q}/runs/{wildcards.id} "
+      "{PROGRAM:q} {COMMAND} {BASE:q} --quiet --force --output {DIR:q}/runs/{wildcards.id} "
       "{params.settings} || test $? -eq 1\"\n" /* a quantity without a value is no failure */
       "\n"
       "rule collect:\n"

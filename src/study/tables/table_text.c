@@ -142,13 +142,15 @@ static double number_at(const json_t *object, const char *key) {
   return json_number_value(json_object_get(object, key));
 }
 
-static corot_status print_references(const json_t *list, FILE *out) {
+static corot_status print_references(const json_t *table, FILE *out) {
+  const json_t *list = json_object_get(table, "references");
+  const char *word = json_is_true(json_object_get(table, "static")) ? "tolerance" : "rtol";
   if (json_array_size(list) > 0) fputs("\nreferences\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *r = json_array_get(list, i);
     char *settings = json_text_dump_plain(json_object_get(r, "settings"), JSON_REAL_PRECISION(6));
     if (!settings && json_object_get(r, "settings")) return no_memory();
-    fprintf(out, "  %s, rtol %.2g: %s\n", settings ? settings : "-", number_at(r, "rtol"),
+    fprintf(out, "  %s, %s %.2g: %s\n", settings ? settings : "-", word, number_at(r, "rtol"),
             text_at(r, "note"));
     free(settings);
   }
@@ -221,7 +223,7 @@ corot_status table_print(const json_t *table, FILE *out) {
     fprintf(out, "\n%s\n", text_at(table, "shared"));
   if (json_is_string(json_object_get(table, "mixed")))
     fprintf(out, "\n%s\n", text_at(table, "mixed"));
-  COROT_TRY(print_references(json_object_get(table, "references"), out));
+  COROT_TRY(print_references(table, out));
   print_space(json_object_get(table, "space"), out);
   if (json_array_size(json_object_get(table, "fits")) > 0)
     fputs("\nerror = constant * tolerance^exponent\n", out);

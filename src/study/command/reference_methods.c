@@ -1,0 +1,118 @@
+/* The choice of methods by cost, kept in study.json so that a study goes on as it began. */
+#include "reference_methods.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "app/text/json_text.h"
+#include "app/text/no_memory.h"
+#include "study/execute/pilot.h"
+#include "study/execute/store.h"
+#include "study/plan/plan.h"
+
+enum { CVODE, ARKODE, ERK, NMETHOD };
+static const char *const methods[NMETHOD] = {"cvode", "arkode", "erk"};
+
+#define WORTH_S 10 /* below, nothing is gained */
+
+static const char *find_method(const json_t *word) {
+  const char *text = json_string_value(word);
+  for (int i = 0; text && i < NMETHOD; i++)
+    if (strcmp(text, methods[i]) == 0) return methods[i];
+  return NULL;
+}
+
+static bool is_open(const study *s) {
+  return s->referred && !s->still && s->reference_is_open && !s->pilot;
+}
+
+void reference_methods_recall(study *s, const char *dir) {
+  manifest *before = NULL;
+  if (!is_open(s) || manifest_read(dir, &before) != COROT_OK) return;
+  json_t *pilot = json_object_get(before->root, "pilot");
+  const json_t *chosen = json_object_get(pilot, "methods");
+  const char *first = find_method(json_array_get(chosen, 0));
+  const char *second = find_method(json_array_get(chosen, 1));
+  if (first && second && strcmp(before->title, s->title) == 0) {
+    s->reference_method[0] = first;
+    s->reference_method[1] = second;
+    s->pilot = json_incref(pilot);
+  }
+  manifest_destroy(before);
+}
+
+/* Whether all references are there already. */
+static corot_status look(const manifest *m, const char *dir, bool *done) {
+  *done = true;
+  for (int i = 0; i < 2 * m->nreference && *done; i++) {
+    run_record record;
+    COROT_TRY(store_look(dir, &m->run[m->reference[i / 2].run[i % 2]], &record));
+    *done = record.state == RUN_DONE;
+    run_record_free(&record);
+  }
+  return COROT_OK;
+}
+
+/* NaN, of one that failed, is dearer than all. */
+static bool is_dearer(double a, double b) { return !(a <= b); }
+
+static void choose(study *s, const double cost[NMETHOD]) {
+  int dear = is_dearer(cost[ARKODE], cost[CVODE]) ? ARKODE : CVODE, other = ARKODE + CVODE - dear;
+  bool gains = cost[ERK] < 0.5 * cost[dear] || isnan(cost[dear]);
+  if (!gains || cost[dear] < WORTH_S || isnan(cost[ERK])) return;
+  s->reference_method[0] = methods[other];
+  s->reference_method[1] = methods[ERK];
+}
+
+static void tell(const study *s, const double cost[NMETHOD]) {
+  char time[NMETHOD][32];
+  for (int i = 0; i < NMETHOD; i++) describe_duration(cost[i], sizeof time[i], time[i]);
+  fprintf(stderr,
+          "pilot: a reference takes about %s by %s, %s by %s, %s by %s: %s and %s are taken\n",
+          time[0], methods[0], time[1], methods[1], time[2], methods[2], s->reference_method[0],
+          s->reference_method[1]);
+}
+
+static corot_status plan_anew(study *s, const char *dir, manifest **m) {
+  manifest *made = NULL;
+  COROT_TRY(plan_study(s, &made));
+  corot_status status = manifest_write(made, dir);
+  if (status == COROT_OK) {
+    manifest_destroy(*m);
+    *m = made;
+  } else {
+    manifest_destroy(made);
+  }
+  return status;
+}
+
+/* The mean of what both will cost, over their work. */
+static double unit_of(const study *s, const double cost[NMETHOD], double work) {
+  double sum = 0;
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < NMETHOD; i++)
+      if (strcmp(s->reference_method[k], methods[i]) == 0) sum += cost[i] / 2;
+  return isfinite(sum) ? sum / work : 0;
+}
+
+corot_status reference_methods_choose(study *s, execute_options *o, manifest **m,
+                                      int *signal_number) {
+  bool done = true;
+  double cost[NMETHOD], work;
+  *signal_number = 0;
+  if (!is_open(s) || o->nshard > 1) return COROT_OK;
+  COROT_TRY(look(*m, o->dir, &done));
+  if (done) return COROT_OK;
+  COROT_TRY(pilot_methods(*m, o, NMETHOD, methods, cost, &work, signal_number));
+  if (*signal_number) return COROT_OK;
+  choose(s, cost);
+  if (!o->quiet) tell(s, cost);
+  o->reference_unit = unit_of(s, cost, work);
+  json_t *costs = json_object();
+  for (int i = 0; i < NMETHOD; i++)
+    costs = json_text_with(costs, methods[i], json_text_real(cost[i]));
+  s->pilot = json_pack("{s:[s, s], s:o}", "methods", s->reference_method[0], s->reference_method[1],
+                       "cost", costs);
+  return s->pilot ? plan_anew(s, o->dir, m) : no_memory();
+}

@@ -1,0 +1,18 @@
+/* By which methods references are found, where the study does not say. */
+#ifndef COROT_STUDY_COMMAND_REFERENCE_METHODS_H
+#define COROT_STUDY_COMMAND_REFERENCE_METHODS_H
+
+#include "study/execute/execute_options.h"
+#include "study/plan/manifest.h"
+
+/* Makes the choice that a folder's study.json has recorded that of the study. */
+void reference_methods_recall(study *s, const char *dir);
+
+/* Where it is open: pilots by cvode, arkode and erk. If references by cvode and arkode would take
+   longer than ten seconds and erk less than half of the dearer one, erk takes its place. *m is
+   planned anew with the choice, and written to the folder; o->reference_unit is what it costs.
+   Tells stderr. *signal_number: 0, or what ended it early. */
+corot_status reference_methods_choose(study *s, execute_options *o, manifest **m,
+                                      int *signal_number);
+
+#endif
