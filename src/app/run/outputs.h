@@ -6,7 +6,7 @@
 #include "app/folder/write_csv.h"
 #include "app/scenario/scenario.h"
 #include "history.h"
-#include "thin.h"
+#include "steps_kept.h"
 
 typedef struct outputs outputs;
 
@@ -41,7 +41,8 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
    first instant was written, and before later ones up to this are. */
 corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e);
 
-/* Adds a row to steps.csv, if the step has one (thin.h); and what it has, once it is closed. */
+/* Adds a row to steps.csv, if the step has one (steps_kept.h); and what it has, once it is closed.
+ */
 corot_status outputs_step(outputs *o, const step_row *row);
 steps_count outputs_steps(const outputs *o);
 

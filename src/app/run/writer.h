@@ -5,7 +5,7 @@
 
 #include "app/folder/write_csv.h"
 #include "app/scenario/scenario.h"
-#include "thin.h"
+#include "steps_kept.h"
 
 /* What is known before the first moment. It outlives the writers, but for `dir`. */
 typedef struct writer_source {
