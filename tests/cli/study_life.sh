@@ -23,6 +23,20 @@ for link in first/names/*; do [ -f "$link/result.json" ] || complain "$link lead
 expect 0 study study.yaml -o first; ! grep -q pilot stderr || complain "a pilot of nothing"
 expect 0 study study.yaml -o quiet -q; no_err
 
+# Methods of references that were chosen for a study remain its own.
+python3 - <<'PY'
+import json
+d = json.load(open('first/study.json'))
+assert d['pilot']['methods'] == ['cvode', 'arkode'] and len(d['pilot']['cost']) == 3, d['pilot']
+d['pilot']['methods'] = ['arkode', 'erk']
+json.dump(d, open('chosen.json', 'w'))
+PY
+mkdir chosen && mv chosen.json chosen/study.json
+expect 0 study study.yaml -o chosen --dry-run; out "method: erk"
+[ "$(grep -c 'method: cvode' stdout)" = 0 ] || complain "the choice is forgotten"
+echo 'reference: {rtol: 1.0e-7, methods: [ida, arkode]}' | cat study.yaml - | sed '/rtol: 1.0e-7}$/d' >said.yaml
+expect 0 study said.yaml -o chosen --dry-run; out "method: ida"
+
 # What is no link stays as it is; a link that leads elsewhere is set right.
 rm first/names/reference-0-cvode && mkdir first/names/reference-0-cvode
 ln -sfn nowhere first/names/rtol=0.01,strain=polar
@@ -44,7 +58,7 @@ YAML
 "$corot" study long.yaml -o long -j 2 >stdout.long 2>stderr.long &
 going=$!
 says() { "$corot" study status long >stdout 2>stderr && grep -q "$1" stdout; }
-until_true says " running, [1-9][0-9]* %: run=long"
+until_true says " running, [1-9][0-9]* %: run=long"; until_true says ": 1 done, 0 failed, 1 missing"
 what="status while it goes on"
 out "2 cells, 2 runs: 1 done, 0 failed, 1 missing"; out " % of the work is done"
 expect 0 study table long; out "short"; out "missing"

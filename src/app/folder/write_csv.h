@@ -75,7 +75,8 @@ corot_status history_row(table *history, const ledger *row, int ncolumn, const d
      reason         of the update: step, interval, angle, cap (as far as an extrapolation may
                     go) or hook; the last four are empty without one
 
-   Of more than 10 000 steps not all have a row: app/run/thin.h, and steps_csv in result.json. */
+   Of more than 10 000 steps not all have a row: app/run/steps_kept.h, and steps_csv in result.json.
+ */
 
 enum { EVENT_KINK = 1, EVENT_FRAMES = 2, EVENT_RESTART = 4, EVENT_FAILED = 8, EVENT_REJECTED = 16 };
 

@@ -5,7 +5,7 @@
 
 #include "app/scenario/warnings.h"
 #include "history.h"
-#include "thin.h"
+#include "steps_kept.h"
 
 typedef struct outputs outputs;
 
@@ -39,7 +39,8 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
 corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
                              const corot_energies *e);
 
-/* Adds a row to steps.csv, if the step has one (thin.h); and what it has, once it is closed. */
+/* Adds a row to steps.csv, if the step has one (steps_kept.h); and what it has, once it is closed.
+ */
 corot_status outputs_step(outputs *o, const step_row *row);
 steps_count outputs_steps(const outputs *o);
 

@@ -4,7 +4,7 @@
 #define COROT_APP_RUN_WRITER_H
 
 #include "app/probe/probe.h"
-#include "thin.h"
+#include "steps_kept.h"
 
 /* What is known before the first moment. It outlives the writers, but for `dir`. */
 typedef struct writer_source {

@@ -55,14 +55,14 @@ static corot_status look(const manifest *m, const char *dir, bool *done) {
 }
 
 /* NaN, of one that failed, is dearer than all. */
-static bool is_dearer(double a, double b) { return !(a <= b); }
+static bool is_dearer(double a, double b) { return isnan(a) || a > b; }
 
-static void choose(study *s, const double cost[NMETHOD]) {
+void reference_methods_take(const double cost[3], const char *taken[2]) {
   int dear = is_dearer(cost[ARKODE], cost[CVODE]) ? ARKODE : CVODE, other = ARKODE + CVODE - dear;
-  bool gains = cost[ERK] < 0.5 * cost[dear] || isnan(cost[dear]);
-  if (!gains || cost[dear] < WORTH_S || isnan(cost[ERK])) return;
-  s->reference_method[0] = methods[other];
-  s->reference_method[1] = methods[ERK];
+  bool gains = isnan(cost[dear]) || (cost[dear] >= WORTH_S && cost[ERK] < 0.5 * cost[dear]);
+  if (isnan(cost[ERK])) gains = false;
+  taken[0] = gains ? methods[other] : methods[CVODE];
+  taken[1] = gains ? methods[ERK] : methods[ARKODE];
 }
 
 static void tell(const study *s, const double cost[NMETHOD]) {
@@ -106,7 +106,7 @@ corot_status reference_methods_choose(study *s, execute_options *o, manifest **m
   if (done) return COROT_OK;
   COROT_TRY(pilot_methods(*m, o, NMETHOD, methods, cost, &work, signal_number));
   if (*signal_number) return COROT_OK;
-  choose(s, cost);
+  reference_methods_take(cost, s->reference_method);
   if (!o->quiet) tell(s, cost);
   o->reference_unit = unit_of(s, cost, work);
   json_t *costs = json_object();

@@ -10,9 +10,9 @@
 #include "builds.h"
 #include "execute_one.h"
 #include "execute_timed.h"
-#include "names.h"
 #include "pilot.h"
 #include "pool.h"
+#include "run_names.h"
 
 execute_options execute_defaults(void) {
   long processors = sysconf(_SC_NPROCESSORS_ONLN);

@@ -12,8 +12,8 @@
 #include "app/run/run_clock.h"
 #include "app/text/no_memory.h"
 #include "app/text/say.h"
-#include "names.h"
 #include "reached.h"
+#include "run_names.h"
 
 enum { LINE_S = 30 }; /* between lines that stay */
 
@@ -80,7 +80,7 @@ static void show_line(const execution *e) {
 }
 
 void execution_show(execution *e) {
-  if (!e->progress && !e->lines) return;
+  if ((!e->progress && !e->lines) || e->finished == e->due) return;
   double now = wall_clock();
   if (now - e->shown < (e->lines ? LINE_S : 0.2)) return;
   e->shown = now;

@@ -14,8 +14,7 @@ typedef struct execute_options {
   bool progress;     /* on stderr: a line that is written over itself on a terminal, elsewhere one
                         every half minute */
   bool pilot;        /* the cheapest cell first and alone, and an estimate by it, on stderr */
-  double
-      reference_unit; /* wall time over work of a reference, as a pilot has it [s]; 0: not known */
+  double reference_unit; /* time over work of a reference, as a pilot has it [s]; 0: not known */
   void (*tick)(void *context); /* called some time after a run has ended, seldom; may be NULL */
   void *context;
   bool quiet;            /* nothing on stderr but errors */

@@ -71,9 +71,9 @@ static double read_cost(const char *dir, const char *method, double t_end) {
   json_t *result = NULL;
   double cost = NAN;
   if (path && json_file_read(path, &result) == COROT_OK) {
-    const json_t *wall = json_object_get(json_object_get(result, "timings"), "wall");
+    const json_t *cpu = json_object_get(json_object_get(result, "timings"), "cpu");
     double reached = json_number_value(json_object_get(result, "t_reached"));
-    if (json_is_number(wall) && reached > 0) cost = json_number_value(wall) * t_end / reached;
+    if (json_is_number(cpu) && reached > 0) cost = json_number_value(cpu) * t_end / reached;
   }
   json_decref(result);
   free(path);

@@ -6,7 +6,7 @@
 #include "study/plan/manifest.h"
 
 /* Runs a fiftieth of the time of the reference of most work by each method [n], ten seconds at
-   most, side by side in DIR/pilot/METHOD. Stores the wall time of the whole by each [s], NaN where
+   most, side by side in DIR/pilot/METHOD. Stores the CPU time of the whole by each [s], NaN where
    nothing came of it, and that work. *signal_number: 0, or what ended it early. */
 corot_status pilot_methods(const manifest *m, const execute_options *o, int n,
                            const char *const *method, double *cost, double *work,

@@ -40,7 +40,8 @@ double run_reached(const char *dir, const study_run *run) {
     if (size > 0) t = last_time(text, (size_t)size);
   }
   close(fd);
-  return fmin(1, t / run->t_end);
+  double part = t / run->t_end; /* may be NaN */
+  return part > 1 ? 1 : part;
 }
 
 bool run_is_alive(const char *dir, const study_run *run) {

@@ -8,6 +8,8 @@
      runs/ID/timings.json  timed repetitions: {"hash", "runs": [{"cpu", "wall",
                            "provenance" as in result.json}, ...]} [s]
      runs/ID/messages.txt  what the run had to say, if anything
+     names/NAME            links to the folders of runs (run_names.h)
+     pilot/METHOD/         short runs by which the methods of references were chosen (pilot.h)
      table.json, table.csv, index.sqlite   collected from them (collect.h)
      .lock                 held while a study is at work here
 

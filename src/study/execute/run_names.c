@@ -1,5 +1,5 @@
 /* Names from the settings of cells, and links by these names. */
-#include "names.h"
+#include "run_names.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -34,15 +34,27 @@ static size_t append_value(char name[RUN_NAME], size_t used, const json_t *value
   return used;
 }
 
+static const char *last_part(const char *key) {
+  const char *dot = strrchr(key, '.');
+  return dot ? dot + 1 : key;
+}
+
+/* Its last part, unless another column has the same. */
+static const char *short_key(const manifest *m, const char *key) {
+  int count = 0;
+  for (int i = 0; i < m->ncolumn; i++)
+    count += strcmp(last_part(m->column[i]), last_part(key)) == 0;
+  return count > 1 ? key : last_part(key);
+}
+
 void cell_name(const manifest *m, int index, char name[RUN_NAME]) {
   const char *key;
   json_t *value;
   size_t used = 0;
   name[0] = '\0';
   json_object_foreach((json_t *)m->cell[index].settings, key, value) {
-    const char *dot = strrchr(key, '.');
     if (used > 0) used = append(name, used, ",");
-    used = append(name, used, dot ? dot + 1 : key);
+    used = append(name, used, short_key(m, key));
     used = append_value(name, append(name, used, "="), value);
   }
 }

@@ -5,8 +5,8 @@
      10^4 to 10^5         each tenth
      10^5 to 10^6         each hundredth, and so on: 9000 rows for each factor of ten
      kinks, restarts of the integrator, failures and refused steps, and the last step   always */
-#ifndef COROT_APP_RUN_THIN_H
-#define COROT_APP_RUN_THIN_H
+#ifndef COROT_APP_RUN_STEPS_KEPT_H
+#define COROT_APP_RUN_STEPS_KEPT_H
 
 #include "app/folder/write_csv.h"
 

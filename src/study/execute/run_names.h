@@ -1,7 +1,7 @@
 /* Names for runs that a person can read: of cells what they set, of references their number and
    method. */
-#ifndef COROT_STUDY_EXECUTE_NAMES_H
-#define COROT_STUDY_EXECUTE_NAMES_H
+#ifndef COROT_STUDY_EXECUTE_RUN_NAMES_H
+#define COROT_STUDY_EXECUTE_RUN_NAMES_H
 
 #include "study/plan/manifest.h"
 

@@ -1,5 +1,5 @@
 /* Which of many steps have a row in steps.csv. */
-#include "app/run/thin.h"
+#include "app/run/steps_kept.h"
 #include "check.h"
 
 /* Rows of so many steps without events. */

@@ -1,5 +1,5 @@
 /* The rows that are kept of many steps. */
-#include "thin.h"
+#include "steps_kept.h"
 
 bool thin_keeps(long number, unsigned events) {
   long every = 1;
@@ -10,6 +10,7 @@ bool thin_keeps(long number, unsigned events) {
 
 const char *thin_rule(const steps_count *count) {
   if (count->rows == count->steps) return "every step";
-  return "every step up to 10000, every 10th up to 100000, every 100th up to 1000000 and so on, and "
+  return "every step up to 10000, every 10th up to 100000, every 100th up to 1000000 and so on, "
+         "and "
          "kinks, restarts, failures, refused steps and the last one always";
 }
