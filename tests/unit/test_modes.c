@@ -254,6 +254,26 @@ static void unstable_modes_have_growth_rates(void **state) {
   }
 }
 
+/* By any direct solver, be it one that refuses a matrix that is not positive definite or one whose
+   pivots are counted: the shift lies below all eigenvalues, of which some are negative here. */
+static void any_direct_solver_will_do(void **state) {
+  (void)state;
+  body b = make_box("green", COROT_MASS_AUTO, true);
+  double *u = calloc(b.n, sizeof *u);
+  const int(*dof)[3] = corot_model_dof(b.model);
+  for (int n = 0; n < b.mesh->nnode; n++)
+    if (dof[n][2] >= 0) u[dof[n][2]] = -0.6 * (b.mesh->x[n][2] - 0.1);
+  corot_modes *one = find(&b, 5, u), *other;
+  corot_modes_def def = corot_modes_defaults();
+  def.count = 5, def.linear.solver = "klu";
+  assert_ok(corot_modes_find(&def, b.model, 0, u, &other));
+  assert_non_null(strstr(corot_modes_known(other).solver, "klu"));
+  assert_below(corot_modes_known(other).shift, corot_modes_at(other, 0).eigenvalue);
+  for (int k = 0; k < 5; k++)
+    assert_close(corot_modes_at(other, k).eigenvalue, corot_modes_at(one, k).eigenvalue, 1e-10, 0);
+  corot_modes_destroy(one), corot_modes_destroy(other), drop_body(&b), free(u);
+}
+
 /* A pressure all around, which has a potential, and one on a face with free edges, of which K has
    the symmetric part, and the facts say what is left. */
 static void pressure_counts_where_it_has_a_potential(void **state) {
@@ -422,6 +442,7 @@ int main(void) {
       cmocka_unit_test(a_free_body_has_six_rigid_modes),
       cmocka_unit_test(each_part_and_each_hinge_is_seen),
       cmocka_unit_test(unstable_modes_have_growth_rates),
+      cmocka_unit_test(any_direct_solver_will_do),
       cmocka_unit_test(pressure_counts_where_it_has_a_potential),
       cmocka_unit_test(a_hierarchy_has_modes_at_rest),
       cmocka_unit_test(the_same_call_gives_the_same_bits),
