@@ -10,8 +10,8 @@
 #include <string.h>
 #include <sunlinsol/sunlinsol_pcg.h>
 
+#include "linsol_by_levels.h"
 #include "linsol_multilevel.h"
-#include "linsol_order.h"
 #include "solve/linsol/linsol.h"
 #include "solve/sundials/sun_status.h"
 

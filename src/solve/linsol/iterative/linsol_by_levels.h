@@ -1,7 +1,7 @@
 /* A matrix with its unknowns in the order of the levels of a refinement, where the mesh numbers its
    nodes otherwise: preconditioners by levels take it that a level's nodes come first. */
-#ifndef COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_ORDER_H
-#define COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_ORDER_H
+#ifndef COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_BY_LEVELS_H
+#define COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_BY_LEVELS_H
 
 #include <corot/ode.h>
 

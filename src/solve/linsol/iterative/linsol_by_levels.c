@@ -1,5 +1,5 @@
 /* Counting sorts: of the unknowns by their nodes, of the entries by rows, then by columns. */
-#include "linsol_order.h"
+#include "linsol_by_levels.h"
 
 #include <stdlib.h>
 #include <string.h>
