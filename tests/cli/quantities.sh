@@ -112,6 +112,9 @@ expect 0 budget model.yaml -o budget --quiet --skip space --set output.fields=no
   --quantity corner.ux@end --quantity 'max(elastic)'
 out "max_elastic, max(elastic): "; out "strain measure "
 grep -q 'max_elastic, max(elastic): 0\.' budget/report.html || complain "the budget's page"
+# It is that of the same run without these.
+expect 0 run model.yaml -o plain --quiet; cp budget/budget.json plain
+expect 0 report plain; grep -q 'id="budget"' plain/report.html || complain "the budget of a run is not on its page"
 expect 2 budget model.yaml --quantity 'max(elastic'; err "--quantity: a ) is missing"
 
 # A limit: the displacement is nearly in proportion to the load.

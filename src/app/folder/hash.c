@@ -69,7 +69,8 @@ corot_status hash_solution(const json_t *resolved, char digest[HASH_SIZE]) {
   const char *key;
   bool complete = bare != NULL;
   json_object_foreach((json_t *)resolved, key, value) { /* jansson's iteration wants it so */
-    bool counts = strcmp(key, "title") != 0 && strcmp(key, "output") != 0;
+    bool counts =
+        strcmp(key, "title") != 0 && strcmp(key, "output") != 0 && strcmp(key, "quantities") != 0;
     if (complete && counts) complete = json_object_set(bare, key, value) == 0;
   }
   corot_status status = complete ? hash_scenario(bare, digest)

@@ -16,8 +16,8 @@ typedef struct hashes {
 
 corot_status hashes_of(const json_t *resolved, const corot_mesh *mesh, hashes *out);
 
-/* Of a resolved scenario without its title and without what is written of it: what its solution
-   depends on, beside the mesh. */
+/* Of a resolved scenario without its title, its quantities, and without what is written of it: what
+   its solution depends on, beside the mesh. */
 corot_status hash_solution(const json_t *resolved, char digest[HASH_SIZE]);
 
 /* Makes the identity of a run that of corot static of the same scenario and mesh, which is other

@@ -9,18 +9,6 @@
 #include "app/text/no_memory.h"
 #include "report/read/lookup.h"
 
-corot_status budget_quantities_read(const scenario *s, const json_t *result, double **value) {
-  const json_t *all = json_object_get(result, "quantities");
-  double *x = malloc(((size_t)s->nquantity + 1) * sizeof *x);
-  if (!x) return no_memory();
-  for (int i = 0; i < s->nquantity; i++) {
-    const json_t *v = json_object_get(json_object_get(all, s->quantity[i].name), "value");
-    x[i] = json_is_number(v) ? json_number_value(v) : NAN;
-  }
-  *value = x;
-  return COROT_OK;
-}
-
 /* --- One quantity, k --- */
 
 /* No number is known better than by the rounding of what it is made from, as of states. */

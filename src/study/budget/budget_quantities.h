@@ -10,9 +10,6 @@
 
 #include "budget_runs.h"
 
-/* The values [nquantity] of a run's result, NaN where it has none; the caller's to free. */
-corot_status budget_quantities_read(const scenario *s, const json_t *result, double **value);
-
 /* The object above, the caller's to json_decref. */
 corot_status budget_quantities(const budgeting *b, json_t **out);
 

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "app/text/json_text.h"
-#include "budget_quantities.h"
 #include "study/execute/store.h"
 #include "study/execute/variants.h"
+#include "study/measure/collect_quantities.h"
 #include "study/measure/states_sum.h"
 
 int budget_chain_run(const budgeting *b, int part) {
@@ -93,6 +93,15 @@ static double work_of(const json_t *result) {
   return json_number_value(steps) * tets_of(result);
 }
 
+/* value [nquantity] */
+static corot_status read_quantities(const scenario *s, const json_t *result, double **value) {
+  double *x = malloc(((size_t)s->nquantity + 1) * sizeof *x);
+  if (!x) return corot_fail(COROT_ENOMEM, "out of memory");
+  for (int i = 0; i < s->nquantity; i++) x[i] = quantity_found(result, s->quantity[i].name);
+  *value = x;
+  return COROT_OK;
+}
+
 static corot_status load_run(budgeting *b, const char *dir, budget_run *run) {
   const study_run *entry = &b->manifest->run[run->at];
   run_record record;
@@ -109,8 +118,7 @@ static corot_status load_run(budgeting *b, const char *dir, budget_run *run) {
     run->tets = tets_of(record.result);
     char *folder = store_path(dir, entry, "");
     status = folder ? states_read(folder, &run->states) : COROT_ENOMEM;
-    if (status == COROT_OK)
-      status = budget_quantities_read(b->scenario, record.result, &run->quantity);
+    if (status == COROT_OK) status = read_quantities(b->scenario, record.result, &run->quantity);
     free(folder);
     if (status == COROT_OK && b->options->still) states_keep_last(&run->states);
   }

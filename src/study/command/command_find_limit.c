@@ -13,6 +13,7 @@
 #include "study/execute/builds.h"
 #include "study/execute/store.h"
 #include "study/execute/variants.h"
+#include "study/measure/collect_quantities.h"
 #include "study/measure/limit.h"
 #include "study/plan/json_file.h"
 #include "variants_command.h"
@@ -172,9 +173,8 @@ static corot_status judge_quantity(const search *s, const study_run *run, limit_
   run_record record;
   COROT_TRY(store_look(s->arguments->options.dir, run, &record));
   const json_t *all = json_object_get(record.result, "quantities");
-  const json_t *found = json_object_get(all, b->of.name), *value = json_object_get(found, "value");
-  const char *why = json_string_value(json_object_get(found, "reason"));
-  if (json_is_number(value)) trial->quantity = json_number_value(value);
+  const char *why = json_string_value(json_object_get(json_object_get(all, b->of.name), "reason"));
+  trial->quantity = quantity_found(record.result, b->of.name);
   trial->stable =
       !(trial->quantity >= b->below) && !(trial->quantity <= b->above) && !isnan(trial->quantity);
   if (isnan(trial->quantity))

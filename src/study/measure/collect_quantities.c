@@ -7,14 +7,16 @@
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
 
+double quantity_found(const json_t *result, const char *name) {
+  const json_t *found = json_object_get(json_object_get(result, "quantities"), name);
+  const json_t *value = json_object_get(found, "value");
+  return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
 corot_status quantities_read(const manifest *m, const json_t *result, double **value) {
-  const json_t *all = json_object_get(result, "quantities");
   double *x = malloc(((size_t)m->nquantity + 1) * sizeof *x);
   if (!x) return no_memory();
-  for (int i = 0; i < m->nquantity; i++) {
-    const json_t *v = json_object_get(json_object_get(all, m->quantity[i].name), "value");
-    x[i] = json_is_number(v) ? json_number_value(v) : NAN;
-  }
+  for (int i = 0; i < m->nquantity; i++) x[i] = quantity_found(result, m->quantity[i].name);
   *value = x;
   return COROT_OK;
 }

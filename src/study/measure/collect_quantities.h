@@ -7,6 +7,9 @@
 #include "errors.h"
 #include "study/plan/manifest.h"
 
+/* The value of that name in the result of a run; NaN: it has none. */
+double quantity_found(const json_t *result, const char *name);
+
 /* value [nquantity], the caller's to free, from the result of a run; NaN where it has none. */
 corot_status quantities_read(const manifest *m, const json_t *result, double **value);
 
