@@ -34,7 +34,7 @@ static const char *default_words(const schema_key *key) {
     case SCHEMA_ONE_OF:
       return "one of";
     case SCHEMA_AT_MOST_ONE:
-      return "one at most";
+      return "at most 1";
     default:
       return key->fallback && key->type != SCHEMA_MAP ? key->fallback : "-";
   }

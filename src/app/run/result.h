@@ -2,9 +2,11 @@
 
      warnings  [{code, text}, ...], see warnings.h
      quantities  what the scenario asks for, see quantities.h
+     probes    at the end, see probes_json in app/probe/probe.h
      extremes  {NAME: {min: {value, t}, max: {value, t}}, ...} over all steps (of statics, over the
-               load steps): PROBE.ux, uy, uz [m], PROBE.u, its length, and the energies under their
-               names in energy.csv [J]
+               load steps): the columns of the probes; PROBE.u (v, a), the length of a displacement
+               (velocity, acceleration); and the energies under their names in energy.csv [J]. With
+               "at": {node or tet, x}, the place, where a probe takes the largest or smallest
      observed  what the outcome's warnings are made from, warning or not:
        displacement  the largest of a node at an output time [m]
        period        of the motion, see history.h [s]; null: it does not swing

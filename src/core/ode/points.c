@@ -251,13 +251,9 @@ static int show_places(const corot_points *points, const solid *body, const soli
 corot_status corot_points_evaluate(const corot_points *points, corot_state *s, double t,
                                    const double *u, const corot_point_fields *fields) {
   const corot_model *m = points->model;
-  const instant now = corot_state_at(s, t);
-  const solid *body = solid_of(m);
-  solid_state *of = &s->system.of[0];
-  nodal_field all_u = corot_state_displace(m, s, &now, u);
-  corot_status above = corot_system_settle(&m->system, &s->system, age_of(s, t), all_u);
+  nodal_field all_u;
+  corot_status above = corot_show_begin(m, s, t, u, &all_u);
   if (above && above != COROT_RETRY) return above;
-  corot_kernel_dilatation(body, of, all_u);
-  corot_status status = corot_solid_check(of, show_places(points, body, of, all_u, fields));
-  return status ? corot_system_told(&m->system, &s->system, 0, status) : above;
+  int first = show_places(points, solid_of(m), &s->system.of[0], all_u, fields);
+  return corot_show_end(m, s, first, above);
 }

@@ -3,6 +3,7 @@
 #define COROT_CORE_ODE_SHOWN_H
 
 #include "core/element/strain.h"
+#include "state.h"
 
 /* Frame; shear-term strain; stress on the deformed body, in fixed axes; energy per rest volume. */
 typedef struct shown {
@@ -55,5 +56,15 @@ COROT_INLINE void store_eigenvalues(const eigen3 *e, int lane, double a[3]) {
   a[2] = fmin(x, fmin(y, z));
   a[1] = fmax(fmin(x, y), fmin(fmax(x, y), z));
 }
+
+/* What both kinds of fields start from: frames and averages of u, which is put on all nodes.
+   COROT_RETRY: a tet that hands down its frame is inverted; the others can be shown all the same.
+ */
+corot_status corot_show_begin(const corot_model *m, corot_state *s, double t, const double *u,
+                              nodal_field *all_u);
+
+/* The status of the fields: `first` is the first inverted tet of those that were shown, or -1;
+   `above` what the beginning said. */
+corot_status corot_show_end(const corot_model *m, corot_state *s, int first, corot_status above);
 
 #endif
