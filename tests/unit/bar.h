@@ -15,6 +15,7 @@ typedef struct bar_def {
   double traction[3]; /* [Pa] */
   double ramp;        /* [s] */
   double Q[9];        /* rotates all of it */
+  bool lumped;        /* its mass, of whatever order */
 } bar_def;
 
 static const bar_def example2 = {.strain = "polar",
@@ -55,6 +56,7 @@ static inline bar bar_create(const bar_def *def) {
   apply(def->Q, def->traction, load.value);
   corot_model_def model = corot_model_defaults();
   model.mesh = mesh, model.strain = def->strain, model.viscosity = def->viscosity;
+  if (def->lumped) model.mass = COROT_MASS_LUMPED;
   model.nmaterial = 1, model.material = &material;
   model.nfix = 1, model.fix = &base;
   model.nload = 1, model.load = &load;

@@ -176,6 +176,91 @@ static void linear_fields_are_integrated_exactly(void **state) {
     }
 }
 
+/* The orders of four corners that do not turn a tet inside out. */
+static const int even[12][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 0, 3, 2},
+                                {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 0, 1, 3}, {2, 1, 3, 0},
+                                {2, 3, 0, 1}, {3, 0, 2, 1}, {3, 1, 0, 2}, {3, 2, 1, 0}};
+
+/* A tet of ten nodes by itself, with curved edges. */
+static body single_tet(corot_mass mass, const int order[4]) {
+  static const double x[4][3] = {{0, 0, 0}, {1, 0, 0.1}, {0.1, 1, 0}, {0, 0.1, 1}};
+  corot_mesh *mesh;
+  assert_ok(corot_mesh_create(4, x, 1, (const int(*)[4])order, &mesh));
+  mesh = given_order(mesh, 2);
+  bend_edges(mesh, 0.05);
+  corot_model_def def = corot_model_defaults();
+  def.nmaterial = 1, def.material = &soft, def.mass = mass;
+  return make_body(mesh, def);
+}
+
+/* In whatever order it names its corners: the products of a vector, and forces of a deformed state.
+ */
+static void a_tet_may_name_its_corners_in_any_order(void **state) {
+  (void)state;
+  double first[60], now[60], x[30], rest[30] = {0};
+  fill(30, x, 12);
+  for (int k = 0; k < 12; k++) {
+    body b = single_tet(COROT_MASS_CONSISTENT, even[k]);
+    corot_mass_multiply(b.model, x, now);
+    for (int i = 0; i < 30; i++) x[i] *= 0.03;
+    assert_ok(corot_residual(b.model, b.state, 0, x, rest, now + 30));
+    for (int i = 0; i < 30; i++) x[i] /= 0.03;
+    if (k == 0) memcpy(first, now, sizeof first);
+    for (int i = 0; i < 60; i++)
+      assert_close(now[i], first[i], 0, 1e-13 * norm_max(30, first + i / 30 * 30));
+    drop_body(&b);
+  }
+}
+
+/* In proportion to the diagonal of the consistent mass, and in sum the mass of the tet. */
+static void a_curved_tet_is_lumped_by_its_diagonal(void **state) {
+  (void)state;
+  body lumped = single_tet(COROT_MASS_LUMPED, even[7]);
+  body b = single_tet(COROT_MASS_CONSISTENT, even[7]);
+  double *x = vectors(&b, 2), *Mx = x + b.n, diagonal[10], trace = 0;
+  double whole = soft.density * corot_mesh_measure(b.mesh).volume;
+  for (int n = 0; n < 10; n++) {
+    x[3 * n] = 1;
+    corot_mass_multiply(b.model, x, Mx);
+    trace += diagonal[n] = Mx[3 * n];
+    x[3 * n] = 0;
+  }
+  assert_above(fabs(diagonal[4] / diagonal[9] - 1), 0.01); /* so that it matters whose is whose */
+  for (int i = 0; i < 30; i++)
+    assert_close(corot_model_mass(lumped.model)[i], whole * diagonal[i / 3] / trace, 1e-13, 0);
+  free(x), drop_body(&lumped), drop_body(&b);
+}
+
+/* Nodes on inner edges that are off the middle by so little that no shape shows it: a field that is
+   linear is in the space still, and its energy that of the box. */
+static void edges_that_are_hardly_curved_count(void **state) {
+  (void)state;
+  corot_box box = {.size = {1, 1, 1}, .cells = {2, 2, 2}};
+  for (double bend = 1e-1; bend > 1e-11; bend *= 1e-3) {
+    corot_mesh *mesh;
+    assert_ok(corot_mesh_box(&box, &mesh));
+    mesh = given_order(mesh, 2);
+    for (int n = 0; n < mesh->nnode; n++) {
+      bool inside = true, middle = false;
+      for (int c = 0; c < 3; c++) {
+        double quarters = 4 * mesh->x[n][c];
+        inside = inside && quarters > 0.5 && quarters < 3.5;
+        middle = middle || fabs(fmod(quarters, 2) - 1) < 0.5;
+      }
+      if (inside && middle) mesh->x[n][0] += bend * 0.25;
+    }
+    corot_model_def def = corot_model_defaults();
+    def.nmaterial = 1, def.material = &soft, def.mass = COROT_MASS_CONSISTENT;
+    body b = make_body(mesh, def);
+    double *u = vectors(&b, 2), *v = u + b.n;
+    for (int n = 0; n < mesh->nnode; n++) v[3 * n] = mesh->x[n][0];
+    corot_energies e;
+    assert_ok(corot_energy(b.model, b.state, 0, u, v, &e));
+    assert_close(e.kinetic, soft.density / 6, 1e-13, 0);
+    free(u), drop_body(&b);
+  }
+}
+
 /* a M + b D + c K as compressed columns, dense, against products with the three; D against the
    residual, which is linear in v. */
 static void columns_and_blocks_agree_with_products(void **state) {
@@ -468,6 +553,9 @@ int main(void) {
       cmocka_unit_test(consistent_mass_is_symmetric_and_positive),
       cmocka_unit_test(held_components_drop_out),
       cmocka_unit_test(linear_fields_are_integrated_exactly),
+      cmocka_unit_test(a_tet_may_name_its_corners_in_any_order),
+      cmocka_unit_test(a_curved_tet_is_lumped_by_its_diagonal),
+      cmocka_unit_test(edges_that_are_hardly_curved_count),
       cmocka_unit_test(columns_and_blocks_agree_with_products),
       cmocka_unit_test(mass_damping_has_the_matrix_of_the_mass),
       cmocka_unit_test(the_models_size_counts_it),
