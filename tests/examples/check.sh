@@ -81,5 +81,12 @@ case $name in
     [ "$(grep -c ' stable after' "$work/out")" = 2 ] || fail "load steps"
     holds 'near(at("longer", 3), at("longer", 7), 0.006)'
     ;;
+  space)
+    # What ten-node tets make of the end's displacement is the first with the correction, but for the
+    # square of this; and that is nearly all of what is missing to the beam, which bends by 0.0487 m.
+    holds 'near(at("four-node", 3) + at("correction", 2), at("ten-node", 3), 0.01)'
+    holds 'near(at("ten-node", 3), 0.0487, 0.01)'
+    holds 'at("missing", 2) > 20 && at("missing", 2) < 60'
+    ;;
   *) fail "no such example" ;;
 esac
