@@ -47,8 +47,9 @@ typedef struct corot_space_estimate {
   double displacement; /* u + e: root of the mean square over the mass that is free to move [m] */
   double relative;     /* error / displacement: the part that is missing. 0 where nothing is displaced */
   long niteration;     /* of an iterative solver */
-  bool clamped;        /* K2 was not positive definite; COROT_TANGENT_CLAMPED took its place, which is
-                          stiffer: the error may be larger */
+  bool indefinite;     /* K2 is not positive definite, as it may be where four-node tets are under
+                          stress for being too stiff: the stiffness of the material alone took its
+                          place, in the frames of polar (warp and cauchy: their own) */
 } corot_space_estimate;
 
 /* The estimate for a model of linear tets, made by `def` (whose mesh is not looked at).
@@ -63,7 +64,7 @@ typedef struct corot_space_estimate {
 
    COROT_EINVAL: the model has ten-node tets, or a hierarchy; the definition does not suit ten-node
    tets; a linear solver as for corot_pencil_create. COROT_RETRY, COROT_ESINGULAR: a tet is inverted,
-   or K2 has no usable factor, as beyond a load that buckles. COROT_ENOMEM. */
+   or the linear system has no solution. COROT_ENOMEM. */
 corot_status corot_space_error(const corot_model_def *def, const corot_model *model,
                                const corot_space_moment *at, const corot_linear_def *linear,
                                double (*correction)[3], corot_space_estimate *estimate);

@@ -16,6 +16,7 @@ static const struct option options[] = {
     {"quiet", no_argument, NULL, 'q'},
     {"json", no_argument, NULL, 'j'},
     {"force", no_argument, NULL, 'f'},
+    {"lean", no_argument, NULL, 'l'},
     {"help", no_argument, NULL, 'h'},
     {0},
 };
@@ -59,6 +60,8 @@ int command_scenario(const char *program, const char *suffix, const char *help, 
       o.json = true;
     else if (answer == 'f')
       o.force = true;
+    else if (answer == 'l')
+      o.lean = true;
     else if (answer == 'h')
       fputs(help, stdout), code = EXIT_OK;
     else

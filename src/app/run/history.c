@@ -37,7 +37,7 @@ struct history {
   signal_seen *signal; /* [OF_PROBE nprobe + OF_ENERGY] the probes', then the energies' */
   long count;
   double balance, dissipated; /* at the last moment */
-  double t_elastic, *u;       /* [ndof] at the largest elastic energy */
+  double t_elastic, *u, *v;   /* [ndof] at the largest elastic energy */
 };
 
 static int nsignal(const history *h) { return OF_PROBE * h->nprobe + OF_ENERGY; }
@@ -57,6 +57,7 @@ void history_destroy(history *h) {
   history_close(h);
   free(h->signal);
   free(h->u);
+  free(h->v);
   free(h);
 }
 
@@ -68,7 +69,8 @@ corot_status history_create(const scenario *s, int ndof, history **out) {
   h->ndof = ndof;
   h->signal = calloc((size_t)nsignal(h), sizeof *h->signal);
   h->u = calloc((size_t)ndof + 1, sizeof *h->u);
-  if (!h->signal || !h->u) {
+  h->v = calloc((size_t)ndof + 1, sizeof *h->v);
+  if (!h->signal || !h->u || !h->v) {
     history_destroy(h);
     return corot_fail(COROT_ENOMEM, "the history: out of memory");
   }
@@ -123,7 +125,7 @@ static void see(signal_seen *s, bool first, double value, double t) {
 }
 
 corot_status history_add(history *h, const ledger *now, const int *node,
-                         const double (*displacement)[3], const double *u) {
+                         const double (*displacement)[3], const double *u, const double *v) {
   bool first = h->count++ == 0;
   signal_seen *s = h->signal;
   for (int i = 0; i < h->nprobe; i++, s += OF_PROBE) {
@@ -135,6 +137,7 @@ corot_status history_add(history *h, const ledger *now, const int *node,
                                     now->external_work, now->balance, now->frame_energy};
   if (first || now->elastic > s[ELASTIC].max.value) {
     memcpy(h->u, u, (size_t)h->ndof * sizeof *u);
+    memcpy(h->v, v, (size_t)h->ndof * sizeof *v);
     h->t_elastic = now->t;
   }
   for (int k = 0; k < OF_ENERGY; k++) see(&s[k], first, energy[k], now->t);
@@ -198,6 +201,7 @@ history_facts history_known(const history *h) {
       .kinetic = energy_signal(h, KINETIC)->max.value,
       .t_elastic = h->t_elastic,
       .u = h->u,
+      .v = h->v,
   };
   find_period(h, &f);
   for (int k = KINETIC; k <= WORK; k++) {

@@ -29,9 +29,9 @@ corot_status history_create(const scenario *s, int ndof, history **out);
 corot_status history_open(history *h, const char *dir);
 
 /* One moment: the ledger, the displacement of all nodes, of which `node` [nprobe] are the probes',
-   and u [ndof], of which the one with the largest elastic energy is kept. */
+   and u and v [ndof], of which those with the largest elastic energy are kept. */
 corot_status history_add(history *h, const ledger *now, const int *node,
-                         const double (*displacement)[3], const double *u);
+                         const double (*displacement)[3], const double *u, const double *v);
 
 /* The probes' components and magnitudes, and the energies, by name:
    {"NAME.ux": {"min": {"value", "t"}, "max": {"value", "t"}}, ..., "NAME.u", "kinetic", ...}. The
@@ -51,7 +51,7 @@ typedef struct history_facts {
   double swing;     /* how far that probe's component goes [m]; NaN: without probes */
   double kinetic;   /* the largest kinetic energy [J] */
   double t_elastic; /* when the elastic energy was largest [s] */
-  const double *u;  /* [ndof] and the displacement then */
+  const double *u, *v; /* [ndof] and the displacement and velocity then */
 } history_facts;
 
 history_facts history_known(const history *h);

@@ -149,7 +149,7 @@ static corot_status take_energies(outputs *o, corot_state *state, const instant 
 }
 
 static corot_status add_history(outputs *o, const instant *now, const ledger *row) {
-  return history_add(o->history, row, o->node, (const double(*)[3])o->nodal, now->u);
+  return history_add(o->history, row, o->node, (const double(*)[3])o->nodal, now->u, now->v);
 }
 
 corot_status outputs_history(outputs *o, const instant *now, const corot_energies *e) {
@@ -274,6 +274,8 @@ corot_status outputs_observed(const outputs *o, corot_state *state, observed *ou
   *out = seen;
   return COROT_OK;
 }
+
+const int *outputs_nodes(const outputs *o) { return o->node; }
 
 int outputs_nprobe(const outputs *o) { return o->scenario->nprobe; }
 

@@ -6,6 +6,7 @@
 #include "app/folder/write_csv.h"
 #include "app/scenario/scenario.h"
 #include "history.h"
+#include "space.h"
 
 typedef struct outputs outputs;
 
@@ -51,6 +52,7 @@ long outputs_count(const outputs *o);
 
 /* The moment written last: energies, and u and v of each probe. */
 ledger outputs_ledger(const outputs *o);
+const int *outputs_nodes(const outputs *o); /* [outputs_nprobe] of the probes */
 int outputs_nprobe(const outputs *o);
 const char *outputs_probe(const outputs *o, int i, int *node, double u[3], double v[3]);
 
@@ -75,7 +77,8 @@ struct observed {
   corot_deformation turned;   /* the most turned (of cauchy, else there are no turns), */
   corot_deformation inverted; /* and that with the smallest det F */
   double t_strained, t_turned, t_inverted; /* [s] */
-  double jumps; /* of the stress when the elastic energy was largest: corot_stress_jumps */
+  double jumps;     /* of the stress when the elastic energy was largest: corot_stress_jumps */
+  space_seen space; /* of the same moment; set by run_warn_after, to be cleared by space_clear */
 };
 
 /* All zero if no moment was written. COROT_ENOMEM. */

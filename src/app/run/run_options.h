@@ -12,6 +12,7 @@ typedef struct run_options {
   bool progress;   /* a line on stderr while it runs, if that is a terminal */
   bool quiet;      /* nothing on stderr but the reason of a failure */
   bool json;       /* result.json on stdout, too */
+  bool lean;       /* leave out what costs time and is only asked for by `auto`: the space error */
 } run_options;
 
 #endif

@@ -185,6 +185,9 @@ static void read_output(scenario *s) {
   s->write_fields = text_is(root, "output.fields", "vtu");
   s->write_history = text_is(root, "output.history", "true");
   s->write_states = text_is(root, "output.states", "binary");
+  s->space_error = text_is(root, "output.space_error", "auto")   ? SPACE_ERROR_AUTO
+                   : text_is(root, "output.space_error", "true") ? SPACE_ERROR_ON
+                                                                 : SPACE_ERROR_OFF;
   s->field_every = (int)number_at(root, "output.every");
 }
 

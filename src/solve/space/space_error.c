@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fit.h"
 #include "modes.h"
 #include "raised.h"
+#include "rigid_fit.h"
 
 /* Of the square of the model's frequency: how stiffly what nothing holds is tied to where it is. It
    is far below the square of any frequency of a body that is no thinner than a hundredth of its
@@ -14,6 +14,9 @@
 
 /* A displacement of no more than this part of the body's length is rounding. */
 #define NOTHING 1e-12
+
+/* Of conjugate gradients, if nothing else is asked for. */
+#define TOLERANCE 1e-4
 
 typedef struct estimation {
   const corot_space_moment *at;
@@ -52,36 +55,53 @@ static corot_status find_imbalance(estimation *s) {
   return COROT_OK;
 }
 
-/* By one tangent. */
-static corot_status solve(estimation *s, corot_pencil *p, corot_tangent tangent) {
-  double frequency = corot_model_frequency(s->fine.model);
+/* With the tangent of a model on the ten-node tets, and its state. */
+static corot_status solve(estimation *s, const corot_linear_def *linear, const corot_model *model,
+                          corot_state *state, corot_tangent tangent) {
+  double frequency = corot_model_frequency(model), tie = TIE * frequency * frequency;
+  corot_pencil *p = NULL;
+  COROT_TRY(corot_pencil_create(model, state, linear, &p));
   corot_pencil_use(p, tangent);
-  COROT_TRY(corot_pencil_assemble(p, s->at->t, s->now.u, s->now.v));
-  corot_pencil_combine(p, s->modes.any ? TIE * frequency * frequency : 0, 0, 1);
-  COROT_TRY(corot_pencil_factor(p));
-  return corot_pencil_solve(p, s->r, s->e);
-}
-
-/* Conjugate gradients want K2 positive definite, of which a direct solver takes care itself. */
-static corot_status solve_somehow(estimation *s, corot_pencil *p) {
-  corot_status status = solve(s, p, COROT_TANGENT_EXACT);
-  bool again = status == COROT_RETRY || status == COROT_ESINGULAR;
-  if (again) status = solve(s, p, COROT_TANGENT_CLAMPED);
-  corot_pencil_counts n = corot_pencil_statistics(p);
-  s->result.clamped = again || n.nclamped > 0;
-  s->result.niteration = n.niteration;
+  corot_status status = corot_pencil_assemble(p, s->at->t, s->now.u, s->now.v);
+  corot_pencil_combine(p, s->modes.any ? tie : 0, 0, 1);
+  if (!status) status = corot_pencil_factor(p);
+  if (!status) status = corot_pencil_solve(p, s->r, s->e);
+  s->result.niteration = corot_pencil_statistics(p).niteration;
+  corot_pencil_destroy(p);
   return status;
 }
 
-static corot_status find_error(estimation *s, const corot_linear_def *linear) {
-  corot_linear_def def = corot_linear_defaults();
-  def.solver = "pcg", def.preconditioner = "multigrid", def.tolerance = 1e-4;
-  if (linear) def = *linear;
-  def.refinement = s->fine.refinement;
-  corot_pencil *p = NULL;
-  COROT_TRY(corot_pencil_create(s->fine.model, s->fine.state, &def, &p));
-  corot_status status = solve_somehow(s, p);
-  corot_pencil_destroy(p);
+/* With the stiffness of the material alone, in the frames of polar, which is never negative. */
+static corot_status solve_without_stress(estimation *s, const corot_model_def *def,
+                                         const corot_linear_def *linear) {
+  const raised *f = &s->fine;
+  if (corot_strain_find(def->strain)->linear_in_frames)
+    return solve(s, linear, f->model, f->state, COROT_TANGENT_HELD);
+  corot_model_def of = *def;
+  corot_model *model = NULL;
+  corot_state *state = NULL;
+  of.mesh = f->mesh, of.strain = "polar", of.viscosity = COROT_VISCOSITY_AUTO;
+  COROT_TRY(corot_model_create(&of, &model));
+  corot_status status = corot_state_create(model, &state);
+  if (!status) {
+    corot_space_enter(s->at, state);
+    status = solve(s, linear, model, state, COROT_TANGENT_HELD);
+  }
+  corot_state_destroy(state);
+  corot_model_destroy(model);
+  return status;
+}
+
+static corot_status find_error(estimation *s, const corot_model_def *def,
+                               const corot_linear_def *given) {
+  corot_linear_def linear = corot_linear_defaults();
+  linear.solver = "pcg", linear.preconditioner = "multigrid", linear.tolerance = TOLERANCE;
+  if (given) linear = *given;
+  linear.refinement = s->fine.refinement;
+  linear.role = COROT_ROLE_STATIC; /* what is not positive definite is to be told */
+  corot_status status = solve(s, &linear, s->fine.model, s->fine.state, COROT_TANGENT_EXACT);
+  s->result.indefinite = status == COROT_RETRY || status == COROT_ESINGULAR;
+  if (s->result.indefinite) status = solve_without_stress(s, def, &linear);
   if (!status) corot_modes_leave(&s->modes, s->e);
   return status;
 }
@@ -147,7 +167,7 @@ static corot_status estimate_error(estimation *s, const corot_model_def *def,
   COROT_TRY(corot_raised_take(model, s->at, &s->fine, &s->now));
   COROT_TRY(corot_modes_create(s->fine.model, (const double(*)[3])s->now.x, &s->modes));
   COROT_TRY(find_imbalance(s));
-  COROT_TRY(find_error(s, linear));
+  COROT_TRY(find_error(s, def, linear));
   return judge(s);
 }
 

@@ -2,7 +2,7 @@
    1987): the quaternion of the rotation is the eigenvector of the largest eigenvalue of a symmetric
    matrix made of S = sum X x', of points X and x about their means. It minds no points in a plane.
  */
-#include "fit.h"
+#include "rigid_fit.h"
 
 #include <math.h>
 #include <stdlib.h>
