@@ -60,7 +60,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
     argv[n++] = e->o->command ? e->o->command : "run";
     argv[n++] = e->m->base;
     argv[n++] = "--quiet";
-    argv[n++] = "--lean"; /* what a cell costs is the cost of its answer */
+    argv[n++] = "--lean";  /* what a cell costs is the cost of its answer */
     argv[n++] = "--force"; /* the folder is the study's, whatever an earlier attempt has left */
     argv[n++] = "--output";
     argv[n++] = dir;
