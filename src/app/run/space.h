@@ -1,7 +1,8 @@
 /* The space error in the end of a run, or of a search for an equilibrium, at the moment of the
    largest elastic energy: corot/space.h. It is left out where output.space_error says so and, where
-   that says auto, where it may cost more than a tenth of the run, which is judged by counts of what
-   was done, not by the clock: the same run always says the same. */
+   that says auto, where it may cost more than a tenth of the run and is not over in some 0.05 s,
+   which is judged by counts of what was done, not by the clock: the same run always says the same.
+ */
 #ifndef COROT_APP_RUN_SPACE_H
 #define COROT_APP_RUN_SPACE_H
 
