@@ -100,7 +100,7 @@ import json, subprocess
 values = {}
 exec(open("stdout").read().split("rule all:")[0], values)
 for id, settings in values["RUNS"].items():
-    subprocess.run(f"'{values['PROGRAM']}' run '{values['BASE']}' -q -o '{values['DIR']}/runs/{id}' {settings}", shell=True, check=True)
+    subprocess.run(f"'{values['PROGRAM']}' run '{values['BASE']}' -q --lean -o '{values['DIR']}/runs/{id}' {settings}", shell=True, check=True)
 PYTHON
 for engine in commands slurm snakemake; do
   expect 0 study collect e/$engine; no_out; err "warning: bending: 2 of 2 cells: "

@@ -69,12 +69,16 @@ lacks() {
   true
 }
 run() { echo run "$1" -o r --quiet; }
+# As pull.yaml, by a mesh that leaves out less than a twentieth of the displacement.
+fine="--set mesh.box.cells=[4,4,12]"
 constant() { echo "integrator={method: $1, step: $2}"; }
 
 # Nothing where nothing is wrong, in a run, in statics and before either.
-expect 0 run pull.yaml -o r --json --set integrator.method=arkode; [ -z "$(codes stdout)" ] || complain "$what: $(codes stdout)"
+# shellcheck disable=SC2086
+expect 0 run pull.yaml -o r --json --set integrator.method=arkode $fine; [ -z "$(codes stdout)" ] || complain "$what: $(codes stdout)"
 grep -q warning stderr && complain "a warning of nothing"
-expect 0 static pull.yaml -o r --json; [ -z "$(codes stdout)" ] || complain "$what: $(codes stdout)"
+# shellcheck disable=SC2086
+expect 0 static pull.yaml -o r --json $fine; [ -z "$(codes stdout)" ] || complain "$what: $(codes stdout)"
 expect 0 check pull.yaml --set integrator.method=arkode; no_err; grep -q warning stdout && complain "a warning of nothing"
 
 # Before the first step.
@@ -207,14 +211,47 @@ for command in run static; do
 done
 
 # The mesh, by the stress: bent, two cells and four are told, eight will do; pulled, one will.
+stress="--set output.space_error=false"
 for across in 2 4; do
-  has bending static swing.yaml -o r --quiet --set material.lambda=2e4 \
+  has bending static swing.yaml -o r --quiet --set material.lambda=2e4 $stress \
     --set mesh.box.cells=[$across,$across,$((4 * across))]
 done
-lacks bending static swing.yaml -o r --quiet --set material.lambda=2e4 \
+lacks bending static swing.yaml -o r --quiet --set material.lambda=2e4 $stress \
   --set mesh.box.cells=[8,8,32]
-lacks bending static pull.yaml -o r --quiet
-has bending $(run swing.yaml) --set mesh.refine=1; json '"mesh.refine: 2" in d["warnings"][-1]["text"]'
+lacks bending static pull.yaml -o r --quiet $stress
+has bending $(run swing.yaml) $stress --set mesh.refine=1
+json '"mesh.order: 2, mesh.refine: 2" in d["warnings"][-1]["text"]'
+has bending $(run swing.yaml) --lean
+
+# And by ten-node tets, which takes the place of that: bent, two cells and four are told (eight
+# still leave out 7 %); pulled, one is, for what the clamped end lets the sides do, and four are not.
+for across in 2 4; do
+  has space static swing.yaml -o r --quiet --set material.lambda=2e4 --set output.space_error=true \
+    --set mesh.box.cells=[$across,$across,$((4 * across))]
+  json 'not any(w["code"] == "bending" for w in d["warnings"])'
+  json 'any("mesh.order: 2" in w["text"] and "probe corner lacks (" in w["text"] for w in d["warnings"])'
+done
+has space static pull.yaml -o r --quiet; lacks space static pull.yaml -o r --quiet $fine
+for command in run static; do
+  has space $command swing.yaml -o r --quiet
+  json 'd["space_error"]["left_out"] is None and 0.05 < d["space_error"]["relative"] < 1'
+  json 'len(d["space_error"]["probes"]["corner"]) == 3 and d["space_error"]["error"] > 0'
+  for why in "output.space_error=false" "mesh.order=2"; do
+    lacks space $command swing.yaml -o r --quiet --set $why
+    json 'list(d["space_error"]) == ["left_out"] and len(d["space_error"]["left_out"]) > 10'
+  done
+  lacks space $command swing.yaml -o r --quiet --lean; json 'd["space_error"]["left_out"] == "option --lean"'
+  has space $command swing.yaml -o r --quiet --lean --set output.space_error=true
+done
+# A fine mesh costs too much for few steps, by counts: not by the clock.
+lacks space static swing.yaml -o r --quiet --set mesh.box.cells=[6,6,24]
+json '"more than a tenth" in d["space_error"]["left_out"]'
+# What moves as one has no error, whatever the steps leave; nor what is shorter than a tolerance.
+for method in cvode ida arkode; do
+  lacks space $(run block.yaml) --set boundary=[] --set integrator.method=$method
+  lacks space $(run block.yaml) --set boundary=[] --set loads=[] --set integrator.method=$method \
+    --set 'start={velocity: [1, 0, 0], spin: {axis: [0, 1, 1], rate: 0.01}}'
+done
 
 # Time.
 has step $(run swing.yaml) --set "$(constant newmark 0.15)"

@@ -45,14 +45,14 @@ static void a_run_leaves_its_books(void **state) {
 
 static void the_phases_make_up_the_time(void **state) {
   (void)state;
-  static const char *const phase[] = {"setup",  "force",  "assembly", "combine",
-                                      "factor", "solve",  "work",     "integrator",
-                                      "frames", "output", "other"};
+  static const char *const phase[] = {"setup",  "force",  "assembly",    "combine",
+                                      "factor", "solve",  "work",        "integrator",
+                                      "frames", "output", "space_error", "other"};
   char *dir = temporary_folder();
   run_ok(dir, SET("frames={policy: hold, interval: 0.05}"));
   json_t *result = result_of(dir);
   double sum = 0;
-  for (int i = 0; i < 11; i++) {
+  for (int i = 0; i < 12; i++) {
     assert_above(number(result, "timings", phase[i]), 0);
     sum += number(result, "timings", phase[i]);
   }

@@ -4,6 +4,7 @@
 
 static const char help[] =
     "usage: corot run MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--force] [--quiet] [--json]\n"
+    "                 [--lean]\n"
     "\n"
     "Integrates a scenario (YAML, or JSON) and writes probes.csv and energy.csv (output times),\n"
     "history.csv (both at every step), steps.csv, compare.csv and states.bin (if the scenario "
@@ -16,6 +17,8 @@ static const char help[] =
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
     "      --force          replaces files of others, too\n"
     "  -q, --quiet          nothing on stderr but errors\n"
+    "      --lean           takes no time for what is not asked for: output.space_error: auto is "
+    "false\n"
     "      --json           result.json on stdout as well\n"
     "\n"
     "Files of an earlier run in the folder are replaced; of a run that fails, too: its result.json "

@@ -16,6 +16,7 @@ static const struct option common[] = {
     {"quiet", no_argument, NULL, 'q'},
     {"json", no_argument, NULL, 'j'},
     {"force", no_argument, NULL, 'f'},
+    {"lean", no_argument, NULL, 'l'},
     {"help", no_argument, NULL, 'h'},
     {0},
 };

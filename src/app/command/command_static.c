@@ -5,7 +5,7 @@
 
 static const char help[] =
     "usage: corot static MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--force] [--quiet]\n"
-    "                    [--json]\n"
+    "                    [--json] [--lean]\n"
     "\n"
     "Finds the equilibrium of a scenario under its full loads, those of time.end, by load steps,\n"
     "and writes the folder that a run would leave: a row of probes.csv, energy.csv and steps.csv\n"
@@ -21,6 +21,7 @@ static const char help[] =
     "      --set KEY=VALUE  overrides a key of the scenario; any number of times\n"
     "      --force          replaces files that corot has not written, too; see corot run --help\n"
     "  -q, --quiet          nothing on stderr but errors\n"
+    "      --lean           takes no time for what is not asked for; see corot run --help\n"
     "      --json           result.json on stdout as well\n"
     "\n"
     "example: corot static bar.yaml -o out/hanging --set statics.max_step=0.1\n";

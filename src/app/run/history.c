@@ -28,7 +28,7 @@ struct history {
   signal_seen *signal; /* [nsignal + OF_ENERGY] the probes', then the energies' */
   long count;
   double balance, dissipated; /* at the last moment */
-  double t_elastic, *u;       /* [ndof] at the largest elastic energy */
+  double t_elastic, *u, *v;   /* [ndof] at the largest elastic energy */
 };
 
 static int signals_of(probe_facts probe) { return probe.ncolumn + (probe.length ? 1 : 0); }
@@ -48,6 +48,7 @@ void history_destroy(history *h) {
   history_close(h);
   free(h->signal);
   free(h->u);
+  free(h->v);
   free(h);
 }
 
@@ -59,7 +60,8 @@ corot_status history_create(const probes *p, int ndof, history **out) {
   for (int i = 0; i < probes_n(p); i++) h->nsignal += signals_of(probes_known(p, i));
   h->signal = calloc((size_t)h->nsignal + OF_ENERGY, sizeof *h->signal);
   h->u = calloc((size_t)ndof + 1, sizeof *h->u);
-  if (!h->signal || !h->u) {
+  h->v = calloc((size_t)ndof + 1, sizeof *h->v);
+  if (!h->signal || !h->u || !h->v) {
     history_destroy(h);
     return corot_fail(COROT_ENOMEM, "the history: out of memory");
   }
@@ -89,7 +91,8 @@ static void see(signal_seen *s, bool first, double value, double t, const probe_
 /* Of three components. */
 static double length_of(const double *x) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
-corot_status history_add(history *h, const ledger *now, const double *value, const double *u) {
+corot_status history_add(history *h, const ledger *now, const double *value, const double *u,
+                         const double *v) {
   bool first = h->count++ == 0;
   signal_seen *s = h->signal;
   for (int i = 0; i < probes_n(h->probes); i++) {
@@ -104,6 +107,7 @@ corot_status history_add(history *h, const ledger *now, const double *value, con
                                     now->external_work, now->balance, now->frame_energy};
   if (first || now->elastic > s[ELASTIC].max.value) {
     memcpy(h->u, u, (size_t)h->ndof * sizeof *u);
+    memcpy(h->v, v, (size_t)h->ndof * sizeof *v);
     h->t_elastic = now->t;
   }
   for (int k = 0; k < OF_ENERGY; k++) see(&s[k], first, energy[k], now->t, NULL);
@@ -173,6 +177,7 @@ history_facts history_known(const history *h) {
       .kinetic = energy_signal(h, KINETIC)->max.value,
       .t_elastic = h->t_elastic,
       .u = h->u,
+      .v = h->v,
   };
   find_period(h, &f);
   for (int k = KINETIC; k <= WORK; k++) {

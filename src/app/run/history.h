@@ -26,9 +26,10 @@ corot_status history_create(const probes *p, int ndof, history **out);
 /* Begins DIR/history.csv; without this call nothing is written. */
 corot_status history_open(history *h, const char *dir);
 
-/* One moment: the ledger, the probes' columns, and u [ndof], of which the one with the largest
-   elastic energy is kept. */
-corot_status history_add(history *h, const ledger *now, const double *value, const double *u);
+/* One moment: the ledger, the probes' columns, and u and v [ndof], of which those with the largest
+   elastic energy are kept. */
+corot_status history_add(history *h, const ledger *now, const double *value, const double *u,
+                         const double *v);
 
 /* The probes' columns, lengths of vectors, and the energies, by name:
    {"NAME.ux": {"min": {"value", "t"}, "max": {"value", "t"}}, ..., "NAME.u", "kinetic", ...}; with
@@ -49,7 +50,7 @@ typedef struct history_facts {
   double swing;     /* how far that probe's component goes [m]; NaN: without probes */
   double kinetic;   /* the largest kinetic energy [J] */
   double t_elastic; /* when the elastic energy was largest [s] */
-  const double *u;  /* [ndof] and the displacement then */
+  const double *u, *v; /* [ndof] and the displacement and velocity then */
 } history_facts;
 
 history_facts history_known(const history *h);

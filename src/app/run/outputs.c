@@ -161,7 +161,7 @@ static corot_status evaluate_probes(outputs *o, corot_state *state, const instan
 static corot_status record(outputs *o, const instant *now, const ledger *row,
                            const double (*velocity)[3]) {
   quantities_row(o->quantities, row, o->probed, velocity);
-  return history_add(o->history, row, o->probed, now->u);
+  return history_add(o->history, row, o->probed, now->u, now->v);
 }
 
 corot_status outputs_history(outputs *o, corot_state *state, const instant *now,
@@ -307,4 +307,8 @@ corot_status outputs_observed(const outputs *o, corot_state *state, observed *ou
 
 json_t *outputs_probes(const outputs *o) {
   return probes_json(o->probes, o->probed, (const double(*)[3])o->velocity);
+}
+
+const probes *outputs_recorded(const outputs *o) {
+  return o->probes;
 }

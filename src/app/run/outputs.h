@@ -5,6 +5,7 @@
 
 #include "app/scenario/warnings.h"
 #include "history.h"
+#include "space.h"
 #include "steps_kept.h"
 
 typedef struct outputs outputs;
@@ -53,6 +54,7 @@ long outputs_count(const outputs *o);
 /* The moment written last: energies, and the probes (probes_json). */
 ledger outputs_ledger(const outputs *o);
 json_t *outputs_probes(const outputs *o);
+const probes *outputs_recorded(const outputs *o); /* the probes */
 
 /* The forces of the supports at the moment written last: reactions_last, and as that before the
    outputs are closed; NULL without reactions.csv. */
@@ -82,7 +84,8 @@ struct observed {
   corot_deformation turned;   /* the most turned (of cauchy, else there are no turns), */
   corot_deformation inverted; /* and that with the smallest det F */
   double t_strained, t_turned, t_inverted; /* [s] */
-  double jumps; /* of the stress when the elastic energy was largest: corot_stress_jumps */
+  double jumps;     /* of the stress when the elastic energy was largest: corot_stress_jumps */
+  space_seen space; /* of the same moment; set by run_warn_after, to be cleared by space_clear */
 };
 
 /* All zero if no moment was written. COROT_ENOMEM. */

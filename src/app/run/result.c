@@ -86,15 +86,17 @@ static json_t *statistics_part(const run_summary *run) {
 static json_t *timings_part(const run_summary *run) {
   const corot_statistics *n = &run->statistics;
   double known = run->setup_s + n->force_s + n->assembly_s + n->combine_s + n->factor_s +
-                 n->solve_s + n->work_s + n->integrator_s + run->frames_s + run->output_s;
-  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "setup",
-                   json_text_real(run->setup_s), "force", json_text_real(n->force_s), "assembly",
-                   json_text_real(n->assembly_s), "combine", json_text_real(n->combine_s), "factor",
-                   json_text_real(n->factor_s), "solve", json_text_real(n->solve_s), "work",
-                   json_text_real(n->work_s), "integrator", json_text_real(n->integrator_s),
-                   "frames", json_text_real(run->frames_s), "output", json_text_real(run->output_s),
-                   "other", json_text_real(run->wall_s - known), "wall",
-                   json_text_real(run->wall_s), "cpu", json_text_real(run->cpu_s));
+                 n->solve_s + n->work_s + n->integrator_s + run->frames_s + run->output_s +
+                 run->seen->space.wall_s;
+  return json_pack(
+      "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "setup",
+      json_text_real(run->setup_s), "force", json_text_real(n->force_s), "assembly",
+      json_text_real(n->assembly_s), "combine", json_text_real(n->combine_s), "factor",
+      json_text_real(n->factor_s), "solve", json_text_real(n->solve_s), "work",
+      json_text_real(n->work_s), "integrator", json_text_real(n->integrator_s), "frames",
+      json_text_real(run->frames_s), "output", json_text_real(run->output_s), "space_error",
+      json_text_real(run->seen->space.wall_s), "other", json_text_real(run->wall_s - known), "wall",
+      json_text_real(run->wall_s), "cpu", json_text_real(run->cpu_s));
 }
 
 /* Bytes; `peak` is the largest resident set of the process so far. */
@@ -152,7 +154,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
   COROT_TRY(provenance_make(&provenance));
   json_t *result = json_pack(
       "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
-      "s:o, s:o, s:o,"
+      "s:o, s:o, s:o, s:o,"
       " s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
@@ -164,9 +166,10 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
       timings_part(run), "memory", memory_part(run), "probes", outputs_probes(o), "energy",
       energy_part(o), "quantities", outputs_quantities(o), "extremes", extremes_part(o), "observed",
-      observed_part(run), "steps_csv", steps_part(o), "versions", result_versions(), "provenance",
-      provenance, "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run, "scenario",
-      s->resolved);
+      observed_part(run), "steps_csv", steps_part(o), "space_error",
+      space_json(outputs_recorded(o), &run->seen->space), "versions", result_versions(),
+      "provenance", provenance, "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
+      "scenario", s->resolved);
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
   return COROT_OK;

@@ -14,6 +14,12 @@
        strained      the part of the volume strained beyond STRAIN_LIMIT, when that was largest
        turned        the part turned beyond TURN_LIMIT, when the turn was largest; of cauchy
        stress_jumps  corot_stress_jumps when the elastic energy was largest
+     space_error what the mesh leaves out of the displacement when the elastic energy was largest,
+   see corot/space.h, if left_out is null, else the reason why it is not known: relative      error
+   / displacement error         root of its mean square over the body's mass [m] displacement  the
+   same of the displacement with the error added [m] t             the time of that moment [s]
+       indefinite    the tangent was not positive definite, so that stress has no part in it
+       probes        {NAME: [x, y, z]}: to be added to the displacement of each [m]
      provenance what it was made by, see provenance.h */
 #ifndef COROT_APP_RUN_RESULT_H
 #define COROT_APP_RUN_RESULT_H

@@ -72,6 +72,7 @@ static corot_status prepare(run *r) {
 }
 
 static void release(run *r) {
+  space_clear(&r->seen.space);
   outputs_destroy(r->outputs);
   corot_frame_clock_destroy(r->clock);
   corot_integrator_destroy(r->integrator);
@@ -277,10 +278,26 @@ static void tell(const run *r, const run_summary *summary) {
     say("%s: stopped at t = %.6g s of %g s: %s\n", path, summary->t_reached, r->scenario->t_end,
         summary->reason);
   if (r->options->quiet) return;
-  say("%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time); %s\n", path,
+  char space[64];
+  space_words(&r->seen.space, sizeof space, space);
+  say("%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time)%s; %s\n", path,
       summary->t_reached, summary->statistics.nst, summary->statistics.nfactor, summary->wall_s,
-      summary->t_reached / summary->wall_s, dir);
+      summary->t_reached / summary->wall_s, space, dir);
   outputs_tell(r->outputs);
+}
+
+static corot_status warn(run *r, int code) {
+  corot_statistics n = corot_integrator_statistics(r->integrator);
+  const run_end end = {
+      .scenario = r->scenario,
+      .model = r->model,
+      .state = r->state,
+      .outputs = r->outputs,
+      .options = r->options,
+      .code = code,
+      .work = {n.nfe + n.nfeQ, n.nje, n.nfactor, n.nsolve},
+  };
+  return run_warn_after(&end, &r->warnings, &r->seen);
 }
 
 /* Closes the books after a run that ended with `status`; returns the exit code. */
@@ -310,8 +327,7 @@ static int conclude(run *r, corot_status status) {
   code = run_answered_code(code, r->outputs);
   run_summary summary;
   r->failure = run_failure_of(status, code);
-  late = run_warn_after(r->scenario, r->model, r->state, r->outputs, false, r->options,
-                        &r->warnings, &r->seen);
+  late = warn(r, code);
   corot_status summed = summarize(r, reason, code, &summary);
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);

@@ -154,15 +154,30 @@ corot_status run_warn_before(const scenario *s, const corot_model *model, bool s
   return status;
 }
 
-corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,
-                            const outputs *o, bool statics, const run_options *options, warnings *w,
-                            observed *seen) {
+static corot_status ask_space(const run_end *end, observed *seen) {
+  const space_question question = {
+      .scenario = end->scenario,
+      .model = end->model,
+      .options = end->options,
+      .statics = end->statics,
+      .ended_well = end->code == EXIT_OK && seen->history.count > 0,
+      .work = end->work,
+      .t = seen->history.t_elastic,
+      .u = seen->history.u,
+      .v = seen->history.v,
+      .probes = outputs_recorded(end->outputs),
+  };
+  return space_ask(&question, &seen->space);
+}
+
+corot_status run_warn_after(const run_end *end, warnings *w, observed *seen) {
   int before = w->n;
-  COROT_TRY(outputs_observed(o, state, seen));
-  corot_status status = COROT_OK;
-  if (seen->history.count > 0) status = warnings_after(s, model, seen, statics, w);
-  if (status == COROT_OK) status = outputs_warn(o, w);
-  if (!options->quiet) warnings_print(w, before, head, stderr);
+  COROT_TRY(outputs_observed(end->outputs, end->state, seen));
+  corot_status status = ask_space(end, seen);
+  if (status == COROT_OK && seen->history.count > 0)
+    status = warnings_after(end->scenario, end->model, seen, end->statics, w);
+  if (status == COROT_OK) status = outputs_warn(end->outputs, w);
+  if (!end->options->quiet) warnings_print(w, before, head, stderr);
   return status;
 }
 

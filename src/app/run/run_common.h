@@ -51,15 +51,26 @@ void run_end_unread(const char *path, const run_options *options, corot_status s
 /* The words and the exit code of a run that heeds a request to stop. */
 int run_interrupted(size_t size, char *reason);
 
+/* A run in the end, after the last moment was written. */
+typedef struct run_end {
+  const scenario *scenario;
+  const corot_model *model;
+  corot_state *state;
+  const outputs *outputs;
+  const run_options *options;
+  bool statics;
+  int code; /* the exit code, as far as it is known */
+  run_work work;
+} run_end;
+
 /* The warnings of what there is before the first step, told on stderr unless the options ask for
    quiet. */
 corot_status run_warn_before(const scenario *s, const corot_model *model, bool statics,
                              const run_options *options, warnings *w);
 
-/* The same of what came of it, after the last moment was written; `seen` is what was looked at. */
-corot_status run_warn_after(const scenario *s, const corot_model *model, corot_state *state,
-                            const outputs *o, bool statics, const run_options *options, warnings *w,
-                            observed *seen);
+/* The same of what came of it, and the space error; `seen` is what was looked at, and refers to the
+   outputs. */
+corot_status run_warn_after(const run_end *end, warnings *w, observed *seen);
 
 /* A document as result.json, with the list of the folder's files added. It is taken over. */
 corot_status run_write_document(json_t *result, bool hasty, const run_options *options);

@@ -82,6 +82,7 @@ static corot_status open_outputs(equilibrium_run *r) {
 }
 
 static void release(equilibrium_run *r) {
+  space_clear(&r->seen.space);
   outputs_destroy(r->outputs);
   corot_statics_destroy(r->statics);
   corot_state_destroy(r->state);
@@ -223,11 +224,28 @@ static void tell(const equilibrium_run *r, const char *reason, const run_summary
   const char *path = r->scenario->path;
   if (*reason) say("%s: stopped at load factor %.6g: %s\n", path, r->factor, reason);
   if (r->options->quiet) return;
+  char space[64];
+  space_words(&r->seen.space, sizeof space, space);
   say("%s: load factor %.6g in %ld load step%s, %ld Newton iterations, %ld factorisations, "
-      "%.3g s; %s\n",
+      "%.3g s%s; %s\n",
       path, r->factor, n->nstep, n->nstep == 1 ? "" : "s", n->nni, n->nfactor, summary->wall_s,
-      r->options->dir);
+      space, r->options->dir);
   outputs_tell(r->outputs);
+}
+
+static corot_status warn(equilibrium_run *r, int code) {
+  corot_statics_counts n = corot_statics_statistics(r->statics);
+  const run_end end = {
+      .scenario = r->scenario,
+      .model = r->model,
+      .state = r->state,
+      .outputs = r->outputs,
+      .options = r->options,
+      .statics = true,
+      .code = code,
+      .work = {n.nfe, n.nje, n.nfactor, n.nsolve},
+  };
+  return run_warn_after(&end, &r->warnings, &r->seen);
 }
 
 /* Closes the books; returns the exit code. */
@@ -255,8 +273,7 @@ static int conclude(equilibrium_run *r, corot_status status) {
   run_summary summary;
   statics_summary statics;
   r->failure = run_failure_of(status, code);
-  late = run_warn_after(r->scenario, r->model, r->state, r->outputs, true, r->options, &r->warnings,
-                        &r->seen);
+  late = warn(r, code);
   corot_status summed = summarize(r, reason, code, &statics, &summary);
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);

@@ -1,5 +1,6 @@
 /* What a run has shown. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "app/scenario/warnings.h"
@@ -117,7 +118,7 @@ static corot_status find_jumps(const scenario *s, const corot_mesh *mesh, const 
                                warnings *w) {
   const char *remedy = corot_mesh_order(mesh) == 2 ? ""
                                                    : "linear tets want four and more cells "
-                                                     "across what bends: ";
+                                                     "across what bends: mesh.order: 2, ";
   if (!(o->jumps > MOST_JUMPS)) return COROT_OK;
   return warnings_add(w, WARNING_BENDING,
                       "the mesh is too coarse: the stress jumps between tets by %.0f %% of itself, "
@@ -126,6 +127,66 @@ static corot_status find_jumps(const scenario *s, const corot_mesh *mesh, const 
                       "%smesh.refine: %d, or a finer mesh, shows how much it matters",
                       100 * o->jumps, o->history.t_elastic, 100 * MOST_JUMPS,
                       100 * o->jumps * o->jumps, remedy, s->refine + 1);
+}
+
+/* --- What the next order of elements says --- */
+
+#define MOST_SPACE_ERROR 0.05
+
+/* Below the tolerance of the steps there is no displacement to speak of. */
+static double least_displacement(const scenario *s, const corot_model *model, bool statics) {
+  if (statics) return 0;
+  if (s->integrator.step > 0)
+    return 100 * s->integrator.newton_tolerance * corot_model_length(model);
+  return warnings_atol(s, model);
+}
+
+/* The probe with the largest correction, -1 without probes. */
+static int worst_probe(const space_seen *seen) {
+  int worst = -1;
+  double most = 0;
+  for (int i = 0; i < seen->nprobe; i++) {
+    const double *e = seen->probe[i];
+    double square = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+    if (square > most) worst = i, most = square;
+  }
+  return worst;
+}
+
+/* "; probe NAME lacks (x, y, z) m", or nothing. */
+static void describe_probe(const scenario *s, const space_seen *seen, size_t size, char *text) {
+  int i = worst_probe(seen);
+  const double *e = i >= 0 ? seen->probe[i] : NULL;
+  text[0] = 0;
+  if (e)
+    snprintf(text, size, "; probe %.100s lacks (%.2g, %.2g, %.2g) m", s->probe[i].name, e[0], e[1],
+             e[2]);
+}
+
+/* A body that gives way by too little by that part is too stiff, and swings too fast by half of it.
+ */
+static corot_status find_space(const scenario *s, const corot_model *model, const observed *o,
+                               bool statics, warnings *w) {
+  const space_seen *seen = &o->space;
+  const corot_space_estimate *e = &seen->estimate;
+  char probe[256];
+  if (!(e->relative > MOST_SPACE_ERROR)) return COROT_OK;
+  if (!(e->displacement > least_displacement(s, model, statics))) return COROT_OK;
+  describe_probe(s, seen, sizeof probe, probe);
+  return warnings_add(w, WARNING_SPACE,
+                      "the mesh is too coarse: its four-node tets leave out about %.2g %% of the "
+                      "displacement under the loads of t = %.4g s, where the body stores most "
+                      "elastic energy (%g %% would pass)%s%s; mesh.order: 2 puts that right at "
+                      "the least cost, and where it changes more than this, mesh.refine: %d",
+                      100 * e->relative, seen->t, 100 * MOST_SPACE_ERROR, probe,
+                      o->history.period > 0 ? "; it swings too fast, too" : "", s->refine + 1);
+}
+
+/* How the stress jumps says the same with less certainty, where that is not known. */
+static corot_status find_coarseness(const scenario *s, const corot_model *model, const observed *o,
+                                    bool statics, warnings *w) {
+  if (o->space.left_out) return find_jumps(s, corot_model_mesh(model), o, w);
+  return find_space(s, model, o, statics, w);
 }
 
 /* --- Time --- */
@@ -184,7 +245,7 @@ corot_status warnings_after(const scenario *s, const corot_model *model, const o
   if (!statics) COROT_TRY(find_energy(s, &seen->history, w));
   COROT_TRY(find_strains(s, seen, w));
   COROT_TRY(find_inverted(s, seen, w));
-  COROT_TRY(find_jumps(s, corot_model_mesh(model), seen, w));
+  COROT_TRY(find_coarseness(s, model, seen, statics, w));
   if (statics) return COROT_OK;
   COROT_TRY(find_sparse(s, &seen->history, w));
   COROT_TRY(find_atol(s, model, seen->displacement, w));

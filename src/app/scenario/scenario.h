@@ -55,6 +55,9 @@ typedef struct start_def {
   double rate;        /* [rad/s] */
 } start_def;
 
+/* output.space_error */
+typedef enum space_error { SPACE_ERROR_AUTO, SPACE_ERROR_ON, SPACE_ERROR_OFF } space_error;
+
 /* Everything it points to lives as long as it does. */
 typedef struct scenario {
   const char *path; /* of the file, as given */
@@ -97,6 +100,7 @@ typedef struct scenario {
   bool write_history;   /* output.history: true */
   bool write_all_steps; /* output.steps: all */
   bool write_states;    /* output.states: binary */
+  space_error space_error;
 
   json_t *resolved;      /* the whole scenario, defaults and overrides included */
   struct config *source; /* the file as a tree, for the places in messages; owns the memory */

@@ -168,6 +168,9 @@ static void read_output(scenario *s) {
   s->write_history = text_is(root, "output.history", "true");
   s->write_all_steps = config_find(root, "output.steps") && text_is(root, "output.steps", "all");
   s->write_states = text_is(root, "output.states", "binary");
+  s->space_error = text_is(root, "output.space_error", "auto")   ? SPACE_ERROR_AUTO
+                   : text_is(root, "output.space_error", "true") ? SPACE_ERROR_ON
+                                                                 : SPACE_ERROR_OFF;
   s->field_every = (int)number_at(root, "output.every");
 }
 

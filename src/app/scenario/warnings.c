@@ -21,6 +21,7 @@ const warning_kind warning_kinds[WARNING_CODES] = {
     [WARNING_DISSIPATION] = {"numerical-dissipation", "the method takes energy away"},
     [WARNING_STRAIN] = {"strain-range", "strains or turns beyond what the measure is meant for"},
     [WARNING_INVERTED] = {"inverted", "tets are turned inside out, which cauchy does not see"},
+    [WARNING_SPACE] = {"space", "the mesh leaves out a part of the displacement: it is too coarse"},
     [WARNING_BENDING] = {"bending", "the stress jumps between tets: the mesh is too coarse"},
     [WARNING_STEP] = {"step", "a constant step is long for the motion"},
     [WARNING_UNDAMPED] = {"undamped", "modes are those without the damping that the scenario has"},

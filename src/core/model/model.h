@@ -102,12 +102,15 @@ corot_status corot_materials_create(const corot_model_def *def, corot_model *m, 
    has its own: T' of corot/hierarchy.h. */
 corot_status corot_model_restrict(const corot_model_def *def, int nnode, double (*nodal)[3]);
 
-/* Displacement and velocity of all nodes, `stride` doubles each: the free values, the motions' on
-   their nodes, zero on held components. */
+/* Displacement, velocity and acceleration of all nodes, `stride` doubles each: the free values, the
+   motions' on their nodes, zero on held components. Where a velocity jumps, it has no acceleration.
+   */
 void corot_model_displacement(const corot_model *m, const instant *now, const double *u,
                               double *nodal, int stride);
 void corot_model_velocity(const corot_model *m, const instant *now, const double *v, double *nodal,
                           int stride);
+void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
+                              double *nodal, int stride);
 
 /* The same of the acceleration, of which `a` are the free values. */
 void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,

@@ -340,6 +340,22 @@ void corot_motion_factors(const motion *a, const instant *now, double velocity[3
   }
 }
 
+void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
+                              double *nodal, int stride) {
+  corot_model_spread(m, a, nodal, stride);
+  for (int k = 0; k < m->nmotion && now->moving; k++) {
+    const motion *of = &m->motion[k];
+    double velocity[3][2], acceleration[3][2], field[2];
+    corot_motion_factors(of, now, velocity, acceleration);
+    for (int i = 0; i < of->nnode; i++)
+      for (int c = 0; c < 3; c++) {
+        corot_motion_fields(of, m->mesh->x[of->node[i]], c, field);
+        nodal[of->node[i] * stride + c] =
+            acceleration[c][0] * field[0] + acceleration[c][1] * field[1];
+      }
+  }
+}
+
 bool corot_motions_carry(const corot_model *m, const instant *now, rigid_motion *all) {
   const motion *moving = NULL;
   progress p = {0}, of_it = {0};

@@ -71,8 +71,7 @@ static corot_status partition_create(const corot_mesh *mesh, partition *out) {
   return COROT_OK;
 }
 
-/* Diagonalises G [6][6] by Jacobi's rotations; the columns of V are its eigenvectors. */
-static void diagonalise(double G[6][6], double V[6][6]) {
+void corot_diagonalise(double G[6][6], double V[6][6]) {
   for (int i = 0; i < 6; i++)
     for (int j = 0; j < 6; j++) V[i][j] = i == j;
   for (int sweep = 0; sweep < 20; sweep++)
@@ -97,13 +96,13 @@ typedef struct part_shape {
   double center[3], radius;
 } part_shape;
 
-static part_shape measure(const corot_mesh *mesh, int nnode, const int *node) {
+static part_shape measure(const double (*x)[3], int nnode, const int *node) {
   part_shape p = {.nnode = nnode, .node = node};
   for (int k = 0; k < nnode; k++)
-    for (int c = 0; c < 3; c++) p.center[c] += (mesh->x[node[k]][c] - p.center[c]) / (k + 1);
+    for (int c = 0; c < 3; c++) p.center[c] += (x[node[k]][c] - p.center[c]) / (k + 1);
   for (int k = 0; k < nnode; k++) {
-    const double *x = mesh->x[node[k]], *o = p.center;
-    p.radius = fmax(p.radius, hypot(hypot(x[0] - o[0], x[1] - o[1]), x[2] - o[2]));
+    const double *at = x[node[k]], *o = p.center;
+    p.radius = fmax(p.radius, hypot(hypot(at[0] - o[0], at[1] - o[1]), at[2] - o[2]));
   }
   return p;
 }
@@ -117,20 +116,20 @@ static void component_row(const part_shape *p, const double x[3], int c, double 
   row[3 + j] = -(x[i] - p->center[i]) / p->radius;
 }
 
-/* free [6][6], of which the first rows, as many as the value says, span the motions that nothing
-   holds. */
-static int free_motions(const corot_model *model, const part_shape *p, double motion[6][6]) {
-  const corot_mesh *mesh = corot_model_mesh(model);
+/* motion [6][6], of which the first rows, as many as the value says, span the motions that nothing
+   holds; x [nnode]: where the nodes are. */
+static int free_motions(const corot_model *model, const double (*x)[3], const part_shape *p,
+                        double motion[6][6]) {
   const int(*dof)[3] = corot_model_dof(model);
   double G[6][6] = {{0}}, V[6][6], row[6];
   for (int k = 0; k < p->nnode; k++)
     for (int c = 0; c < 3; c++) {
       if (dof[p->node[k]][c] >= 0) continue;
-      component_row(p, mesh->x[p->node[k]], c, row);
+      component_row(p, x[p->node[k]], c, row);
       for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++) G[i][j] += row[i] * row[j];
     }
-  diagonalise(G, V);
+  corot_diagonalise(G, V);
   double largest = 0;
   for (int k = 0; k < 6; k++) largest = fmax(largest, G[k][k]);
   int nfree = 0;
@@ -211,8 +210,9 @@ static void describe(int nfree, double motion[6][6], size_t size, char *text) {
 
 static void find_free(const corot_model *model, const int *node, corot_part *part) {
   double motion[6][6];
-  part_shape p = measure(corot_model_mesh(model), part->nnode, node);
-  part->nfree = free_motions(model, &p, motion);
+  const double(*x)[3] = (const double(*)[3])corot_model_mesh(model)->x;
+  part_shape p = measure(x, part->nnode, node);
+  part->nfree = free_motions(model, x, &p, motion);
   if (part->nfree) describe(part->nfree, motion, sizeof part->can, part->can);
 }
 
@@ -305,4 +305,57 @@ corot_status corot_rigid_check(const corot_model *model) {
   }
   free(part);
   return status;
+}
+
+/* --- Motions as fields --- */
+
+/* Those of one part. */
+static void fill_fields(const corot_model *model, const double (*x)[3], const part_shape *p,
+                        int nfree, double motion[6][6], double *field) {
+  const int(*dof)[3] = corot_model_dof(model);
+  int n = corot_model_ndof(model);
+  double row[6];
+  for (int i = 0; i < p->nnode; i++)
+    for (int c = 0; c < 3; c++) {
+      int to = dof[p->node[i]][c];
+      if (to < 0) continue;
+      component_row(p, x[p->node[i]], c, row);
+      for (int k = 0; k < nfree; k++)
+        for (int j = 0; j < 6; j++) field[(size_t)k * n + to] += motion[k][j] * row[j];
+    }
+}
+
+static void fill_parts(const corot_model *model, const double (*x)[3], const partition *p,
+                       corot_rigid *r) {
+  double motion[6][6];
+  for (int k = 0; k < p->npart; k++) {
+    const int *node = p->node + p->begin[k];
+    part_shape shape = measure(x, p->begin[k + 1] - p->begin[k], node);
+    r->nfree[k] = free_motions(model, x, &shape, motion);
+    fill_fields(model, x, &shape, r->nfree[k], motion, r->field);
+    for (int i = 0; i < shape.nnode; i++) r->part[node[i]] = k;
+  }
+}
+
+corot_status corot_rigid_create(const corot_model *model, const double (*x)[3],
+                                corot_rigid *rigid) {
+  partition p = {0};
+  size_t nnode = (size_t)corot_model_mesh(model)->nnode, n = (size_t)corot_model_ndof(model);
+  *rigid = (corot_rigid){0};
+  COROT_TRY(partition_create(corot_model_mesh(model), &p));
+  rigid->npart = p.npart;
+  rigid->nfree = calloc((size_t)p.npart, sizeof *rigid->nfree);
+  rigid->part = calloc(nnode, sizeof *rigid->part);
+  rigid->field = calloc(6 * n, sizeof *rigid->field);
+  bool room = rigid->nfree && rigid->part && rigid->field;
+  if (room) fill_parts(model, x, &p, rigid);
+  partition_free(&p);
+  return room ? COROT_OK : corot_fail(COROT_ENOMEM, "no memory for motions of %zu nodes", nnode);
+}
+
+void corot_rigid_clear(corot_rigid *rigid) {
+  free(rigid->nfree);
+  free(rigid->part);
+  free(rigid->field);
+  *rigid = (corot_rigid){0};
 }

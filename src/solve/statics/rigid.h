@@ -26,4 +26,21 @@ corot_status corot_rigid_motions(const corot_model *model, int *count, double **
 /* COROT_ESINGULAR if a part has such a motion; the message names the first. */
 corot_status corot_rigid_check(const corot_model *model);
 
+/* The same motions as fields on the degrees of freedom. A part has at most six, and no node of
+   another: motion k of every part is in field k. */
+typedef struct corot_rigid {
+  int npart;
+  int *nfree;    /* [npart] motions of a part; its further fields are zero there */
+  int *part;     /* [nnode] the part of each node */
+  double *field; /* [6][ndof] */
+} corot_rigid;
+
+/* Of the body where its nodes are now, x [nnode]. What is half made is released by clear. */
+corot_status corot_rigid_create(const corot_model *model, const double (*x)[3], corot_rigid *rigid);
+void corot_rigid_clear(corot_rigid *rigid);
+
+/* Diagonalises the symmetric G [6][6] by Jacobi's rotations; the columns of V are its eigenvectors.
+ */
+void corot_diagonalise(double G[6][6], double V[6][6]);
+
 #endif

@@ -108,7 +108,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
   const study_run *run = e->task[i].run;
   char *dir = store_path(e->o->dir, run, folder);
   char *messages = store_path(e->o->dir, run, "messages.txt");
-  const char **argv = calloc(2 * (size_t)run->nset + 11, sizeof *argv);
+  const char **argv = calloc(2 * (size_t)run->nset + 12, sizeof *argv);
   corot_status status = dir && messages && argv ? COROT_OK : no_memory();
   if (status == COROT_OK) {
     int n = 0;
@@ -116,6 +116,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
     argv[n++] = e->m->still ? "static" : "run";
     argv[n++] = e->m->base;
     argv[n++] = "--quiet";
+    argv[n++] = "--lean";  /* what a cell costs is the cost of its answer */
     argv[n++] = "--force"; /* the folder is the study's, whatever an earlier attempt has left */
     argv[n++] = "--output";
     argv[n++] = dir;

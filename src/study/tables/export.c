@@ -39,7 +39,7 @@ corot_status export_commands(const manifest *m, const export_target *t, FILE *ou
     escape_shell(t->program, out);
     fputs(m->still ? " static " : " run ", out);
     escape_shell(m->base, out);
-    fputs(" --quiet --force --output ", out);
+    fputs(" --quiet --lean --force --output ", out);
     escape_shell(t->dir, out);
     fprintf(out, "/runs/%s ", m->run[i].id);
     write_sets(&m->run[i], out);
@@ -117,7 +117,7 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
       "    output: DIR + \"/runs/{id}/result.json\"\n"
       "    params: settings=lambda wildcards: RUNS[wildcards.id]\n"
       "    shell: \"" ONE_THREAD
-      "{PROGRAM:q} {COMMAND} {BASE:q} --quiet --force --output {DIR:q}/runs/{wildcards.id} "
+      "{PROGRAM:q} {COMMAND} {BASE:q} --quiet --lean --force --output {DIR:q}/runs/{wildcards.id} "
       "{params.settings} || test $? -eq 1\"\n" /* a quantity without a value is no failure */
       "\n"
       "rule collect:\n"
