@@ -167,7 +167,8 @@ static void the_damped_motion_ends_there(void **state) {
     corot_integrator *integrator = start(&b, &run);
     run_to(integrator, 400);
     assert_ok(corot_integrator_at(integrator, 400, b.u, NULL));
-    assert_below(difference_of(b.n, u, b.u), 1e-9 * pow(order_of_test(), 2) * norm_max(b.n, u));
+    assert_below(difference_of(b.n, u, b.u),
+                 (order_of_test() == 1 ? 1e-9 : 1e-8) * norm_max(b.n, u));
     corot_integrator_destroy(integrator);
     corot_statics_destroy(s);
     free(u);
