@@ -309,6 +309,4 @@ json_t *outputs_probes(const outputs *o) {
   return probes_json(o->probes, o->probed, (const double(*)[3])o->velocity);
 }
 
-const probes *outputs_recorded(const outputs *o) {
-  return o->probes;
-}
+const probes *outputs_recorded(const outputs *o) { return o->probes; }

@@ -21,7 +21,7 @@ typedef struct run_options {
   bool json;       /* result.json on stdout, too */
   int nmode;       /* of corot modes */
   modes_about about;
-  bool lean;       /* leave out what costs time and is only asked for by `auto`: the space error */
+  bool lean; /* leave out what costs time and is only asked for by `auto`: the space error */
 } run_options;
 
 #endif

@@ -49,6 +49,19 @@ static const char *find_reason(const space_question *q) {
 
 /* --- The estimate --- */
 
+static void describe_worst(const probes *p, space_seen *seen) {
+  double most = 0;
+  for (int i = 0; i < probes_n(p); i++) {
+    probe_facts probe = probes_known(p, i);
+    const double *e = seen->probe + probe.first;
+    double square = probe.ncolumn == 3 ? e[0] * e[0] + e[1] * e[1] + e[2] * e[2] : 0;
+    if (!(square > most)) continue;
+    most = square;
+    snprintf(seen->worst, sizeof seen->worst, "; probe %.100s lacks (%.2g, %.2g, %.2g) m",
+             probe.name, e[0], e[1], e[2]);
+  }
+}
+
 static corot_status find_estimate(const space_question *q, double (*correction)[3],
                                   space_seen *seen) {
   const scenario *s = q->scenario;
@@ -62,6 +75,7 @@ static corot_status find_estimate(const space_question *q, double (*correction)[
     return COROT_OK;
   }
   probes_rates(q->probes, (const double(*)[3])correction, seen->probe); /* as linear as the rates */
+  describe_worst(q->probes, seen);
   return COROT_OK;
 }
 

@@ -21,9 +21,10 @@ typedef struct space_seen {
   const char *left_out; /* why there is no estimate, static; NULL: there is one, */
   double t;             /* of this moment [s] */
   corot_space_estimate estimate;
-  double *probe; /* [probes_ncolumn] and what is to be added to the columns of probes that are
-                    displacements at a place [m]; NaN: of other probes */
-  double wall_s; /* it has taken [s] */
+  double *probe;   /* [probes_ncolumn] and what is to be added to the columns of probes that are
+                      displacements at a place [m]; NaN: of other probes */
+  char worst[256]; /* "; probe NAME lacks (x, y, z) m", of the largest of these; "": of none */
+  double wall_s;   /* it has taken [s] */
 } space_seen;
 
 /* What is looked at. */

@@ -141,44 +141,20 @@ static double least_displacement(const scenario *s, const corot_model *model, bo
   return warnings_atol(s, model);
 }
 
-/* The probe with the largest correction, -1 without probes. */
-static int worst_probe(const space_seen *seen) {
-  int worst = -1;
-  double most = 0;
-  for (int i = 0; i < seen->nprobe; i++) {
-    const double *e = seen->probe[i];
-    double square = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
-    if (square > most) worst = i, most = square;
-  }
-  return worst;
-}
-
-/* "; probe NAME lacks (x, y, z) m", or nothing. */
-static void describe_probe(const scenario *s, const space_seen *seen, size_t size, char *text) {
-  int i = worst_probe(seen);
-  const double *e = i >= 0 ? seen->probe[i] : NULL;
-  text[0] = 0;
-  if (e)
-    snprintf(text, size, "; probe %.100s lacks (%.2g, %.2g, %.2g) m", s->probe[i].name, e[0], e[1],
-             e[2]);
-}
-
 /* A body that gives way by too little by that part is too stiff, and swings too fast by half of it.
  */
 static corot_status find_space(const scenario *s, const corot_model *model, const observed *o,
                                bool statics, warnings *w) {
   const space_seen *seen = &o->space;
   const corot_space_estimate *e = &seen->estimate;
-  char probe[256];
   if (!(e->relative > MOST_SPACE_ERROR)) return COROT_OK;
   if (!(e->displacement > least_displacement(s, model, statics))) return COROT_OK;
-  describe_probe(s, seen, sizeof probe, probe);
   return warnings_add(w, WARNING_SPACE,
                       "the mesh is too coarse: its four-node tets leave out about %.2g %% of the "
                       "displacement under the loads of t = %.4g s, where the body stores most "
                       "elastic energy (%g %% would pass)%s%s; mesh.order: 2 puts that right at "
                       "the least cost, and where it changes more than this, mesh.refine: %d",
-                      100 * e->relative, seen->t, 100 * MOST_SPACE_ERROR, probe,
+                      100 * e->relative, seen->t, 100 * MOST_SPACE_ERROR, seen->worst,
                       o->history.period > 0 ? "; it swings too fast, too" : "", s->refine + 1);
 }
 

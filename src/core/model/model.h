@@ -112,10 +112,6 @@ void corot_model_velocity(const corot_model *m, const instant *now, const double
 void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
                               double *nodal, int stride);
 
-/* The same of the acceleration, of which `a` are the free values. */
-void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
-                              double *nodal, int stride);
-
 /* The free values alone: zero on every held component. */
 void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride);
 

@@ -301,7 +301,7 @@ void corot_model_velocity(const corot_model *m, const instant *now, const double
 void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
                               double *nodal, int stride) {
   corot_model_spread(m, a, nodal, stride);
-  for (int k = 0; k < m->nmotion; k++) {
+  for (int k = 0; k < m->nmotion && now->moving; k++) {
     const motion *of = &m->motion[k];
     double velocity[3][2], by[3][2], field[2];
     corot_motion_factors(of, now, velocity, by);
@@ -337,22 +337,6 @@ void corot_motion_factors(const motion *a, const instant *now, double velocity[3
     velocity[c][1] = a->turns ? p.rate * sine : 0;
     acceleration[c][0] = a->turns ? p.speeding * cosine - square * sine : p.acceleration[c];
     acceleration[c][1] = a->turns ? p.speeding * sine + square * cosine : 0;
-  }
-}
-
-void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
-                              double *nodal, int stride) {
-  corot_model_spread(m, a, nodal, stride);
-  for (int k = 0; k < m->nmotion && now->moving; k++) {
-    const motion *of = &m->motion[k];
-    double velocity[3][2], acceleration[3][2], field[2];
-    corot_motion_factors(of, now, velocity, acceleration);
-    for (int i = 0; i < of->nnode; i++)
-      for (int c = 0; c < 3; c++) {
-        corot_motion_fields(of, m->mesh->x[of->node[i]], c, field);
-        nodal[of->node[i] * stride + c] =
-            acceleration[c][0] * field[0] + acceleration[c][1] * field[1];
-      }
   }
 }
 

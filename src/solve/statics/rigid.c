@@ -244,32 +244,33 @@ corot_status corot_model_parts(const corot_model *model, int *npart, corot_part 
   return list_parts(corot_model_mesh(model), model, npart, part);
 }
 
-/* x [n] of one motion of a part; the rest of the body stays. */
-static void displace(const corot_model *model, const part_shape *p, const double motion[6],
-                     double *x) {
-  const corot_mesh *mesh = corot_model_mesh(model);
+/* field [nfree][ndof] of the motions of one part; the rest of the body stays. */
+static void fill_fields(const corot_model *model, const double (*x)[3], const part_shape *p,
+                        int nfree, double motion[6][6], double *field) {
   const int(*dof)[3] = corot_model_dof(model);
+  int n = corot_model_ndof(model);
   double row[6];
-  for (int k = 0; k < p->nnode; k++)
+  for (int i = 0; i < p->nnode; i++)
     for (int c = 0; c < 3; c++) {
-      int at = dof[p->node[k]][c];
-      if (at < 0) continue;
-      component_row(p, mesh->x[p->node[k]], c, row);
-      for (int i = 0; i < 6; i++) x[at] += row[i] * motion[i];
+      int to = dof[p->node[i]][c];
+      if (to < 0) continue;
+      component_row(p, x[p->node[i]], c, row);
+      for (int k = 0; k < nfree; k++)
+        for (int j = 0; j < 6; j++) field[(size_t)k * n + to] += motion[k][j] * row[j];
     }
 }
 
 /* Adds those of each part to x [][n], or only counts them where that is NULL. */
 static int move_parts(const corot_model *model, const partition *p, double *x) {
   size_t n = (size_t)corot_model_ndof(model);
+  const double(*at)[3] = (const double(*)[3])corot_model_mesh(model)->x;
   int count = 0;
   for (int k = 0; k < p->npart; k++) {
     double motion[6][6];
     const int *node = p->node + p->begin[k];
-    part_shape shape = measure(corot_model_mesh(model), p->begin[k + 1] - p->begin[k], node);
-    int nfree = free_motions(model, &shape, motion);
-    for (int i = 0; x && i < nfree; i++)
-      displace(model, &shape, motion[i], x + (size_t)(count + i) * n);
+    part_shape shape = measure(at, p->begin[k + 1] - p->begin[k], node);
+    int nfree = free_motions(model, at, &shape, motion);
+    if (x) fill_fields(model, at, &shape, nfree, motion, x + (size_t)count * n);
     count += nfree;
   }
   return count;
@@ -308,22 +309,6 @@ corot_status corot_rigid_check(const corot_model *model) {
 }
 
 /* --- Motions as fields --- */
-
-/* Those of one part. */
-static void fill_fields(const corot_model *model, const double (*x)[3], const part_shape *p,
-                        int nfree, double motion[6][6], double *field) {
-  const int(*dof)[3] = corot_model_dof(model);
-  int n = corot_model_ndof(model);
-  double row[6];
-  for (int i = 0; i < p->nnode; i++)
-    for (int c = 0; c < 3; c++) {
-      int to = dof[p->node[i]][c];
-      if (to < 0) continue;
-      component_row(p, x[p->node[i]], c, row);
-      for (int k = 0; k < nfree; k++)
-        for (int j = 0; j < 6; j++) field[(size_t)k * n + to] += motion[k][j] * row[j];
-    }
-}
 
 static void fill_parts(const corot_model *model, const double (*x)[3], const partition *p,
                        corot_rigid *r) {
