@@ -73,8 +73,8 @@ typedef struct corot_amplitude {
    elements with a node on it are lumped. What that changes is of third order in their size, unless the
    body moves relative to the support as little as in bending: then of fifth. AUTO: lumped for
    four-node tets, consistent for ten-node ones, which need it for their order of accuracy: lumped, the
-   frequencies of torsion of a bar come out several per cent too low; with COROT_COUPLING_ONE_WAY
-   lumped in either case. */
+   first frequency of torsion of a square bar is 6 per cent lower with two cells across, 1.6 with
+   four; with COROT_COUPLING_ONE_WAY lumped in either case. */
 typedef enum corot_mass { COROT_MASS_LUMPED, COROT_MASS_CONSISTENT, COROT_MASS_AUTO } corot_mass;
 
 /* What the pressure (lambda) term acts on. LOCAL: each tet's own dilatation, which locks as lambda

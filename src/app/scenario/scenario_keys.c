@@ -71,7 +71,7 @@ static const schema_key keys[] = {
   {"material.damping.mu",     NUMBER,          OPTIONAL, RANGE_OF(damping_mu), "Pa s",    "0.0", 0, "second viscosity"},
   {"material.damping.mass",   NUMBER,          OPTIONAL, RANGE_OF(damping_mass), "1/s",     "0.0", 0, "Rayleigh's: a force against the velocity, this times the mass"},
 
-  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|lumped|consistent", "lumped: at the nodes; consistent: the shape functions' own, lumped in elements at supports whose velocity may jump; auto: lumped for four-node tets and under a one-way hierarchy, else consistent for ten-node ones"},
+  {"mass",                    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|lumped|consistent", "lumped: at the nodes; consistent: the shape functions' own, lumped in elements at supports whose velocity may jump; auto: lumped for four-node tets and under a one-way hierarchy, else consistent for ten-node ones, which lumped twist a bar of two cells across 6 per cent too slowly"},
   {"strain",                  CHOICE,          OPTIONAL, ANY,          "",        "polar", "cauchy|green|polar|warp|hybrid", "strain measure"},
   {"hierarchy",               MAP,             OPTIONAL, ANY,          "",        0, 0, "with mesh.refine, or mesh.order: 2 as one more level: a measure of its own for the unrefined mesh, of four-node tets; strain is that of the finest level, in frames handed down"},
   {"hierarchy.coarse_strain", CHOICE,          OPTIONAL, ANY,          "",        "green", "cauchy|green|polar|warp|hybrid", "strain measure of the unrefined mesh"},
