@@ -16,7 +16,6 @@ static const struct option common[] = {
     {"quiet", no_argument, NULL, 'q'},
     {"json", no_argument, NULL, 'j'},
     {"force", no_argument, NULL, 'f'},
-    {"lean", no_argument, NULL, 'l'},
     {"help", no_argument, NULL, 'h'},
     {0},
 };
@@ -72,9 +71,17 @@ static int take_option(const scenario_command *c, int answer, char **argv, const
   return option_error(c->program, answer, argv, all);
 }
 
+/* What runs and searches for equilibria may leave out. */
+static int take_lean(const char *program, int option, const char *value, run_options *o) {
+  (void)program, (void)option, (void)value;
+  o->lean = true;
+  return -1;
+}
+
 int command_scenario(const char *program, const char *suffix, const char *help, scenario_action *go,
                      int argc, char **argv) {
-  const scenario_command plain = {program, suffix, help, go, ":o:qh", 0, NULL, NULL};
+  static const struct option lean = {"lean", no_argument, NULL, 'l'};
+  const scenario_command plain = {program, suffix, help, go, ":o:qh", 1, &lean, take_lean};
   return command_scenario_with(&plain, (run_options){.progress = true}, argc, argv);
 }
 

@@ -28,7 +28,7 @@ int command_scenario_with(const scenario_command *command, run_options options, 
 /* Without -o, the folder is out/MODELSUFFIX.
 
    "PROGRAM MODEL.yaml [-o DIR] [--set KEY=VALUE]... [--force] [--quiet]
-   [--json]". */
+   [--json] [--lean]". */
 int command_scenario(const char *program, const char *suffix, const char *help, scenario_action *go,
                      int argc, char **argv);
 
