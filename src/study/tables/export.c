@@ -101,7 +101,6 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
   fprintf(out, ": %d runs. snakemake --snakefile THIS --cores all\n", m->nrun);
   fputs("PROGRAM = ", out);
   escape_python(t->program, out);
-  fprintf(out, "\nCOMMAND = \"%s\"", m->still ? "static" : "run");
   fputs("\nBASE = ", out);
   escape_python(m->base, out);
   fputs("\nDIR = ", out);
@@ -116,8 +115,11 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
       "rule run:\n"
       "    output: DIR + \"/runs/{id}/result.json\"\n"
       "    params: settings=lambda wildcards: RUNS[wildcards.id]\n"
-      "    shell: \"" ONE_THREAD
-      "{PROGRAM:q} {COMMAND} {BASE:q} --quiet --lean --force --output {DIR:q}/runs/{wildcards.id} "
+      "    shell: \"" ONE_THREAD "{PROGRAM:q} ",
+      out);
+  fputs(m->still ? "static" : "run", out);
+  fputs(
+      " {BASE:q} --quiet --lean --force --output {DIR:q}/runs/{wildcards.id} "
       "{params.settings} || test $? -eq 1\"\n" /* a quantity without a value is no failure */
       "\n"
       "rule collect:\n"
