@@ -61,11 +61,11 @@ table moving 'len(d["references"]) == 1 and not d["static"] and d["cells"][0]["e
 
 # Other engines are told the command.
 expect 0 study export mesh.yaml --format commands -o mesh; out " static "
-expect 0 study export mesh.yaml --format snakemake -o mesh; out 'COMMAND = "static"'
+expect 0 study export mesh.yaml --format snakemake -o mesh; out '{PROGRAM:q} static {BASE:q}'
 
 # What makes no sense of an equilibrium.
 refuse() { sed "\$a $1" mesh.yaml >refused.yaml; expect 3 study refused.yaml -o refused; err "$2"; }
-refuse 'measure: velocity' "refused.yaml:6:10: measure: nothing moves in a static study"
+refuse 'measure: velocity' "refused.yaml:6:10: measure[0]: nothing moves in a static study"
 refuse 'reference: {methods: [cvode, ida]}' "a static study has no methods: its references are Newton's"
 sed 's/static: true/static: yes/' mesh.yaml >refused.yaml; expect 3 study refused.yaml; err "refused.yaml:3:9: static: "
 exit $failed
