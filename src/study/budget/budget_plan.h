@@ -73,7 +73,8 @@ double budget_plan_tighten(const scenario *s, int attempt, budget_part *referenc
    lumped, they would not be the better ones. */
 void budget_plan_finer(const budget_plan *plan, const scenario *s, int level, budget_part *part);
 
-/* A ten-node tet counts as so many four-node ones: so much dearer it was measured to be. */
+/* A ten-node tet counts as so many four-node ones, where it is asked whether a finer mesh can be
+   afforded: a guess, of the work of a step. */
 #define BUDGET_TETS_PER_TET10 10
 
 /* Whether a run is made unasked: `work` is its steps, of an equilibrium Newton iterations, times
