@@ -59,7 +59,8 @@ study=$!
 for attempt in 1 2 3; do
   until_true eval '[ -s study/runs/*/steps.csv ]'
   rm study/runs/*/steps.csv
-  kill -SEGV "$(cat /proc/$study/task/*/children)"
+  for child in $(cat /proc/$study/task/*/children); do run=$child; done # the last one is the run
+  kill -SEGV "$run"
 done
 wait $study
 got=$?

@@ -45,6 +45,14 @@ grep -q 'No warnings\.' quiet/report.html || complain "that there are no warning
 grep -q '"text":"traction on zmax: (200, 0, 0) Pa"' run/report.html || complain "the load"
 grep -q '"text":"base: x, y, z held"' run/report.html || complain "the support"
 
+# The space error is a fact of the body, or why there is none.
+expect 0 static model.yaml -o coarse --quiet --set output.space_error=true
+expect 0 report coarse
+grep -q 'space error, estimated</th><td>[0-9.]* % of the displacement at' coarse/report.html || complain "no space error"
+expect 0 static model.yaml -o fine --quiet --set mesh.order=2
+expect 0 report fine
+grep -q 'space error, estimated</th><td>none: there is no estimate for' fine/report.html || complain "not why there is no space error"
+
 expect 0 run model.yaml -o stiff --set material.lambda=1e7
 said=$(sed -n 's/.*\(nu = 0\.499[0-9]*\): .*/\1/p' stderr | head -n 1)
 [ -n "$said" ] || complain "no warning of locking"

@@ -56,6 +56,29 @@ def without_times(name):
 assert without_times("undisturbed") == without_times("killed")
 PYTHON
 
+# Nothing outlives a study that is killed: neither its runs, which are copies of a template, nor the
+# template. One short cell comes first, as a pilot.
+cat >endless.yaml <<'YAML'
+study: without an end
+base: model.yaml
+set: {output.fields: none}
+axes: [{key: time.end, values: [0.02, 1.0e6, 1.1e6]}]
+reference: none
+YAML
+what="the children of a study that is killed"
+"$corot" study endless.yaml -o endless -j 2 --quiet >stdout 2>stderr &
+study=$!
+until_true eval '[ "$(cat /proc/$study/task/*/children | wc -w)" = 3 ]'
+children=$(cat /proc/$study/task/*/children)
+[ "$(echo "$children" | wc -w)" = 3 ] || complain "$what: $children"
+kill -KILL $study
+wait $study 2>/dev/null
+is_there() { grep -qs '^State:[^ZX]*$' "/proc/$1/status"; }
+for child in $children; do
+  until_true eval '! is_there $child'
+  if is_there "$child"; then complain "$what: $child is still there"; kill -KILL "$child"; fi
+done
+
 # The same by one process at a time, and with the axes the other way round.
 expect 0 study study.yaml -o one -j 1 --quiet
 python3 - <<'PYTHON'

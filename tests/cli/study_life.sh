@@ -23,6 +23,11 @@ for link in first/names/*; do [ -f "$link/result.json" ] || complain "$link lead
 expect 0 study study.yaml -o first; ! grep -q pilot stderr || complain "a pilot of nothing"
 expect 0 study study.yaml -o quiet -q; no_err
 
+# The piece by which methods are compared may end before the window of a quantity begins.
+sed '/^axes/i measure: ["mean(corner.ux, 0.04, end)"]' study.yaml >late.yaml
+expect 0 study late.yaml -o late; err "pilot: a reference takes about "
+grep -q 'about ?\|, ? by' stderr && complain "a pilot that knows nothing: a window beyond its end"
+
 # Methods of references that were chosen for a study remain its own.
 python3 - <<'PY'
 import json

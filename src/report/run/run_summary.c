@@ -84,6 +84,18 @@ static void fact_number(const json_t *r, const char *name, const char *path, con
   if (isfinite(x)) page_fact(out, name, "%.5g%s", x, unit);
 }
 
+/* Nothing, where the estimate was not asked for. */
+static void write_space_error(const json_t *r, FILE *out) {
+  static const char name[] = "space error, estimated";
+  const char *left_out = lookup_text(r, "space_error.left_out");
+  double relative = lookup_number(r, "space_error.relative");
+  if (isfinite(relative))
+    page_fact(out, name, "%.2g %% of the displacement at t = %.4g s", 100 * relative,
+              lookup_number(r, "space_error.t"));
+  else if (*left_out)
+    page_fact(out, name, "none: %s", left_out);
+}
+
 static void write_solid(const json_t *r, FILE *out) {
   begin_card("Solid", out);
   fact_text(r, "mesh", "mesh.file", out);
@@ -95,6 +107,7 @@ static void write_solid(const json_t *r, FILE *out) {
   fact_number(r, "frame interval", "frames.interval", " s", out);
   if (lookup_number(r, "frames.updates") > 0)
     fact_number(r, "updates of frames", "frames.updates", "", out);
+  write_space_error(r, out);
   end_card(out);
 }
 

@@ -42,7 +42,7 @@ static corot_status start(const manifest *m, const execute_options *o, const stu
                           const char *method) {
   char set[2][96];
   char *dir = place(o->dir, method, ""), *messages = place(o->dir, method, ".txt");
-  const char **argv = calloc(2 * (size_t)run->nset + 14, sizeof *argv);
+  const char **argv = calloc(2 * (size_t)run->nset + 16, sizeof *argv);
   corot_status status = dir && messages && argv ? COROT_OK : no_memory();
   snprintf(set[0], sizeof set[0], "integrator.method=%s", method);
   snprintf(set[1], sizeof set[1], "time={end: %.17g, output: %.17g}", PART * run->t_end,
@@ -55,6 +55,8 @@ static corot_status start(const manifest *m, const execute_options *o, const stu
     for (int k = 0; k < 2; k++) argv[n++] = "--set", argv[n++] = set[k];
     argv[n++] = "--set";
     argv[n++] = "output={fields: none, states: none, history: false}";
+    argv[n++] = "--set";
+    argv[n++] = "quantities={}"; /* their times may lie beyond the piece */
     status = pool_start(i, argv, messages, MOST_S);
   }
   free(argv);
