@@ -62,9 +62,6 @@ static int take_option(const scenario_command *c, int answer, char **argv, const
     case 'f':
       o->force = true;
       return -1;
-    case 'l':
-      o->lean = true;
-      return -1;
     case 'h':
       fputs(c->help, stdout);
       return EXIT_OK;
