@@ -11,14 +11,10 @@
 #include "cli.h"
 
 static const struct option common[] = {
-    {"output", required_argument, NULL, 'o'},
-    {"set", required_argument, NULL, 's'},
-    {"quiet", no_argument, NULL, 'q'},
-    {"json", no_argument, NULL, 'j'},
-    {"force", no_argument, NULL, 'f'},
-    {"lean", no_argument, NULL, 'l'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
+    {"output", required_argument, NULL, 'o'}, {"set", required_argument, NULL, 's'},
+    {"quiet", no_argument, NULL, 'q'},        {"json", no_argument, NULL, 'j'},
+    {"force", no_argument, NULL, 'f'},        {"lean", no_argument, NULL, 'l'},
+    {"help", no_argument, NULL, 'h'},         {0},
 };
 
 static int read_and_go(scenario_action *go, const char *path, const char *suffix, int noverride,

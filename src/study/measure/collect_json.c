@@ -153,8 +153,8 @@ corot_status collect_json(const manifest *m, const table_rows *t, json_t *space,
   bool whole =
       (int)json_array_size(cells) == t->n && (int)json_array_size(references) == m->nreference;
   json_t *table = json_pack(
-      "{s:s, s:b, s:s, s:s, s:o, s:s, s:O, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}", "title",
-      m->title, "static", m->still, "cost", m->cost, "measure", m->measure, "quantities",
+      "{s:s, s:b, s:s, s:s, s:o, s:s, s:O, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}",
+      "title", m->title, "static", m->still, "cost", m->cost, "measure", m->measure, "quantities",
       quantity_texts(m), "corot", m->version, "builds", made_by, "mixed", builds_sentence(made_by),
       "columns", columns_json(m), "series", series_json(t), "shared", table_shared(t), "references",
       references, "fits", collect_fits(t), "quantity_fits", quantity_fits(m, t), "rankings",

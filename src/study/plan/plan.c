@@ -437,12 +437,12 @@ static corot_status finish(planner *p, manifest **out) {
   COROT_TRY(find_base(s, &base));
   json_t *path = json_text_string(base);
   free(base);
-  json_t *root = json_pack(
-      "{s:s, s:s, s:o, s:s, s:s, s:i, s:b, s:s, s:s, s:o, s:o, s:O, s:O, s:O}", "study", s->title,
-      "name", s->name, "base", path, "identity", digest, "corot", corot_version(), "repeat",
-      s->repeat, "static", s->still, "cost", s->cost, "measure", s->measure, "quantities",
-      quantity_list(s), "columns", column_names(s), "references", p->references, "cells", p->cells,
-      "runs", p->runs);
+  json_t *root =
+      json_pack("{s:s, s:s, s:o, s:s, s:s, s:i, s:b, s:s, s:s, s:o, s:o, s:O, s:O, s:O}", "study",
+                s->title, "name", s->name, "base", path, "identity", digest, "corot",
+                corot_version(), "repeat", s->repeat, "static", s->still, "cost", s->cost,
+                "measure", s->measure, "quantities", quantity_list(s), "columns", column_names(s),
+                "references", p->references, "cells", p->cells, "runs", p->runs);
   if (s->pilot) root = json_text_with(root, "pilot", json_incref(s->pilot));
   return root ? manifest_from_json(root, s->path, out) : no_memory();
 }
