@@ -49,6 +49,10 @@ assert q["end"]["value"] == end and abs(q["peak"]["value"] - end) <= 1e-12, q
 assert abs(q["mean"]["value"] - 0.6 * end) < 0.01 * end, q
 PY
 
+# The name of a probe alone leads to its columns.
+asks 'peak: max(corner)'
+expect 3 check asks.yaml; err "there is no column corner; did you mean corner.ux?"
+
 # What is wrong is pointed at, before anything runs.
 asks 'peak: max(cornr.ux)'
 for command in check run static; do

@@ -71,6 +71,10 @@ study=$!
 until_true eval '[ "$(cat /proc/$study/task/*/children | wc -w)" = 3 ]'
 children=$(cat /proc/$study/task/*/children)
 [ "$(echo "$children" | wc -w)" = 3 ] || complain "$what: $children"
+names=$(for child in $children; do tr '\0' ' ' </proc/$child/cmdline; done)
+for end in 1.0e6 1.1e6; do
+  case $names in *"corot run "*"time.end=$end"*) ;; *) complain "ps does not tell the runs: $names" ;; esac
+done
 kill -KILL $study
 wait $study 2>/dev/null
 is_there() { grep -qs '^State:[^ZX]*$' "/proc/$1/status"; }

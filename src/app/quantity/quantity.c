@@ -285,6 +285,14 @@ static void list_names(int n, const char *const *name, size_t size, char *list) 
   }
 }
 
+/* The first column of a probe of that name. */
+static const char *find_column_of(const char *probe, int n, const char *const *name) {
+  size_t length = strlen(probe);
+  for (int i = 0; i < n; i++)
+    if (strncmp(name[i], probe, length) == 0 && name[i][length] == '.') return name[i];
+  return NULL;
+}
+
 corot_status quantity_resolve(quantity *q, int n, const char *const *name, size_t *at) {
   char typed[QUANTITY_TEXT], list[320] = "none";
   snprintf(typed, sizeof typed, "%.*s", (int)q->column_length, q->text + q->column_at);
@@ -294,7 +302,8 @@ corot_status quantity_resolve(quantity *q, int n, const char *const *name, size_
       return COROT_OK;
     }
   *at = q->column_at;
-  const char *near = suggest(typed, n, name);
+  const char *near = find_column_of(typed, n, name);
+  if (!near) near = suggest(typed, n, name);
   if (near)
     return corot_fail(COROT_EFORMAT, "there is no column %s; did you mean %s?", typed, near);
   list_names(n, name, sizeof list, list);

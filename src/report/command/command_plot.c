@@ -8,6 +8,7 @@
 #include "app/text/say.h"
 #include "app/text/suggest.h"
 #include "commands.h"
+#include "report.h"
 #include "report/chart/precision.h"
 
 static const char help[] =
@@ -102,6 +103,14 @@ static int plot(const char *dir, const wish *w, const study_table *t) {
   return status == COROT_OK ? EXIT_OK : failure(status);
 }
 
+/* A study that has been cut off, or still runs, has no table yet. */
+static void tell_of_no_table(const char *dir) {
+  bool study = false, table = true;
+  if (report_has(dir, "study.json", &study) != COROT_OK) return;
+  if (report_has(dir, "table.json", &table) != COROT_OK) return;
+  if (study && !table) say("corot study collect %s writes it, of the runs there are now\n", dir);
+}
+
 int command_plot(int argc, char **argv) {
   wish w = {0};
   opterr = 0;
@@ -124,7 +133,11 @@ int command_plot(int argc, char **argv) {
   if (w.output && !*w.output) return usage_error("corot plot", "--output: the name is empty");
   study_table t;
   corot_status status = study_table_read(argv[optind], &t);
-  if (status != COROT_OK) return failure(status);
+  if (status != COROT_OK) {
+    int code = failure(status);
+    tell_of_no_table(argv[optind]);
+    return code;
+  }
   int code = plot(argv[optind], &w, &t);
   study_table_free(&t);
   return code;

@@ -10,7 +10,7 @@
 #include "report/run/report_run.h"
 #include "report/study/report_study.h"
 
-static corot_status has(const char *dir, const char *name, bool *there) {
+corot_status report_has(const char *dir, const char *name, bool *there) {
   char *path = folder_path(dir, name);
   if (!path) return COROT_ENOMEM;
   corot_status status = folder_look(path, there);
@@ -20,9 +20,9 @@ static corot_status has(const char *dir, const char *name, bool *there) {
 
 corot_status report_write(const char *dir, const char *path) {
   bool run = false, study = false, budget = false;
-  COROT_TRY(has(dir, "result.json", &run));
-  COROT_TRY(has(dir, "table.json", &study));
-  COROT_TRY(has(dir, "budget.json", &budget));
+  COROT_TRY(report_has(dir, "result.json", &run));
+  COROT_TRY(report_has(dir, "table.json", &study));
+  COROT_TRY(report_has(dir, "budget.json", &budget));
   if (study) return report_study(dir, path);
   if (run) return report_run(dir, path);
   if (budget) return report_budget(dir, path);

@@ -151,6 +151,14 @@ static bool receive(int fd, request *r, char **text, char ***argv) {
   return true;
 }
 
+/* A copy shows its own arguments to ps, as far as those of the template leave room. */
+static void show_arguments(int had, char **old, const request *r, char **arguments) {
+  char *to = old[0], *end = old[had - 1] + strlen(old[had - 1]); /* which stays a zero */
+  memset(to, 0, (size_t)(end - to));
+  for (int i = 0; i < r->argc && to < end; i++, to++)
+    for (const char *from = arguments[i]; *from && to < end;) *to++ = *from++;
+}
+
 /* What asks for an end asks the copies, and none of them may miss it: this process ends when nobody
    can ask it any more. */
 static void serve(int fd, int *argc, char ***argv) {
@@ -166,6 +174,7 @@ static void serve(int fd, int *argc, char ***argv) {
     if (child == 0) {
       close(fd);
       template_become(parent, text, r.timeout);
+      show_arguments(*argc, *argv, &r, arguments);
       sigprocmask(SIG_SETMASK, &mask, NULL);
       *argc = r.argc;
       *argv = arguments;
@@ -181,7 +190,7 @@ static void serve(int fd, int *argc, char ***argv) {
 void template_serve(int *argc, char ***argv) {
   struct stat info;
   own.possible = true;
-  if (*argc != 3 || strcmp((*argv)[1], marker) != 0) return;
+  if (*argc != 4 || strcmp((*argv)[1], marker) != 0) return;
   int fd = atoi((*argv)[2]);
   if (fstat(fd, &info) != 0 || !S_ISSOCK(info.st_mode)) return;
   if (!is_alone()) _exit(0);
@@ -191,9 +200,10 @@ void template_serve(int *argc, char ***argv) {
 /* --- In the process that asks --- */
 
 static void become_template(pid_t parent, int fd) {
-  char number[16];
+  char number[16], room[1024] = ""; /* for the arguments of copies */
   snprintf(number, sizeof number, "%d", fd);
-  const char *const argv[] = {"corot", marker, number, NULL};
+  memset(room, ' ', sizeof room - 1);
+  const char *const argv[] = {"corot", marker, number, room, NULL};
   fcntl(fd, F_SETFD, 0); /* it is for the program that comes */
   die_with(parent);
   keep_to_one_thread();
