@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The meshes of the beams: boxes of cells of six tets each, bent into shape.
 
-    models/benchmarks/meshes.py [FINENESS]     writes csm.msh and bend.msh here; default: 1
+    models/benchmarks/meshes.py [FINENESS]     writes csm.msh, bend.msh, cook.msh here; default: 1
 
 FINENESS multiplies the numbers of cells. Ten-node tets have all their nodes on the shape, those on
 edges too; four-node tets can be given them by mesh.order: 2, on the middles of straight edges.
@@ -62,10 +62,16 @@ def bend(s, t, w):
     return 100 - radius * math.cos(angle), radius * math.sin(angle), 0.5 - w
 
 
+def cook(s, t, w):
+    """A trapezoid, 48 wide, 44 high at its wall and 16 at its end, which stands higher."""
+    return 48 * s, 44 * s + t * (44 - 28 * s), 24 * w
+
+
 def main():
     f = int(sys.argv[1]) if len(sys.argv) > 1 else 1
     write("csm", 1, (80 * f, 2 * f, f), csm)
     write("bend", 2, (24 * f, 2 * f, f), bend)
+    write("cook", 1, (2 * f, 2 * f, f), cook)
 
 
 main()
