@@ -204,6 +204,19 @@ corot_status corot_pencil_factor(corot_pencil *p) {
   return factor_chosen(p);
 }
 
+corot_status corot_pencil_factor_definite(corot_pencil *p) {
+  int negative = 0;
+  COROT_TRY(corot_pencil_factor(p));
+  const linsol_ops *ops = p->chosen.ops;
+  if (!ops->count_negative) return COROT_OK;
+  double start = clock_wall();
+  corot_status status = ops->count_negative(p->csc, p->S, &negative);
+  p->counts.factor_s += clock_wall() - start;
+  if (!status && negative)
+    status = corot_fail(COROT_RETRY, "the stiffness is not positive definite");
+  return status;
+}
+
 corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
   if (x != b) memcpy(x, b, p->n * sizeof *x);
   corot_status status = solve(p, x);

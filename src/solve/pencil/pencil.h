@@ -29,6 +29,10 @@ struct corot_pencil {
   corot_pencil_counts counts;
 };
 
+/* corot_pencil_factor, and COROT_RETRY from a solver, too, that does not mind what is not positive
+   definite. */
+corot_status corot_pencil_factor_definite(corot_pencil *pencil);
+
 /* What is behind the functions that SUNDIALS calls (corot_sun_*), with a corot_status as the value.
 
    linsys: S at (t, y) for this gamma; *made: K and D were assembled, which `keep` spares unless

@@ -6,6 +6,7 @@
 #include "raised.h"
 #include "rigid_fit.h"
 #include "rigid_modes.h"
+#include "solve/pencil/pencil.h"
 
 /* Of the square of the model's frequency: how stiffly what nothing holds is tied to where it is. It
    is far below the square of any frequency of a body that is no thinner than a hundredth of its
@@ -64,7 +65,7 @@ static corot_status solve(estimation *s, const corot_linear_def *linear, const c
   corot_pencil_use(p, tangent);
   corot_status status = corot_pencil_assemble(p, s->at->t, s->now.u, s->now.v);
   corot_pencil_combine(p, s->modes.any ? tie : 0, 0, 1);
-  if (!status) status = corot_pencil_factor(p);
+  if (!status) status = corot_pencil_factor_definite(p);
   if (!status) status = corot_pencil_solve(p, s->r, s->e);
   s->result.niteration = corot_pencil_statistics(p).niteration;
   corot_pencil_destroy(p);

@@ -108,16 +108,9 @@ static corot_tangent tangent(const equilibrium *e) {
 /* Factors K as it was assembled. COROT_RETRY: it is not positive definite. Not every solver minds,
    but the path of an iteration must not depend on it. */
 static corot_status factor_definite(equilibrium *e) {
-  int negative = 0;
   corot_pencil_combine(e->pencil, 0, 0, 1);
-  corot_status status = corot_pencil_factor(e->pencil);
-  const linsol_ops *ops = e->pencil->chosen.ops;
-  if (!status && ops->count_negative && !e->def->follow_unstable) {
-    double start = clock_wall();
-    COROT_TRY(ops->count_negative(e->pencil->csc, e->pencil->S, &negative));
-    e->pencil->counts.factor_s += clock_wall() - start;
-    if (negative) status = corot_fail(COROT_RETRY, "the stiffness is not positive definite");
-  }
+  corot_status status = e->def->follow_unstable ? corot_pencil_factor(e->pencil)
+                                                : corot_pencil_factor_definite(e->pencil);
   e->counts.nindefinite += status == COROT_RETRY;
   return status;
 }

@@ -54,13 +54,9 @@ static corot_status look(const manifest *m, const char *dir, bool *done) {
   return COROT_OK;
 }
 
-/* NaN, of one that failed, is dearer than all. */
-static bool is_dearer(double a, double b) { return isnan(a) || a > b; }
-
 void reference_methods_take(const double cost[3], const char *taken[2]) {
-  int dear = is_dearer(cost[ARKODE], cost[CVODE]) ? ARKODE : CVODE, other = ARKODE + CVODE - dear;
-  bool gains = isnan(cost[dear]) || (cost[dear] >= WORTH_S && cost[ERK] < 0.5 * cost[dear]);
-  if (isnan(cost[ERK])) gains = false;
+  int dear = cost[ARKODE] > cost[CVODE] ? ARKODE : CVODE, other = ARKODE + CVODE - dear;
+  bool gains = isfinite(cost[ERK]) && cost[dear] >= WORTH_S && cost[ERK] < 0.5 * cost[dear];
   taken[0] = gains ? methods[other] : methods[CVODE];
   taken[1] = gains ? methods[ERK] : methods[ARKODE];
 }

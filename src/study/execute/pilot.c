@@ -14,7 +14,7 @@ enum { MOST_S = 10 };
 #define PART 0.02 /* of the time */
 
 void describe_duration(double s, size_t size, char *text) {
-  if (!(s >= 0))
+  if (!(s >= 0 && isfinite(s)))
     snprintf(text, size, "?");
   else if (s < 60)
     snprintf(text, size, "%.2g s", s);
@@ -65,7 +65,8 @@ static corot_status start(const manifest *m, const execute_options *o, const stu
   return status;
 }
 
-/* Of the whole run, by how far the piece came. */
+/* Of the whole run, by how far the piece came: infinite where it came nowhere, NaN where it has
+   left no word. */
 static double read_cost(const char *dir, const char *method, double t_end) {
   char name[64];
   snprintf(name, sizeof name, "pilot/%s/result.json", method);
@@ -75,7 +76,8 @@ static double read_cost(const char *dir, const char *method, double t_end) {
   if (path && json_file_read(path, &result) == COROT_OK) {
     const json_t *cpu = json_object_get(json_object_get(result, "timings"), "cpu");
     double reached = json_number_value(json_object_get(result, "t_reached"));
-    if (json_is_number(cpu) && reached > 0) cost = json_number_value(cpu) * t_end / reached;
+    if (json_is_number(cpu))
+      cost = reached > 0 ? json_number_value(cpu) * t_end / reached : INFINITY;
   }
   json_decref(result);
   free(path);
