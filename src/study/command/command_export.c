@@ -75,7 +75,8 @@ static int export_study(const char *path, const char *dir, bool force, export_fo
   corot_status status = study_read(path, &s);
   status = read_failure(status, path);
   char *folder = status == COROT_OK && !dir ? folder_path("out", s->name) : NULL;
-  if (status == COROT_OK && (dir || folder)) reference_methods_recall(s, dir ? dir : folder);
+  if (status == COROT_OK && (dir || folder))
+    status = reference_methods_recall(s, dir ? dir : folder);
   if (status == COROT_OK) status = plan_study(s, &m);
   if (status == COROT_OK && !dir && !folder) status = COROT_ENOMEM;
   if (status == COROT_OK) status = write_runs(m, path, dir ? dir : folder, force, write);

@@ -234,7 +234,7 @@ static int run_study(const char *path, arguments *a) {
   status = read_failure(status, path);
   char *folder = status == COROT_OK && !a->o.dir ? folder_path("out", s->name) : NULL;
   if (folder) a->o.dir = folder;
-  if (status == COROT_OK && a->o.dir) reference_methods_recall(s, a->o.dir);
+  if (status == COROT_OK && a->o.dir) status = reference_methods_recall(s, a->o.dir);
   if (status == COROT_OK) status = plan_study(s, &m);
   int code;
   if (status != COROT_OK || !a->o.dir)

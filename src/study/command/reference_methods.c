@@ -1,10 +1,14 @@
 /* The choice of methods by cost, kept in study.json so that a study goes on as it began. */
 #include "reference_methods.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "app/folder/folder.h"
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
 #include "study/execute/pilot.h"
@@ -27,19 +31,39 @@ static bool is_open(const study *s) {
   return s->referred && !s->still && s->reference_is_open && !s->pilot;
 }
 
-void reference_methods_recall(study *s, const char *dir) {
-  manifest *before = NULL;
-  if (!is_open(s) || manifest_read(dir, &before) != COROT_OK) return;
+/* Whether there is a study.json; what is not known is taken for one, and found out by who reads it.
+ */
+static corot_status find_manifest(const char *dir, bool *is_there) {
+  struct stat info;
+  char *path = folder_path(dir, "study.json");
+  if (!path) return no_memory();
+  *is_there = lstat(path, &info) == 0 || (errno != ENOENT && errno != ENOTDIR);
+  free(path);
+  return COROT_OK;
+}
+
+static void take_over(study *s, const manifest *before) {
   json_t *pilot = json_object_get(before->root, "pilot");
   const json_t *chosen = json_object_get(pilot, "methods");
   const char *first = find_method(json_array_get(chosen, 0));
   const char *second = find_method(json_array_get(chosen, 1));
-  if (first && second && strcmp(before->title, s->title) == 0) {
-    s->reference_method[0] = first;
-    s->reference_method[1] = second;
-    s->pilot = json_incref(pilot);
-  }
+  if (!first || !second || strcmp(before->title, s->title) != 0) return;
+  s->reference_method[0] = first;
+  s->reference_method[1] = second;
+  s->pilot = json_incref(pilot);
+}
+
+corot_status reference_methods_recall(study *s, const char *dir) {
+  manifest *before = NULL;
+  bool is_there = false;
+  if (!is_open(s)) return COROT_OK;
+  COROT_TRY(find_manifest(dir, &is_there));
+  if (!is_there) return COROT_OK;
+  corot_status status = manifest_read(dir, &before);
+  if (status == COROT_EFORMAT) return COROT_OK; /* a new one takes its place */
+  if (status == COROT_OK) take_over(s, before);
   manifest_destroy(before);
+  return status;
 }
 
 /* Whether all references are there already. */

@@ -5,8 +5,9 @@
 #include "study/execute/execute_options.h"
 #include "study/plan/manifest.h"
 
-/* Makes the choice that a folder's study.json has recorded that of the study. */
-void reference_methods_recall(study *s, const char *dir);
+/* Makes the choice that a folder's study.json has recorded that of the study; without one, or where
+   it is damaged, nothing. COROT_EIO, COROT_ENOMEM: it cannot be read. */
+corot_status reference_methods_recall(study *s, const char *dir);
 
 /* Of what references take by cvode, arkode and erk [s], NaN: one failed, the two methods to take.
  */
