@@ -10,11 +10,15 @@ static void the_dearer_gives_way_to_what_is_half_as_dear(void **state) {
     double cost[3]; /* cvode, arkode, erk [s] */
     const char *taken[2];
   } row[] = {
-      {{100, 50, 20}, {"arkode", "erk"}},   {{50, 100, 20}, {"cvode", "erk"}},
-      {{50, 100, 50}, {"cvode", "arkode"}}, {{50, 100, 49}, {"cvode", "erk"}},
+      {{100, 50, 20}, {"arkode", "erk"}},
+      {{50, 100, 20}, {"cvode", "erk"}},
+      {{50, 100, 50}, {"cvode", "arkode"}},
+      {{50, 100, 49}, {"cvode", "erk"}},
       {{1, 9, 0.1}, {"cvode", "arkode"}}, /* nothing to be gained */
-      {{50, 60, INFINITY}, {"cvode", "arkode"}}, {{INFINITY, 1, 0.1}, {"arkode", "erk"}},
-      {{1, INFINITY, 0.1}, {"cvode", "erk"}},    {{INFINITY, INFINITY, INFINITY}, {"cvode", "arkode"}},
+      {{50, 60, INFINITY}, {"cvode", "arkode"}},
+      {{INFINITY, 1, 0.1}, {"arkode", "erk"}},
+      {{1, INFINITY, 0.1}, {"cvode", "erk"}},
+      {{INFINITY, INFINITY, INFINITY}, {"cvode", "arkode"}},
   };
   for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
     const char *taken[2];
