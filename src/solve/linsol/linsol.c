@@ -52,6 +52,11 @@ void corot_linsol_clear(linsol *s) {
   *s = (linsol){0};
 }
 
+corot_status corot_linsol_count_negative(const linsol *s, const double *value, int *negative) {
+  *negative = 0;
+  return s->ops->count_negative ? s->ops->count_negative(s->csc, value, negative) : COROT_OK;
+}
+
 corot_status corot_linsol_singular(const corot_csc *csc, const char *solver, int dof,
                                    double ratio) {
   return corot_fail(

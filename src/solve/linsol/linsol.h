@@ -90,6 +90,10 @@ void corot_linsol_clear(linsol *s);
    from the diagonal: as many as it has negative eigenvalues. Zero pivots count, too. */
 corot_status corot_inertia(const corot_csc *A, const double *value, int *negative);
 
+/* *negative: the pivots of value [csc->nnz] that are negative, of a solver whose factor does not
+   object to them; else 0. */
+corot_status corot_linsol_count_negative(const linsol *s, const double *value, int *negative);
+
 /* Fails with COROT_ESINGULAR for want of a pivot at a degree of freedom; `ratio`: of the smallest
    pivot to the largest. */
 corot_status corot_linsol_singular(const corot_csc *csc, const char *solver, int dof, double ratio);

@@ -64,8 +64,7 @@ static corot_status factor_at(eigen *e, double shift) {
   int negative = 0;
   combine(e, -shift, 1);
   corot_status status = s->ops->factor(s->solver, s->value, &fresh);
-  if (!status && s->ops->count_negative)
-    status = s->ops->count_negative(s->csc, s->value, &negative);
+  if (!status) status = corot_linsol_count_negative(s, s->value, &negative);
   e->facts.nfactor++;
   if (!status && negative) status = corot_fail(COROT_RETRY, "modes: %d below the shift", negative);
   return status;

@@ -205,12 +205,10 @@ corot_status corot_pencil_factor(corot_pencil *p) {
 }
 
 corot_status corot_pencil_factor_definite(corot_pencil *p) {
-  int negative = 0;
+  int negative;
   COROT_TRY(corot_pencil_factor(p));
-  const linsol_ops *ops = p->chosen.ops;
-  if (!ops->count_negative) return COROT_OK;
   double start = clock_wall();
-  corot_status status = ops->count_negative(p->csc, p->S, &negative);
+  corot_status status = corot_linsol_count_negative(&p->chosen, p->S, &negative);
   p->counts.factor_s += clock_wall() - start;
   if (!status && negative)
     status = corot_fail(COROT_RETRY, "the stiffness is not positive definite");

@@ -127,10 +127,10 @@ void corot_coarse_clear(coarse_level *c) {
 /* Of the solvers, some do not object to a matrix that is indefinite: these can count. */
 static corot_status factor(coarse_level *c) {
   linsol *s = &c->s;
-  int negative = 0;
+  int negative;
   bool fresh;
   for (int p = 0; p < s->csc->nnz; p++) s->value[p] = c->level->value[s->csc->source[p]];
-  if (s->ops->count_negative) COROT_TRY(s->ops->count_negative(s->csc, s->value, &negative));
+  COROT_TRY(corot_linsol_count_negative(s, s->value, &negative));
   if (negative > 0)
     return corot_fail(COROT_RETRY, "the matrix is not positive definite (%d negative pivots)",
                       negative);
