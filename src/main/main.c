@@ -88,20 +88,13 @@ static void leave_at_once_if_limited(int code) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},
-      {"static", command_static},
-      {"modes", command_modes},
-      {"check", command_check},
-      {"study", command_study},
-      {"budget", command_budget},
-    {"solve", command_solve},
-      {"find-limit", command_find_limit},
-      {"plot", command_plot},
-      {"report", command_report},
-      {"schema", command_schema},
-      {"mesh", command_mesh},
-      {"--version", print_version},
-      {0},
+      {"run", command_run},         {"static", command_static},
+      {"modes", command_modes},     {"check", command_check},
+      {"study", command_study},     {"budget", command_budget},
+      {"solve", command_solve},     {"find-limit", command_find_limit},
+      {"plot", command_plot},       {"report", command_report},
+      {"schema", command_schema},   {"mesh", command_mesh},
+      {"--version", print_version}, {0},
   };
   hold_standard_streams();
   keep_to_one_thread(argv);

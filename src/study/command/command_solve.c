@@ -9,6 +9,7 @@
 #include "app/text/say.h"
 #include "command_study.h"
 #include "study/goal/goal.h"
+#include "study/goal/goal_text.h"
 #include "variants_command.h"
 
 static const char help[] =

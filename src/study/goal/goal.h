@@ -31,38 +31,13 @@
 
 #include <jansson.h>
 
-#include "app/scenario/scenario.h"
+#include "goal_request.h"
 #include "study/execute/execute_options.h"
-
-typedef struct goal_request {
-  const quantity *quantity;
-  const char *text, *name; /* as it is printed; of its key in the scenario */
-  double within;           /* relative to the value, or in its unit: */
-  bool absolute;
-  bool still;       /* of the equilibrium */
-  bool exact_model; /* the strain measure counts, against green */
-  double cpu_limit; /* [s] of all attempts together */
-} goal_request;
-
-typedef struct goal_result {
-  double value, low, high; /* NaN: there is none */
-  bool met, asymptotic;
-  bool senseless;      /* what was asked for makes no sense, as obstacle says */
-  const char *why_not; /* asymptotic */
-  double order;
-  double space, time, algebra, model; /* estimates; NaN: not known */
-  double half_space, half_time, half_algebra, half_tail, half_model;
-  char obstacle[512]; /* "": none */
-  char advice[320];   /* "" */
-} goal_result;
 
 /* Makes the attempts in execute->dir, the scenario having the settings and the quantity, and
    solve.json. *out is the caller's to json_decref; NULL where *signal_number is not 0. */
 corot_status goal_solve(const goal_request *r, const scenario *s, int nset, const char *const *set,
                         const execute_options *execute, goal_result *result, json_t **out,
                         int *signal_number);
-
-/* The line, and the table of attempts. */
-void goal_print(const json_t *solved, FILE *out);
 
 #endif

@@ -2,8 +2,8 @@
 #ifndef COROT_STUDY_GOAL_GOAL_SEARCH_H
 #define COROT_STUDY_GOAL_GOAL_SEARCH_H
 
-#include "goal.h"
 #include "goal_attempts.h"
+#include "goal_request.h"
 #include "goal_rule.h"
 
 enum { GOAL_LEVELS = 12 };

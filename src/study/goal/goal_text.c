@@ -1,8 +1,8 @@
-/* The answer in a line, and what stands behind it. */
+/* Prints solve.json. */
 #include <math.h>
 #include <string.h>
 
-#include "goal.h"
+#include "goal_text.h"
 #include "report/read/lookup.h"
 
 /* Digits that the interval's width gives sense to. */
