@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
-/* (a^p - b^p) / (b^p - c^p) of sizes a > b > c, which grows with p: where it is `ratio`. NaN: the
-   order is below 0.01 or above 20. */
+/* (a^p - b^p) / (b^p - c^p) of sizes a > b > c, which grows with p: where it is `ratio`. 0: nowhere
+   above 0.01; infinite: nowhere below 20. */
 static double order_of(const double size[3], double ratio) {
   double low = 0.01, high = 20;
   for (int i = 0; i < 60; i++) {
@@ -15,7 +15,7 @@ static double order_of(const double size[3], double ratio) {
     else
       high = p;
   }
-  return low < 0.011 || high > 19.9 ? NAN : low;
+  return low < 0.011 ? 0 : high > 19.9 ? INFINITY : low;
 }
 
 /* What remains of the last difference at order p. */
@@ -24,7 +24,7 @@ static double remainder_of(double ratio, double p) { return 1 / (pow(ratio, p) -
 static const char *doubt(double d1, double d2, double order) {
   if (!isfinite(d1) || !isfinite(d2)) return "a mesh has no value";
   if (d1 * d2 < 0) return "the values alternate from mesh to mesh";
-  if (fabs(d2) >= fabs(d1)) return "the values do not settle as the mesh is refined";
+  if (order == 0) return "the values do not settle as the mesh is refined";
   if (!(order >= GOAL_LOWEST_ORDER)) return "the values hardly settle as the mesh is refined";
   if (order > GOAL_HIGHEST_ORDER) return "the values settle faster than ten-node tets can";
   return NULL;
@@ -66,7 +66,7 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
     const double size[3] = {last[-2].size, last[-1].size, last[0].size};
     e.order = d1 * d2 > 0 ? order_of(size, d1 / d2) : NAN;
     e.why = doubt(d1, d2, e.order);
-    e.diverging = fabs(d2) >= fabs(d1) && d1 * d2 > 0;
+    e.diverging = e.order == 0;
     e.asymptotic = !e.why;
   }
   if (!e.asymptotic) {
@@ -75,6 +75,7 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
   }
   double cautious = fmin(GOAL_CAUTIOUS_FACTOR * e.order, GOAL_CAUTIOUS_ORDER);
   e.estimate = d2 * remainder_of(ratio, e.order);
-  e.half = GOAL_SAFETY * fmax(fabs(d2), noise) * remainder_of(ratio, cautious);
+  double least = fabs(d1) * pow(ratio, -GOAL_CAUTIOUS_FALL);
+  e.half = GOAL_SAFETY * fmax(fmax(fabs(d2), least), noise) * remainder_of(ratio, cautious);
   return e;
 }
