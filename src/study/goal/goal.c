@@ -47,7 +47,8 @@ static void look_at_size(goal_search *s) {
 }
 
 static corot_status make_base(goal_search *s) {
-  COROT_TRY(goal_make_base(s));
+  goal_plan_base(s);
+  COROT_TRY(attempts_make(&s->attempts));
   if (s->attempts.signal_number) return COROT_OK;
   const attempt *base = goal_attempt(s, s->level[0]);
   if (isnan(base->value)) {
@@ -58,8 +59,11 @@ static corot_status make_base(goal_search *s) {
   }
   look_at_size(s);
   if (is_over(s)) return COROT_OK;
-  COROT_TRY(goal_choose_window(s));
-  return goal_measure_rest(s);
+  goal_choose_window(s);
+  goal_plan_loose(s);
+  goal_plan_rest(s);
+  COROT_TRY(attempts_make(&s->attempts));
+  return s->attempts.signal_number ? COROT_OK : goal_settle_time(s);
 }
 
 static corot_status refine(goal_search *s) {

@@ -15,14 +15,13 @@ static bool is_extreme(const quantity *q) {
   return q->operation == QUANTITY_MAX || q->operation == QUANTITY_MIN;
 }
 
-corot_status goal_choose_window(goal_search *s) {
+void goal_choose_window(goal_search *s) {
   s->window = s->until;
-  if (s->request->still || !is_extreme(s->request->quantity)) return COROT_OK;
+  if (s->request->still || !is_extreme(s->request->quantity)) return;
   double when = goal_attempt(s, s->level[0])->when;
   if (s->request->quantity->when) when = goal_value(s, s->level[0]);
   double past = 1.05 * when + 0.02 * s->until;
   if (past <= 0.7 * s->until) s->window = past;
-  return COROT_OK;
 }
 
 /* The extreme of what comes after the window over that within it, as rows of the tables have them;
@@ -70,7 +69,7 @@ corot_status goal_find_tail(goal_search *s) {
   s->tail = 0;
   if (s->window >= s->until || s->nlevel < 2) return COROT_OK;
   COROT_TRY(read_later(s, s->coarse, &before));
-  COROT_TRY(read_later(s, s->level[0], &now));
+  COROT_TRY(read_later(s, s->full, &now));
   double base = goal_value(s, s->level[0]), last = goal_value(s, s->level[s->nlevel - 1]);
   double moved = fabs((last - base) / (base - goal_value(s, s->coarse)));
   double later = now + 2 * fabs(now - before) * fmin(1, moved);
@@ -95,7 +94,7 @@ static int plan_level(goal_search *s) {
 /* What a mesh of so many times the unknowns costs; a factor's work grows faster than they do. */
 static double cost_of(const goal_search *s, double growth) {
   const attempt *last = goal_attempt(s, s->level[s->nlevel - 1]);
-  double part = s->nlevel == 1 ? s->window / s->until : 1;
+  double part = last->def.until > s->window ? s->window / last->def.until : 1;
   double start = fmin(0.05, last->cpu); /* of the program, whatever the mesh */
   return start + (last->cpu - start) * (s->request->still ? 1 : part) * pow(growth, 1.25);
 }

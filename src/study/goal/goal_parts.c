@@ -71,10 +71,9 @@ static void plan_model(goal_search *s) {
   s->model = attempts_plan(&s->attempts, def);
 }
 
-corot_status goal_measure_rest(goal_search *s) {
+void goal_plan_rest(goal_search *s) {
   plan_algebra(s);
   plan_model(s);
-  return attempts_make(&s->attempts);
 }
 
 /* Scaled from the mesh where it was measured to the value. */

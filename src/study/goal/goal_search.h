@@ -24,7 +24,8 @@ typedef struct goal_search {
 
   int coarse;              /* attempt of four-node tets as given, by that method */
   int nlevel;              /* of meshes */
-  int level[GOAL_LEVELS];  /* attempts; the first one goes to `until` */
+  int level[GOAL_LEVELS];  /* attempts */
+  int full;                /* an attempt of the first level that goes to `until` */
   int refine, npass;       /* of the last */
   int base_loose;          /* the first level with ten times the tolerance; -1: none */
   int algebra, algebra_of; /* an attempt with tight algebra, and the same without; -1: none */
@@ -51,18 +52,21 @@ bool goal_is_sensible(goal_search *s, int i);
    coarse_off. Where there is no value: result->obstacle. */
 corot_status goal_choose_time(goal_search *s);
 
-/* The first mesh of ten-node tets, and tolerances until its error of time is small. */
-corot_status goal_make_base(goal_search *s);
+/* The first mesh of ten-node tets; the same with ten times the tolerance, as far as the window; and
+   smaller tolerances, once both are there, until the error of time is small. */
+void goal_plan_base(goal_search *s);
+void goal_plan_loose(goal_search *s);
+corot_status goal_settle_time(goal_search *s);
 
 /* Where the extreme is early enough: s->window. */
-corot_status goal_choose_window(goal_search *s);
+void goal_choose_window(goal_search *s);
 corot_status goal_find_tail(goal_search *s);
 
 /* The next mesh: *made: there is one. */
 corot_status goal_refine(goal_search *s, bool *made);
 
 /* What algebra and strain measure do, on a mesh where that is cheap. */
-corot_status goal_measure_rest(goal_search *s);
+void goal_plan_rest(goal_search *s);
 
 /* Sums up what is known by now in s->result. */
 void goal_sum_up(goal_search *s);

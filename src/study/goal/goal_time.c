@@ -101,43 +101,46 @@ corot_status goal_choose_time(goal_search *s) {
 
 /* --- On ten-node tets --- */
 
-static int plan_base(goal_search *s, double rtol) {
+static int plan_base(goal_search *s, double rtol, double until) {
   attempt_def def = {.order = 2,
                      .refine = s->attempts.scenario->refine,
                      .method = s->method,
                      .rtol = rtol,
-                     .until = s->until};
+                     .until = until};
   return attempts_plan(&s->attempts, def);
 }
 
-/* The error of time by what a tenth of the tolerance has changed, and by what was seen on four-node
-   tets: half-width and estimate. */
-static void find_time(goal_search *s) {
-  goal_result *r = s->result;
-  double value = goal_value(s, s->level[0]), loose = goal_value(s, s->base_loose);
-  double changed = fabs(value - loose);
-  r->time = fmax(isnan(changed) ? 0 : changed / 10, s->coarse_off * fabs(value));
-  r->half_time = fmax(isnan(changed) ? 0 : changed / 2, 2 * s->coarse_off * fabs(value));
+void goal_plan_base(goal_search *s) {
+  s->level[0] = s->full = plan_base(s, s->rtol, s->until);
+  s->nlevel = 1;
 }
 
-corot_status goal_make_base(goal_search *s) {
-  s->level[0] = plan_base(s, s->rtol);
-  s->base_loose = s->request->still ? -1 : plan_base(s, fmin(10 * s->rtol, 0.1));
-  COROT_TRY(attempts_make(&s->attempts));
-  s->nlevel = 1;
-  if (s->attempts.signal_number || s->request->still) return COROT_OK;
-  for (;;) {
-    find_time(s);
-    double value = goal_value(s, s->level[0]);
-    double changed = fabs(value - goal_value(s, s->base_loose));
-    bool enough = changed / 2 <= 2 * GOAL_TIME_SHARE * goal_allowed(s->request, value);
-    double cpu = goal_attempt(s, s->level[0])->cpu;
-    if (enough || isnan(value) || s->rtol < LOWEST_RTOL) return COROT_OK;
-    if (!goal_affords(s, 2 * cpu)) return COROT_OK;
+void goal_plan_loose(goal_search *s) {
+  if (!s->request->still) s->base_loose = plan_base(s, fmin(10 * s->rtol, 0.1), s->window);
+}
+
+/* By what ten times the tolerance has changed, and by what was seen on four-node tets. */
+static double find_time(goal_search *s) {
+  goal_result *r = s->result;
+  double value = goal_value(s, s->level[0]);
+  double changed = fabs(value - goal_value(s, s->base_loose));
+  if (isnan(changed)) changed = 0;
+  r->time = fmax(changed / 10, s->coarse_off * fabs(value));
+  r->half_time = fmax(changed / 2, 2 * s->coarse_off * fabs(value));
+  return changed / 2;
+}
+
+corot_status goal_settle_time(goal_search *s) {
+  while (!s->request->still) {
+    double value = goal_value(s, s->level[0]), half = find_time(s);
+    bool enough = half <= 2 * GOAL_TIME_SHARE * goal_allowed(s->request, value);
+    if (enough || isnan(value) || s->rtol <= LOWEST_RTOL) break;
+    if (!goal_affords(s, 2 * goal_attempt(s, s->level[0])->cpu)) break;
     s->base_loose = s->level[0];
     s->rtol /= 10;
-    s->level[0] = plan_base(s, s->rtol);
+    s->level[0] = plan_base(s, s->rtol, s->window);
     COROT_TRY(attempts_make(&s->attempts));
-    if (s->attempts.signal_number) return COROT_OK;
+    if (s->attempts.signal_number) break;
   }
+  return COROT_OK;
 }
