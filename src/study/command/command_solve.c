@@ -117,6 +117,7 @@ static corot_status write_answer(const void *solved, FILE *out) {
 /* What the exit code says of an answer. */
 static int code_of(const goal_result *r) {
   if (r->met) return EXIT_OK;
+  if (r->exit_code) return r->exit_code;
   return r->senseless ? EXIT_SCENARIO : EXIT_CHECK;
 }
 

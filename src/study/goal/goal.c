@@ -67,7 +67,6 @@ static corot_status make_base(goal_search *s) {
 }
 
 static corot_status refine(goal_search *s) {
-  goal_sum_up(s);
   for (bool made = true; made && !s->result->met && !is_over(s);) {
     COROT_TRY(goal_refine(s, &made));
     if (s->attempts.signal_number) break;
@@ -79,11 +78,11 @@ static corot_status refine(goal_search *s) {
 
 static corot_status search(goal_search *s) {
   COROT_TRY(s->request->still ? begin_still(s) : goal_choose_time(s));
-  if (is_over(s) && s->request->still) return COROT_OK;
-  if (is_over(s) && isnan(goal_value(s, s->coarse))) return COROT_OK;
+  if (is_over(s)) return COROT_OK;
   COROT_TRY(make_base(s));
-  if (is_over(s) || s->nlevel == 0) return COROT_OK;
-  return refine(s);
+  if (s->attempts.signal_number || s->nlevel == 0) return COROT_OK;
+  goal_sum_up(s);
+  return is_over(s) ? COROT_OK : refine(s);
 }
 
 /* --- All of it --- */
@@ -122,6 +121,7 @@ corot_status goal_solve(const goal_request *r, const scenario *s, int nset, cons
                                   .still = r->still,
                                   .nset = nset,
                                   .set = set,
+                                  .cpu_limit = r->cpu_limit,
                                   .options = *execute};
   COROT_TRY(attempts_begin(&search_of.attempts));
   corot_status status = search(&search_of);

@@ -140,14 +140,22 @@ static double number_of(const json_t *object, const char *key) {
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-/* The largest absolute value of a column, as result.json has its extremes. */
-static double largest_of(const json_t *result, const char *column) {
-  const json_t *of = json_object_get(json_object_get(result, "extremes"), column);
-  return fmax(fabs(number_of(json_object_get(of, "min"), "value")),
-              fabs(number_of(json_object_get(of, "max"), "value")));
+/* The largest absolute value of a column and of its neighbours of the same probe, as result.json
+   has their extremes. */
+static double largest_of(json_t *result, const char *column) {
+  const char *dot = strrchr(column, '.'), *key;
+  size_t length = dot ? (size_t)(dot - column) + 1 : strlen(column) + 1;
+  json_t *of;
+  double largest = NAN;
+  json_object_foreach(json_object_get(result, "extremes"), key, of) {
+    if (strncmp(key, column, length) != 0) continue;
+    largest = fmax(largest, fabs(number_of(json_object_get(of, "min"), "value")));
+    largest = fmax(largest, fabs(number_of(json_object_get(of, "max"), "value")));
+  }
+  return largest;
 }
 
-static void read_result(attempts *all, const json_t *result, attempt *a) {
+static void read_result(attempts *all, json_t *result, attempt *a) {
   const json_t *mesh = json_object_get(result, "mesh");
   const json_t *found = json_object_get(json_object_get(result, "quantities"), all->name);
   const char *why = json_string_value(json_object_get(found, "reason"));
@@ -171,8 +179,10 @@ static corot_status look(attempts *all, attempt *a) {
     read_result(all, record.result, a);
   else
     snprintf(a->reason, sizeof a->reason, "%s", record.reason ? record.reason : "");
+  a->exit_code = record.exit_code;
+  bool again = record.timed_out; /* with more time it may come to an end */
   run_record_free(&record);
-  return COROT_OK;
+  return again ? store_clear(all->options.dir, &all->manifest->run[a->at]) : COROT_OK;
 }
 
 static void tell(const attempts *all, const attempt *a) {
@@ -201,6 +211,8 @@ corot_status attempts_make(attempts *a) {
                 .nvariant = a->n,
                 .variant = list};
   execute_options options = a->options;
+  double left = 2 * (a->cpu_limit - attempts_cpu(a)) + 5; /* runs share processors */
+  if (!(options.timeout > 0) || options.timeout > left) options.timeout = fmax(left, 1);
   options.expects_failures = true;
   options.progress = false;
   options.tells_builds = !a->manifest;

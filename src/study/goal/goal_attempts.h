@@ -37,7 +37,8 @@ typedef struct attempt {
   char reason[ATTEMPT_REASON_SIZE]; /* why there is no value */
   double value;                     /* NaN: none */
   double when;                      /* of an extreme [s]; NaN */
-  double largest;                   /* absolute value in its column; NaN: not known */
+  int exit_code;                    /* of a run that failed; 0: not known */
+  double largest;                   /* absolute value in the columns of its probe; NaN: not known */
   double cpu;                       /* [s] */
   int tets, dofs;
 } attempt;
@@ -49,6 +50,7 @@ typedef struct attempts {
   bool still;
   int nset; /* of the command line, */
   const char *const *set;
+  double cpu_limit; /* [s]; an attempt is ended when more than that may be spent */
   execute_options options;
   int n;
   attempt *all; /* [ATTEMPT_MOST] */

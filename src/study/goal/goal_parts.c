@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "app/run/exit_code.h"
 #include "goal_search.h"
 
 double goal_value(const goal_search *s, int i) { return i >= 0 ? s->attempts.all[i].value : NAN; }
@@ -27,6 +28,11 @@ bool goal_is_sensible(goal_search *s, int i) {
   if (!a->done) {
     snprintf(r->obstacle, sizeof r->obstacle, "the first attempt, %.100s: %.300s", a->label,
              a->reason);
+    if (s->request->still && a->exit_code == EXIT_INTEGRATOR)
+      snprintf(r->advice, sizeof r->advice,
+               "under these loads there is no equilibrium to be found: smaller loads have one, and "
+               "without --static the motion has an answer");
+    r->exit_code = a->exit_code;
     return false;
   }
   if (isnan(a->value)) {
@@ -149,7 +155,7 @@ void goal_sum_up(goal_search *s) {
   r->value = value;
   r->low = value - half;
   r->high = value + half;
-  r->met = half <= goal_allowed(s->request, value);
+  r->met = s->nlevel >= 2 && half <= goal_allowed(s->request, value);
   *r->advice = '\0';
   if (!r->met) advise(s, &mesh);
 }

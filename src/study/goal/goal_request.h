@@ -17,6 +17,7 @@ typedef struct goal_request {
 typedef struct goal_result {
   double value, low, high; /* NaN: there is none */
   bool met, asymptotic;
+  int exit_code;       /* of a first attempt that failed; 0: none did, or it is not known */
   bool senseless;      /* what was asked for makes no sense, as obstacle says */
   const char *why_not; /* asymptotic */
   double order;

@@ -76,6 +76,8 @@ void goal_print(const json_t *j, FILE *out) {
   if (value && *why) fprintf(out, "not asymptotic: %s\n", why);
   if (*obstacle) fprintf(out, "not met: %s\n", obstacle);
   if (*advice) fprintf(out, "%s\n", advice);
-  fprintf(out, "%.3g s of CPU in all, %.2g times the last mesh\n", lookup_number(j, "cpu_s"),
-          lookup_number(j, "overhead"));
+  double overhead = lookup_number(j, "overhead");
+  fprintf(out, "%.3g s of CPU in all", lookup_number(j, "cpu_s"));
+  if (overhead > 0) fprintf(out, ", %.2g times the last mesh", overhead);
+  fputc('\n', out);
 }
