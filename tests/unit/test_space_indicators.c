@@ -301,6 +301,41 @@ static void a_turn_of_the_body_changes_nothing(void **state) {
     }
 }
 
+/* --- Numbers --- */
+
+/* The same mesh with its nodes numbered from the last to the first, so that corners come last. */
+static body backward(const body *b, const corot_model_def *def) {
+  const corot_mesh *mesh = b->mesh;
+  double(*x)[3] = malloc((size_t)mesh->nnode * sizeof *x);
+  int(*tet)[10] = malloc((size_t)mesh->ntet * sizeof *tet);
+  corot_mesh *turned;
+  for (int n = 0; n < mesh->nnode; n++) memcpy(x[mesh->nnode - 1 - n], mesh->x[n], sizeof *x);
+  for (int e = 0; e < mesh->ntet; e++)
+    for (int k = 0; k < 10; k++)
+      tet[e][k] = mesh->nnode - 1 - (k < 4 ? mesh->tet[e][k] : mesh->mid[e][k - 4]);
+  assert_ok(corot_mesh_create_order_2(mesh->nnode, (const double(*)[3])x, mesh->ntet,
+                                      (const int(*)[10])tet, &turned));
+  free(x), free(tet);
+  return make_body(turned, *def);
+}
+
+static void numbers_of_nodes_do_not_matter(void **state) {
+  (void)state;
+  corot_model_def def = corot_model_defaults();
+  def.nmaterial = 1, def.material = &firm;
+  body b = free_box("polar", 2, &firm), c = backward(&b, &def);
+  double *u = malloc((size_t)b.n * sizeof *u), *w = malloc((size_t)b.n * sizeof *w);
+  uint64_t seed = 7;
+  for (int n = 0; n < b.mesh->nnode; n++)
+    for (int i = 0; i < 3; i++)
+      u[3 * n + i] = w[3 * (b.mesh->nnode - 1 - n) + i] = 0.01 * noise(&seed);
+  corot_space_total first, second;
+  double *a = indicators_of(&b, u, NULL, &first), *d = indicators_of(&c, w, NULL, &second);
+  for (int e = 0; e < b.mesh->ntet; e++) assert_close(d[e], a[e], 1e-9, 0);
+  free(a), free(d), free(u), free(w);
+  drop_body(&b), drop_body(&c);
+}
+
 /* --- Goals --- */
 
 static const corot_fix wall = {"xmin", {true, true, true}};
@@ -497,6 +532,7 @@ int main(void) {
       cmocka_unit_test(a_body_at_rest_has_no_relative_error),
       cmocka_unit_test(a_jump_between_materials_is_no_error),
       cmocka_unit_test(a_turn_of_the_body_changes_nothing),
+      cmocka_unit_test(numbers_of_nodes_do_not_matter),
       cmocka_unit_test(a_goal_is_told_what_it_misses),
       cmocka_unit_test(what_a_goal_does_not_depend_on_has_no_part_in_it),
       cmocka_unit_test(a_body_that_flies_has_a_dual_state),

@@ -117,7 +117,7 @@ static int grow(patches *p, int material, int n) {
 /* 1, x, y, z, xx, yy, zz, xy, yz, zx of coordinates about a corner. */
 static void terms_at(const patches *p, int corner, const double x[3], double term[PATCH_TERMS]) {
   double d[3];
-  for (int c = 0; c < 3; c++) d[c] = (x[c] - p->mesh->x[corner][c]) / p->scale[corner];
+  for (int c = 0; c < 3; c++) d[c] = (x[c] - p->mesh->x[corner][c]) / p->scale[p->corner[corner]];
   term[0] = 1;
   for (int c = 0; c < 3; c++) {
     term[1 + c] = d[c];
