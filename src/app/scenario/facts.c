@@ -136,6 +136,7 @@ static void print_mesh(const scenario *s, const facts *f, FILE *out) {
   fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "");
   if (!s->mesh_file) print_box(&s->box, out);
   if (s->refine > 0) fprintf(out, ", refine %d", s->refine);
+  if (s->marks) fprintf(out, ", marks %s", s->marks);
   fprintf(out, ": %d nodes, %d %stets, %.6g m^3\n", f->mesh->nnode, f->mesh->ntet,
           f->mesh->mid ? "ten-node " : "", q->volume);
   fprintf(out, "extent         [%g, %g] x [%g, %g] x [%g, %g] m\n", q->min[0], q->max[0], q->min[1],
@@ -362,6 +363,7 @@ static json_t *mesh_json(const scenario *s, const facts *f) {
                         f->mesh->nnode, "tets", f->mesh->ntet, "volume", q->volume);
   j = json_text_with(j, "file", s->mesh_file ? json_text_string(s->mesh_file) : json_null());
   j = json_text_with(j, "refine", json_integer(s->refine));
+  if (s->marks) j = json_text_with(j, "marks", json_text_string(s->marks));
   j = json_text_with(j, "min", json_pack("[f, f, f]", q->min[0], q->min[1], q->min[2]));
   j = json_text_with(j, "max", json_pack("[f, f, f]", q->max[0], q->max[1], q->max[2]));
   return json_text_with(j, "shape",
