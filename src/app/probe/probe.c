@@ -10,16 +10,6 @@
 #include "app/text/json_text.h"
 #include "probe_parts.h"
 
-struct probes {
-  const corot_model *model;
-  int n, ncolumn;
-  probe *probe;  /* [n] */
-  char **column; /* [ncolumn] names, with the component */
-  char **unit;   /* [ncolumn] */
-  bool any;      /* fields are needed beside the displacement */
-  probe_fields fields;
-};
-
 void probes_destroy(probes *p) {
   if (!p) return;
   for (int i = 0; i < p->n; i++) samples_clear(&p->probe[i].samples);

@@ -28,6 +28,16 @@ typedef struct probe {
   probe_where where[6];
 } probe;
 
+struct probes {
+  const corot_model *model;
+  int n, ncolumn;
+  probe *probe;  /* [n] */
+  char **column; /* [ncolumn] names, with the component */
+  char **unit;   /* [ncolumn] */
+  bool any;      /* fields are needed beside the displacement */
+  probe_fields fields;
+};
+
 /* The samples of a probe, whose location is known. COROT_ENOMEM. */
 corot_status samples_create(const corot_model *model, probe *p, probe_fields *f);
 void samples_clear(samples *s);
