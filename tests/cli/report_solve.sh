@@ -68,7 +68,7 @@ grep -q 'What stands in the way: ' moving/report.html || complain "not what stan
 
 # No value: a run that fails, and a question that makes no sense, whose page is not advertised.
 expect 1 solve model.yaml --goal 'max(corner.ux)' --within 0.01 --timeout 1e-4 -o late --quiet
-out "no value was found"
+out "not found"
 same late
 sed 's/corner: .*/foot: {point: [0, 0, 0]}/' model.yaml >foot.yaml
 expect 3 solve foot.yaml --goal 'max(foot.ux)' --within 0.01 -o foot

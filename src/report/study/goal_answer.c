@@ -44,7 +44,7 @@ void goal_answer(const json_t *solved, const char *plus_minus, char text[GOAL_AN
   const char *goal = lookup_text(solved, "goal"), *unit = lookup_text(solved, "unit");
   char known[GOAL_AMOUNT_SIZE], asked[GOAL_AMOUNT_SIZE];
   if (!isfinite(value)) {
-    snprintf(text, GOAL_ANSWER_SIZE, "%.300s: no value was found", goal);
+    snprintf(text, GOAL_ANSWER_SIZE, "%.300s: not found", goal);
     return;
   }
   int n = digits_of(value, half);
