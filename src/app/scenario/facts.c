@@ -85,7 +85,7 @@ void facts_free(facts *f) {
 /* "stress, max" of what is not a displacement at a point or node. */
 static void describe_probe(const probe_def *p, size_t size, char *text) {
   const probe_quantity *q = &probe_quantities[p->of];
-  bool takes = !probe_is_local(p) && q->carrier <= OF_TETS;
+  bool takes = !probe_is_local(p) && q->carrier < SUM_OVER_NODES;
   snprintf(text, size, "%s%s%s%s%s", q->word, p->component ? " " : "",
            probe_components[p->component], takes ? ", " : "", takes ? probe_takes[p->take] : "");
 }
