@@ -145,6 +145,8 @@ assert abs(p["wall"]["fz"] + load) < 1e-9 * load and abs(p["side"]["value"]) < 1
 # it draws in: the same force on a smaller area
 assert (p["mean"]["value"] > 2.02e3) == (sys.argv[1] != "cauchy"), p
 PY
+expect 0 check pulled.yaml --set 'groups.one={nodes: [3]}' --set 'probes.n={group: one}'
+out "one (1 node)"
 expect 0 check pulled.yaml; out "probe          side: traction magnitude, max, xmax"
 for strain in cauchy polar hybrid green; do
   for order in 1 2; do

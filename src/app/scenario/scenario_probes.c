@@ -1,4 +1,5 @@
 /* Reads probes, and holds them against the mesh. */
+#include "app/text/plural.h"
 #include "probe_location.h"
 #include "scenario_fault.h"
 #include "scenario_parts.h"
@@ -139,14 +140,16 @@ static corot_status check_group(const scenario *s, config_node *node, const prob
   if (!group) return scenario_unknown_group(node, mesh);
   if (group->nnode == 0) return config_fail(node, "group '%s' has no nodes", p->group);
   if (q->carrier == OF_TETS && group->ntet == 0 && group->ntri == 0)
-    return config_fail(node, "group '%s' has neither tets nor faces for %s%s (%d nodes)", p->group,
-                       named(q), q->word, group->nnode);
+    return config_fail(node, "group '%s' has neither tets nor faces for %s%s (%d node%s)", p->group,
+                       named(q), q->word, group->nnode, plural(group->nnode));
   if (q->carrier == OF_FACES && group->ntri == 0)
-    return config_fail(node, "group '%s' has no faces for %s%s (%d nodes, %d tets)", p->group,
-                       named(q), q->word, group->nnode, group->ntet);
+    return config_fail(node, "group '%s' has no faces for %s%s (%d node%s, %d tet%s)", p->group,
+                       named(q), q->word, group->nnode, plural(group->nnode), group->ntet,
+                       plural(group->ntet));
   if (q->carrier == SUM_OVER_TETS && group->ntet == 0)
-    return config_fail(node, "group '%s' has no tets for %s%s (%d nodes, %d faces)", p->group,
-                       named(q), q->word, group->nnode, group->ntri);
+    return config_fail(node, "group '%s' has no tets for %s%s (%d node%s, %d face%s)", p->group,
+                       named(q), q->word, group->nnode, plural(group->nnode), group->ntri,
+                       plural(group->ntri));
   if (p->of == PROBE_ELASTIC && s->model.hierarchy)
     return config_fail(node, "with a hierarchy only the whole body has an elastic energy");
   return COROT_OK;

@@ -198,9 +198,18 @@ static void print_space(const json_t *list, FILE *out) {
   }
 }
 
+/* Of a fit through too few points, of which there may be one for each series. */
+static bool says_nothing(const json_t *fit) {
+  return strncmp(text_at(fit, "verdict"), "too few points", 14) == 0;
+}
+
 static void print_fits(const json_t *list, FILE *out) {
+  size_t nothing = 0;
+  for (size_t i = 0; i < json_array_size(list); i++)
+    nothing += says_nothing(json_array_get(list, i));
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *f = json_array_get(list, i);
+    if (nothing > 1 && says_nothing(f)) continue;
     bool measure = json_is_string(json_object_get(f, "measure"));
     fprintf(out, "  %s%s", measure ? text_at(f, "measure") : "", measure ? ", " : "");
     escape_line(text_at(f, "series"), out);
@@ -211,6 +220,7 @@ static void print_fits(const json_t *list, FILE *out) {
               text_at(f, "tolerance_key"));
     fprintf(out, "%s\n", text_at(f, "verdict"));
   }
+  if (nothing > 1) fprintf(out, "  too few points to say of %zu series\n", nothing);
 }
 
 static void print_rankings(const json_t *table, FILE *out) {
