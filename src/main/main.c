@@ -94,7 +94,7 @@ int main(int argc, char **argv) {
       {"study", command_study},
       {"budget", command_budget},
       {"find-limit", command_find_limit},
-      {"plot", command_plot},
+      {"plot", command_study_plot},
       {"report", command_report},
       {"schema", command_schema},
       {"mesh", command_mesh},

@@ -47,6 +47,7 @@ static void write_cell(const json_t *cell, const column *c, char text[CELL]) {
   const json_t *value = value_of(cell, c);
   bool error = c->group && strcmp(c->group, "error") == 0;
   bool quantity = c->group && strcmp(c->group, "quantity") == 0;
+  bool imbalance = c->group && strcmp(c->group, "drift") == 0;
   bool doubtful = error && is_unrated(cell, c->key);
   const json_t *most = doubtful ? json_object_get(json_object_get(cell, "at_most"), c->key) : NULL;
   if (json_is_real(most))
@@ -57,11 +58,12 @@ static void write_cell(const json_t *cell, const column *c, char text[CELL]) {
     snprintf(text, CELL, "%lld", (long long)json_integer_value(value));
   else if (json_is_real(value))
     snprintf(text, CELL,
-             doubtful   ? "(%.1e)"
-             : error    ? (c->is_signed ? "%+.2e" : "%.2e")
-             : quantity ? "%.6g"
-             : c->group ? "%.4g"
-                        : "%.2f",
+             doubtful    ? "(%.1e)"
+             : error     ? (c->is_signed ? "%+.2e" : "%.2e")
+             : quantity  ? "%.6g"
+             : imbalance ? "%.1e"
+             : c->group  ? "%.4g"
+                         : "%.2f",
              json_real_value(value));
   else if (!value || json_is_null(value))
     snprintf(text, CELL, "-");
@@ -111,6 +113,8 @@ static void lay_out(const json_t *table, layout *l) {
   for (size_t i = 0; norms && i < sizeof errors / sizeof *errors; i++)
     add(l, errors[i], "error", errors[i], true);
   if (norms) add(l, "digits", NULL, "digits", true);
+  add(l, "imbalance", "drift", "energy", true);
+  if (!has_numbers(cells, &l->column[l->n - 1])) l->n--;
   for (size_t i = 0; i < json_array_size(quantities); i++) {
     const char *text = json_string_value(json_array_get(quantities, i));
     if (!text) continue;
