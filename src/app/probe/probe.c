@@ -49,7 +49,8 @@ static corot_status add_columns(probes *p, const probe *of) {
   const probe_quantity *q = of->quantity;
   const char *measure = measure_of(of);
   for (int c = 0; c < of->n; c++) {
-    const char *unit = q->moment_unit && c >= 3 ? q->moment_unit : q->unit;
+    bool force = q->carrier == OF_FACES && of->def->take == TAKE_SUM;
+    const char *unit = force ? "N" : q->moment_unit && c >= 3 ? q->moment_unit : q->unit;
     char **name = &p->column[p->ncolumn], **of_it = &p->unit[p->ncolumn];
     p->ncolumn++;
     *name = join(of->def->name, ".", of->def->component ? "value" : q->column[c]);

@@ -7,6 +7,7 @@
 
 #include "app/config/config.h"
 #include "app/text/json_text.h"
+#include "app/text/plural.h"
 #include "core/mesh/mesh.h"
 #include "probe_location.h"
 #include "words.h"
@@ -85,7 +86,7 @@ void facts_free(facts *f) {
 /* "stress, max" of what is not a displacement at a point or node. */
 static void describe_probe(const probe_def *p, size_t size, char *text) {
   const probe_quantity *q = &probe_quantities[p->of];
-  bool takes = !probe_is_local(p) && q->carrier <= OF_TETS;
+  bool takes = !probe_is_local(p) && q->carrier < SUM_OVER_NODES;
   snprintf(text, size, "%s%s%s%s%s", q->word, p->component ? " " : "",
            probe_components[p->component], takes ? ", " : "", takes ? probe_takes[p->take] : "");
 }
@@ -292,8 +293,9 @@ static void print_probe(const probe_def *p, const corot_location *at, const coro
   describe_probe(p, sizeof what, what);
   fprintf(out, "probe          %s: ", p->name);
   if (!probe_is_plain(p)) fprintf(out, "%s, ", what);
-  if (p->group)
-    fprintf(out, "%s (%d nodes)", p->group, corot_mesh_find_group(mesh, p->group)->nnode);
+  const corot_group *group = p->group ? corot_mesh_find_group(mesh, p->group) : NULL;
+  if (group)
+    fprintf(out, "%s (%d node%s)", p->group, group->nnode, plural(group->nnode));
   else if (p->body)
     fputs("the whole body", out);
   else
