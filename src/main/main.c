@@ -27,6 +27,7 @@ static const char help[] =
     "  check MODEL.yaml     say what is wrong with a scenario, or what it amounts to\n"
     "  study STUDY.yaml     run a scenario many times along axes, and compare: errors and costs\n"
     "  budget MODEL.yaml    how wrong a run is, and because of what\n"
+    "  solve MODEL.yaml     find a number of it with an error that is asked for\n"
     "  find-limit MODEL.yaml\n"
     "                       where it stops being stable as one of its numbers grows\n"
     "  schema [KEY]         every key of a scenario: type, unit, default, meaning\n"
@@ -87,19 +88,13 @@ static void leave_at_once_if_limited(int code) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},
-      {"static", command_static},
-      {"modes", command_modes},
-      {"check", command_check},
-      {"study", command_study},
-      {"budget", command_budget},
-      {"find-limit", command_find_limit},
-      {"plot", command_plot},
-      {"report", command_report},
-      {"schema", command_schema},
-      {"mesh", command_mesh},
-      {"--version", print_version},
-      {0},
+      {"run", command_run},         {"static", command_static},
+      {"modes", command_modes},     {"check", command_check},
+      {"study", command_study},     {"budget", command_budget},
+      {"solve", command_solve},     {"find-limit", command_find_limit},
+      {"plot", command_plot},       {"report", command_report},
+      {"schema", command_schema},   {"mesh", command_mesh},
+      {"--version", print_version}, {0},
   };
   hold_standard_streams();
   keep_to_one_thread(argv);

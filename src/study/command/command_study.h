@@ -1,9 +1,10 @@
-/* The commands `corot study`, `corot budget` and `corot find-limit`. */
+/* The commands `corot study`, `corot budget`, `corot find-limit` and `corot solve`. */
 #ifndef COROT_STUDY_COMMAND_COMMAND_STUDY_H
 #define COROT_STUDY_COMMAND_COMMAND_STUDY_H
 
 int command_study(int argc, char **argv);
 int command_budget(int argc, char **argv);
 int command_find_limit(int argc, char **argv);
+int command_solve(int argc, char **argv);
 
 #endif

@@ -93,10 +93,15 @@ int variants_command_run(const variants_command *c, int argc, char **argv) {
 }
 
 int variants_take_quantity(const char *program, const char *text, quantity_option *out) {
+  return variants_take_option(program, "--quantity", text, out);
+}
+
+int variants_take_option(const char *program, const char *option, const char *text,
+                         quantity_option *out) {
   quantity q;
   size_t at;
   if (quantity_parse(text, &q, &at) != COROT_OK) {
-    quantity_point("--quantity", text, at);
+    quantity_point(option, text, at);
     return usage_error(program, "%s", corot_error());
   }
   quantity_print(&q, out->text);

@@ -39,6 +39,10 @@ typedef struct quantity_option {
 /* --quantity TEXT: -1, or an exit code. */
 int variants_take_quantity(const char *program, const char *text, quantity_option *out);
 
+/* The same of an option of another name. */
+int variants_take_option(const char *program, const char *option, const char *text,
+                         quantity_option *out);
+
 /* Words and exit code of one that a signal ended. */
 int variants_interrupted(int signal_number);
 

@@ -61,6 +61,8 @@ static corot_status keep_reason(const json_t *json, run_record *record) {
   record->reason = malloc(strlen(reason) + 1);
   if (!record->reason) return no_memory();
   strcpy(record->reason, reason);
+  record->exit_code = (int)json_integer_value(json_object_get(json, "exit_code"));
+  record->timed_out = strcmp(lookup_text(json, "failure.kind"), "timeout") == 0;
   if (is_lasting(json)) record->state = RUN_FAILED;
   return COROT_OK;
 }

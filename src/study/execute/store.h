@@ -33,6 +33,8 @@ typedef enum run_state {
 typedef struct run_record {
   run_state state;
   char *reason;   /* of a failure, or why it was lost; NULL otherwise */
+  int exit_code;  /* of a failure; 0: it is not known, or there is none */
+  bool timed_out; /* a failure by the time that it was given */
   json_t *result; /* result.json of one that is done; NULL otherwise */
   bool damaged;   /* it was done, and is missing now: its files are not what result.json lists */
 } run_record;

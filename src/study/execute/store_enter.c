@@ -65,8 +65,8 @@ static corot_status check_owner(const char *dir, const manifest *m, const manife
 
 /* In a folder that is no study's: what a study would replace. */
 static corot_status permit_files(const char *dir) {
-  static const char *const name[] = {"study.json",   "table.json",  "table.csv",
-                                     "index.sqlite", "budget.json", "limit.json"};
+  static const char *const name[] = {"study.json",  "table.json", "table.csv", "index.sqlite",
+                                     "budget.json", "limit.json", "solve.json"};
   for (size_t i = 0; i < sizeof name / sizeof *name; i++)
     COROT_TRY(folder_permit_name(dir, name[i], "study"));
   return COROT_OK;

@@ -1,0 +1,81 @@
+/* Observed orders, and factors of safety. */
+#include "goal_rule.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* (a^p - b^p) / (b^p - c^p) of sizes a > b > c, which grows with p: where it is `ratio`. 0: nowhere
+   above 0.01; infinite: nowhere below 20. */
+static double order_of(const double size[3], double ratio) {
+  double low = 0.01, high = 20;
+  for (int i = 0; i < 60; i++) {
+    double p = (low + high) / 2, a = pow(size[0] / size[1], p), c = pow(size[2] / size[1], p);
+    if ((a - 1) / (1 - c) < ratio)
+      low = p;
+    else
+      high = p;
+  }
+  return low < 0.011 ? 0 : high > 19.9 ? INFINITY : low;
+}
+
+/* What remains of the last difference at order p. */
+static double remainder_of(double ratio, double p) { return 1 / (pow(ratio, p) - 1); }
+
+static const char *doubt(double d1, double d2, double order) {
+  if (!isfinite(d1) || !isfinite(d2)) return "a mesh has no value";
+  if (d1 * d2 < 0) return "the values alternate from mesh to mesh";
+  if (order == 0) return "the values do not settle as the mesh is refined";
+  if (!(order >= GOAL_LOWEST_ORDER)) return "the values hardly settle as the mesh is refined";
+  if (order > GOAL_HIGHEST_ORDER) return "the values settle faster than ten-node tets can";
+  return NULL;
+}
+
+/* By one mesh: four-node tets on it are further off than ten-node ones. */
+static goal_error judge_one(const goal_level *level, double coarse) {
+  double d = fabs(level->value - coarse);
+  return (goal_error){.estimate = NAN,
+                      .half = isfinite(d) ? d : INFINITY,
+                      .order = NAN,
+                      .why = "there is but one mesh of ten-node tets"};
+}
+
+/* Without an order to believe in. */
+static void widen(goal_error *e, double d1, double d2, double ratio) {
+  double d = isfinite(d1) ? fmax(fabs(d2), fabs(d1) / ratio) : fabs(d2);
+  e->estimate = NAN;
+  e->half = isfinite(d) ? GOAL_SAFETY_UNPROVEN * d * fmax(1, remainder_of(ratio, 1)) : INFINITY;
+}
+
+goal_error goal_judge(int n, const goal_level *level, double coarse, double noise) {
+  if (n < 2) return judge_one(level, coarse);
+  const goal_level *last = level + n - 1;
+  double d2 = last[0].value - last[-1].value, ratio = last[-1].size / last[0].size;
+  double d1 = n >= 3 ? last[-1].value - last[-2].value : NAN;
+  goal_error e = {.order = NAN, .why = "there are but two meshes of ten-node tets"};
+
+  /* nothing to be seen beside what the values are known by anyway */
+  if (fabs(d2) <= noise && (n == 2 || fabs(d1) <= noise)) {
+    e.settled = true;
+    e.asymptotic = n >= 3;
+    e.why = e.asymptotic ? NULL : e.why;
+    e.estimate = d2;
+    e.half = noise + GOAL_SAFETY_UNPROVEN * fabs(d2);
+    return e;
+  }
+  if (n >= 3) {
+    const double size[3] = {last[-2].size, last[-1].size, last[0].size};
+    e.order = d1 * d2 > 0 ? order_of(size, d1 / d2) : NAN;
+    e.why = doubt(d1, d2, e.order);
+    e.diverging = e.order == 0;
+    e.asymptotic = !e.why;
+  }
+  if (!e.asymptotic) {
+    widen(&e, d1, d2, ratio);
+    return e;
+  }
+  double cautious = fmin(GOAL_CAUTIOUS_FACTOR * e.order, GOAL_CAUTIOUS_ORDER);
+  e.estimate = d2 * remainder_of(ratio, e.order);
+  double least = fabs(d1) * pow(ratio, -GOAL_CAUTIOUS_FALL);
+  e.half = GOAL_SAFETY * fmax(fmax(fabs(d2), least), noise) * remainder_of(ratio, cautious);
+  return e;
+}

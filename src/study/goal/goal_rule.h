@@ -1,0 +1,55 @@
+/* What values on ever finer meshes say about the error of the last one.
+
+   With an error C h^p, h the size of the elements, three values give p, and what remains: of the
+   last difference d the error is e = d / (r^p - 1), r the ratio of the last two sizes (Richardson's
+   extrapolation). That is believed where the values look as if it were true: asymptotic. Then the
+   truth is taken to be within 1.25 |e| of the last value; elsewhere within 3 |d| / (r - 1), of
+   order one, whatever the order may be: the factors of safety of ASME V&V 20-2009, section 2-4 (P.
+   J. Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter
+   5).
+
+   One thing is added: half-widths count six tenths of the observed order, and none above
+   GOAL_CAUTIOUS_ORDER. The smooth part of an error vanishes first, and the order it vanishes with
+   says little of what a singular corner leaves: the order that is seen falls from mesh to mesh. Nor
+   is it counted that the last difference has fallen faster than at order GOAL_CAUTIOUS_FALL, which
+   may be chance. With that the interval holds for any sum of a part of order 4 and one of
+   order 1.2, whichever is the larger, and sizes in ratios from 1.3 to 2
+   (tests/unit/test_goal_rule.c).
+ */
+#ifndef COROT_STUDY_GOAL_GOAL_RULE_H
+#define COROT_STUDY_GOAL_GOAL_RULE_H
+
+#include <stdbool.h>
+
+/* Values of ten-node tets converge at up to order 4, near edges of supports at 1 to 1.5; what seems
+   slower has not begun to, or never will. */
+#define GOAL_LOWEST_ORDER 0.5
+#define GOAL_HIGHEST_ORDER 5.0
+#define GOAL_CAUTIOUS_ORDER 1.5
+#define GOAL_CAUTIOUS_FACTOR 0.6
+#define GOAL_CAUTIOUS_FALL 3.0
+
+#define GOAL_SAFETY 1.25         /* asymptotic */
+#define GOAL_SAFETY_UNPROVEN 3.0 /* not */
+
+typedef struct goal_level {
+  double value;
+  double size; /* of the elements, in any unit */
+} goal_level;
+
+typedef struct goal_error {
+  double estimate; /* the limit less the last value; NaN: not known */
+  double half;     /* the truth is within this of the last value; infinite: not known */
+  double order;    /* observed; NaN: none */
+  bool asymptotic;
+  bool settled;    /* the values differ by no more than what each is known by */
+  bool diverging;  /* differences grow */
+  const char *why; /* not asymptotic, static; NULL: it is */
+} goal_error;
+
+/* level [n], from coarse to fine, n >= 1; of them the last three count. `coarse`: the value of
+   four-node tets on the mesh of the first level, NaN: not known; it counts where there is but one.
+   `noise`: what each value is known by. */
+goal_error goal_judge(int n, const goal_level *level, double coarse, double noise);
+
+#endif

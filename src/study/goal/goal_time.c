@@ -1,0 +1,146 @@
+/* How to integrate: a method and a tolerance that leave the error to the mesh. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "goal_search.h"
+
+#define LOWEST_RTOL 1e-9
+
+/* Two methods, the scenario's own and another, at a tolerance and at a tenth of it. */
+typedef struct trial {
+  const char *method[2];
+  bool stages[2];
+  int at[2][2]; /* attempts: [method][tolerance] */
+} trial;
+
+static const char *own_method(const scenario *s) {
+  return corot_integrator_controls_error(s->integrator.method) ? s->integrator.method : "cvode";
+}
+
+static trial begin(const scenario *s) {
+  trial t = {.method = {own_method(s), "arkode"}};
+  if (strcmp(t.method[0], t.method[1]) == 0) t.method[1] = "cvode";
+  for (int i = 0; i < 2; i++) t.stages[i] = corot_method_traits(t.method[i])->stages;
+  return t;
+}
+
+static int plan(goal_search *s, const char *method, double rtol) {
+  attempt_def def = {.order = 1,
+                     .refine = s->attempts.scenario->refine,
+                     .method = method,
+                     .rtol = rtol,
+                     .until = s->until};
+  return attempts_plan(&s->attempts, def);
+}
+
+/* What the two methods at a tenth of the tolerance say of those at the whole. A Runge-Kutta method
+   is the better reference: its error is in proportion to the tolerance. */
+static void judge(const goal_search *s, const trial *t, double off[2]) {
+  int better = t->stages[0] ? 0 : 1;
+  double reference = goal_value(s, t->at[better][1]), other = goal_value(s, t->at[!better][1]);
+  double loose = goal_value(s, t->at[better][0]);
+  if (isnan(reference)) reference = other;
+  double known = fmin(fabs(other - reference), fabs(loose - reference));
+  for (int i = 0; i < 2; i++) off[i] = fabs(goal_value(s, t->at[i][0]) - reference) + known;
+}
+
+/* The scenario's own method is taken where both will do. */
+static bool accept(goal_search *s, const trial *t, double rtol) {
+  double off[2];
+  judge(s, t, off);
+  for (int i = 0; i < 2; i++) {
+    double value = goal_value(s, t->at[i][0]);
+    if (!(off[i] <= GOAL_TIME_SHARE * goal_allowed(s->request, value))) continue;
+    s->method = t->method[i];
+    s->rtol = rtol;
+    s->coarse = t->at[i][0];
+    s->coarse_off = off[i] / fabs(value);
+    return true;
+  }
+  return false;
+}
+
+/* The first attempt of all: whether there is anything to be looked for. */
+static corot_status make_first(goal_search *s, const trial *t, double rtol, bool *go_on) {
+  int first = plan(s, t->method[0], rtol);
+  COROT_TRY(attempts_make(&s->attempts));
+  s->coarse = first;
+  *go_on = !s->attempts.signal_number && goal_is_sensible(s, first);
+  return COROT_OK;
+}
+
+/* No tolerance was small enough: the smallest is taken, by the better method. */
+static void settle(goal_search *s, const trial *t, double rtol) {
+  double off[2];
+  judge(s, t, off);
+  int i = off[1] < off[0] || isnan(off[0]) ? 1 : 0;
+  s->method = t->method[i];
+  s->rtol = rtol;
+  s->coarse = t->at[i][0];
+  s->coarse_off = off[i] / fabs(goal_value(s, s->coarse));
+}
+
+corot_status goal_choose_time(goal_search *s) {
+  trial t = begin(s->attempts.scenario);
+  double rtol = s->request->absolute ? 1e-3 : fmin(1e-3, s->request->within);
+  bool go_on;
+  COROT_TRY(make_first(s, &t, rtol, &go_on));
+  while (go_on) {
+    for (int i = 0; i < 2; i++)
+      for (int k = 0; k < 2; k++) t.at[i][k] = plan(s, t.method[i], k ? rtol / 10 : rtol);
+    COROT_TRY(attempts_make(&s->attempts));
+    if (s->attempts.signal_number || accept(s, &t, rtol)) return COROT_OK;
+    double last = goal_attempt(s, t.at[0][1])->cpu + goal_attempt(s, t.at[1][1])->cpu;
+    go_on = rtol > LOWEST_RTOL * 1.01 && goal_affords(s, 2.5 * last);
+    if (!go_on) settle(s, &t, rtol);
+    rtol /= 10;
+  }
+  return COROT_OK;
+}
+
+/* --- On ten-node tets --- */
+
+static int plan_base(goal_search *s, double rtol, double until) {
+  attempt_def def = {.order = 2,
+                     .refine = s->attempts.scenario->refine,
+                     .method = s->method,
+                     .rtol = rtol,
+                     .until = until};
+  return attempts_plan(&s->attempts, def);
+}
+
+void goal_plan_base(goal_search *s) {
+  s->level[0] = s->full = plan_base(s, s->rtol, s->until);
+  s->nlevel = 1;
+}
+
+void goal_plan_loose(goal_search *s) {
+  if (!s->request->still) s->base_loose = plan_base(s, fmin(10 * s->rtol, 0.1), s->window);
+}
+
+/* By what ten times the tolerance has changed, and by what was seen on four-node tets. */
+static double find_time(goal_search *s) {
+  goal_result *r = s->result;
+  double value = goal_value(s, s->level[0]);
+  double changed = fabs(value - goal_value(s, s->base_loose));
+  if (isnan(changed)) changed = 0;
+  r->time = fmax(changed / 10, s->coarse_off * fabs(value));
+  r->half_time = fmax(changed / 2, 2 * s->coarse_off * fabs(value));
+  return changed / 2;
+}
+
+corot_status goal_settle_time(goal_search *s) {
+  while (!s->request->still) {
+    double value = goal_value(s, s->level[0]), half = find_time(s);
+    bool enough = half <= 2 * GOAL_TIME_SHARE * goal_allowed(s->request, value);
+    if (enough || isnan(value) || s->rtol <= LOWEST_RTOL) break;
+    if (!goal_affords(s, 2 * goal_attempt(s, s->level[0])->cpu)) break;
+    s->base_loose = s->level[0];
+    s->rtol /= 10;
+    s->level[0] = plan_base(s, s->rtol, s->window);
+    COROT_TRY(attempts_make(&s->attempts));
+    if (s->attempts.signal_number) break;
+  }
+  return COROT_OK;
+}
