@@ -71,6 +71,57 @@ corot_status corot_space_error(const corot_model_def *def, const corot_model *mo
                                const corot_space_moment *at, const corot_linear_def *linear,
                                double (*correction)[3], corot_space_estimate *estimate);
 
+/* --- Where the error comes from ---------------------------------------------------------------
+
+   Tet by tet, for four-node and ten-node tets: how far the strain e of the state is from the one e*
+   that is recovered of it around each node (src/solve/space/patches.h; Zienkiewicz and Zhu 1992),
+
+     eta_T^2 = integral over T of (e* - e) : C : (e* - e),
+
+   Green's strain in material axes for every strain measure (cauchy: that of small displacements), so
+   that turns do not count; recovered apart in each material, whose strains may jump where they meet.
+   With averaged dilatations, whose pressure is rough, of the deviators alone.
+
+   With a goal J(u), of which the derivative g [ndof] is given, the same of the dual state z, K z = g,
+   K the stiffness at the state: z says how much a force anywhere changes J. What T has to do with the
+   error of J is at most eta_T(u) eta_T(z) (J. T. Oden, S. Prudhomme, Comput. Math. Appl. 41, 2001);
+   with its sign, summed over the tets, it is an estimate of what J is still to change:
+
+     J(exact) - J(u) = sum_T integral of (e* - e)(u) : C : (e* - e)(z)   to first order.
+
+   What moves is looked at as if it stood still under the forces of the moment, inertia among them;
+   a part that nothing holds has neither goal nor dual state along its rigid motions.
+
+   Curved faces that the mesh has as plane ones are not noticed. */
+typedef struct corot_space_total {
+  double energy;   /* half the sum of eta_T^2: strain energy that the mesh leaves out [J] */
+  double relative; /* root of energy / (energy + that of the strain itself): of corot_stress_jumps,
+                      better recovered. 0 where there is no strain but of rounding */
+  double goal;     /* estimate of J(exact) - J(u), with its sign; 0 without a goal */
+  double bound;    /* sum of eta_T(u) eta_T(z), no less than the size of that; 0 without a goal */
+  long niteration; /* of an iterative solver, for z */
+  bool indefinite; /* K is not positive definite, and z that of what is left when it is clamped */
+} corot_space_total;
+
+/* indicator [ntet]: eta_T(u) eta_T(z), in the unit of J, their sum the bound; goal NULL: eta_T^2 / 2
+   [J], their sum the energy. None is negative. Of the moment, u and what says which it is are looked
+   at. `linear` NULL: the defaults; it is for z alone. `total` may be NULL.
+
+   COROT_EINVAL: the model has a hierarchy; a linear solver as for corot_pencil_create. COROT_RETRY,
+   COROT_ESINGULAR: a tet is inverted, or the linear system has no solution. COROT_ENOMEM. */
+corot_status corot_space_indicators(const corot_model *model, const corot_space_moment *at,
+                                    const double *goal, const corot_linear_def *linear,
+                                    double *indicator, corot_space_total *total);
+
+/* Which tets to refine: the fewest that carry this fraction of the sum of the indicators [ntet]
+   (Doerfler 1996); of equal ones those of lower numbers. mark [ntet], of which *nmark are set:
+   their numbers, ascending. None carries a sum of zero. *nmark / ntet says how concentrated the error is: a
+   fraction of a half in a twentieth of the tets is local; in a third, uniform refinement is as
+   good. COROT_EINVAL: the fraction is not above 0 and at most 1, or an indicator is negative or not a
+   number. COROT_ENOMEM. */
+corot_status corot_space_mark(int ntet, const double *indicator, double fraction, int *nmark,
+                              int *mark);
+
 #ifdef __cplusplus
 }
 #endif

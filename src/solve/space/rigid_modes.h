@@ -5,6 +5,11 @@
 
 #include "solve/statics/rigid.h"
 
+/* Of the square of the model's frequency: how stiffly what nothing holds is tied to where it is. It
+   is far below the square of any frequency of a body that is no thinner than a hundredth of its
+   length; the rigid motions themselves are taken out of forces and displacement. */
+#define SPACE_TIE 1e-5
+
 typedef struct rigid_modes {
   const corot_model *model;
   corot_rigid rigid; /* of which the fields are Z, of each part Z' M Z = 1 */

@@ -8,11 +8,6 @@
 #include "rigid_modes.h"
 #include "solve/pencil/pencil.h"
 
-/* Of the square of the model's frequency: how stiffly what nothing holds is tied to where it is. It
-   is far below the square of any frequency of a body that is no thinner than a hundredth of its
-   length; the rigid motions themselves are taken out of forces and displacement. */
-#define TIE 1e-5
-
 /* A displacement of no more than this part of the body's length is rounding. */
 #define NOTHING 1e-12
 
@@ -59,7 +54,7 @@ static corot_status find_imbalance(estimation *s) {
 /* With the tangent of a model on the ten-node tets, and its state. */
 static corot_status solve(estimation *s, const corot_linear_def *linear, const corot_model *model,
                           corot_state *state, corot_tangent tangent) {
-  double frequency = corot_model_frequency(model), tie = TIE * frequency * frequency;
+  double frequency = corot_model_frequency(model), tie = SPACE_TIE * frequency * frequency;
   corot_pencil *p = NULL;
   COROT_TRY(corot_pencil_create(model, state, linear, &p));
   corot_pencil_use(p, tangent);
