@@ -175,8 +175,8 @@ static double needed(int count, const answer *a, double exact, double part) {
 static corot_status compare(const sample *s, double fraction, double within) {
   answer local[STEPS], uniform[STEPS];
   int nlocal, nuniform;
-  COROT_TRY(refine(s, fraction, 0.25 * within, 60000, local, &nlocal));
-  COROT_TRY(refine(s, 0, 0.25 * within, 20000, uniform, &nuniform));
+  COROT_TRY(refine(s, fraction, 0.5 * within, 20000, local, &nlocal));
+  COROT_TRY(refine(s, 0, 0.5 * within, 20000, uniform, &nuniform));
   const answer *a = &local[nlocal - 2], *b = &local[nlocal - 1];
   double exact = b->value + b->missing * (b->value - a->value) / (a->missing - b->missing);
   printf("%s: %.5e m\n", s->name, exact);
@@ -190,6 +190,7 @@ static corot_status compare(const sample *s, double fraction, double within) {
          many = needed(nuniform, uniform, exact, within);
   printf("  to %g: local %.0f, uniform %.0f unknowns, %.1f times as many\n", within, few, many,
          many / few);
+  fflush(stdout);
   return COROT_OK;
 }
 
