@@ -48,14 +48,10 @@ int only_json(const char *program, const char *text, int argc, char **argv, bool
 }
 
 int main(int argc, char **argv) {
-<<<<<<< HEAD
   static const command table[] = {
-      {"kernels", command_kernels},     {"solvers", command_solvers},
-      {"run", command_example},         {"frames", command_frames},
-      {"memory", command_memory},       {"hierarchy", command_hierarchy},
-      {"jitter", command_jitter},       {"total", command_total},
-      {0}};
-=======
+      {"kernels", command_kernels}, {"solvers", command_solvers}, {"run", command_example},
+      {"frames", command_frames},   {"memory", command_memory},   {"hierarchy", command_hierarchy},
+      {"jitter", command_jitter},   {"total", command_total},     {0}};
   static const command table[] = {{"kernels", command_kernels},
                                   {"solvers", command_solvers},
                                   {"run", command_example},
@@ -67,6 +63,5 @@ int main(int argc, char **argv) {
                                   {"local", command_local},
                                   {"total", command_total},
                                   {0}};
->>>>>>> mark
   return dispatch("corot-bench", help, table, argc, argv);
 }

@@ -116,6 +116,14 @@ void goal_plan_base(goal_search *s) {
   s->nlevel = 1;
 }
 
+void goal_plan_window(goal_search *s) {
+  const attempt *full = goal_attempt(s, s->full);
+  const quantity *q = s->request->quantity;
+  if (s->request->still || s->window >= s->until) return;
+  double when = q->when ? full->value : full->when;
+  if (!(when < s->window)) s->level[0] = plan_base(s, s->rtol, s->window);
+}
+
 void goal_plan_loose(goal_search *s) {
   if (!s->request->still) s->base_loose = plan_base(s, fmin(10 * s->rtol, 0.1), s->window);
 }
