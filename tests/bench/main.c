@@ -47,10 +47,8 @@ int only_json(const char *program, const char *text, int argc, char **argv, bool
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"kernels", command_kernels},     {"solvers", command_solvers},
-      {"run", command_example},         {"frames", command_frames},
-      {"memory", command_memory},       {"hierarchy", command_hierarchy},
-      {"jitter", command_jitter},       {"total", command_total},
-      {0}};
+      {"kernels", command_kernels}, {"solvers", command_solvers}, {"run", command_example},
+      {"frames", command_frames},   {"memory", command_memory},   {"hierarchy", command_hierarchy},
+      {"jitter", command_jitter},   {"total", command_total},     {0}};
   return dispatch("corot-bench", help, table, argc, argv);
 }
