@@ -37,8 +37,8 @@ before=$(find out/model-static-solve/runs -name result.json | wc -l)
 expect 0 solve model.yaml --static --goal corner.ux@end --within 0.03 $pull --json --quiet; no_err
 cmp -s stdout first || complain "another answer"
 [ "$before" = "$(find out/model-static-solve/runs -name result.json | wc -l)" ] || complain "runs made anew"
-expect 0 solve model.yaml --static --goal corner.ux@end --within 0.005 $pull
-out "corner.ux@end = "; out " m, between "; out "0.5 % asked"; out "  space  "
+expect 0 solve model.yaml --static --goal corner.ux@end --within 0.012 $pull
+out "corner.ux@end = "; out " m, between "; out "1.2 % asked"; out "  space  "
 [ "$before" -lt "$(find out/model-static-solve/runs -name result.json | wc -l)" ] || complain "no more runs"
 
 # Motion: method and tolerance are chosen, and an early extreme is followed no further than needed.

@@ -83,7 +83,7 @@ static corot_status refine(goal_search *s) {
 
 static corot_status search(goal_search *s) {
   COROT_TRY(s->request->still ? begin_still(s) : goal_choose_time(s));
-  if (is_over(s)) return COROT_OK;
+  if (is_over(s) || !goal_affords(s, goal_attempt(s, s->coarse)->cpu)) return COROT_OK;
   COROT_TRY(make_base(s));
   if (s->attempts.signal_number || s->nlevel == 0) return COROT_OK;
   goal_sum_up(s);
