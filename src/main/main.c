@@ -92,7 +92,7 @@ int main(int argc, char **argv) {
       {"modes", command_modes},     {"check", command_check},
       {"study", command_study},     {"budget", command_budget},
       {"solve", command_solve},     {"find-limit", command_find_limit},
-      {"plot", command_plot},       {"report", command_report},
+      {"plot", command_study_plot}, {"report", command_report},
       {"schema", command_schema},   {"mesh", command_mesh},
       {"--version", print_version}, {0},
   };

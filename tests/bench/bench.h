@@ -14,7 +14,6 @@ int command_solvers(int argc, char **argv);
 int command_example(int argc, char **argv);
 int command_memory(int argc, char **argv);
 int command_frames(int argc, char **argv);
-int command_precision(int argc, char **argv);
 int command_hierarchy(int argc, char **argv);
 int command_jitter(int argc, char **argv);
 int command_total(int argc, char **argv);

@@ -40,8 +40,6 @@ done
 lines "all($per_tet for r in d[1:])" kernels --json --tets 6 --order 2
 lines "len(d) == 1 and d[0]['tets'] == 6 and d[0]['nst'] > 0 and 'force' in d[0]['phases_s']" \
   run --json --cells 1,1,1 --rtol 1e-2 --repeat 1
-lines "d[0]['floor_m'] < 1e-6 and len(d) > 3 and all(r['error_m'] > 0 for r in d if r['bench'] == 'precision')" \
-  precision --json --cells 1,1,1 --only newmark --limit 0.01 --repeat 1
 lines "len(d) == 5 and all(0 < r['bytes_per_tet'] for r in d)" memory --json --tets 6
 lines "{r['role'] for r in d[1:]} == {'dynamic', 'static'} and sum(r['auto'] for r in d[1:]) == 2
   and all(r['ratio'] >= 1 and r['cost_s'] > 0 for r in d[1:])" solvers --json --most 310

@@ -9,7 +9,6 @@ static const char help[] =
     "       corot-bench solvers [--json] [--most N] [--role ROLE]\n"
     "       corot-bench run [--json] [OPTIONS]\n"
     "       corot-bench frames [--json]\n"
-    "       corot-bench precision [--json] [OPTIONS]\n"
     "       corot-bench memory [--json] [--tets N]\n"
     "       corot-bench hierarchy [--json] [--levels N]\n"
     "       corot-bench jitter [--json] [OPTIONS]\n"
@@ -20,7 +19,6 @@ static const char help[] =
     "solvers   every linear solver at several sizes, and whether auto takes the best\n"
     "run       CPU time of a whole simulation and of its phases\n"
     "frames    what frames cost: polar over warp, update over force, Newton over linear\n"
-    "precision error against CPU time, for every integrator\n"
     "memory    bytes per tet\n"
     "hierarchy solvers that use the levels of a refined mesh, and the hierarchical basis\n"
     "jitter    how even the steps of an animation are in wall time\n"
@@ -51,8 +49,8 @@ int main(int argc, char **argv) {
   static const command table[] = {
       {"kernels", command_kernels},     {"solvers", command_solvers},
       {"run", command_example},         {"frames", command_frames},
-      {"memory", command_memory},       {"precision", command_precision},
-      {"hierarchy", command_hierarchy}, {"jitter", command_jitter},
-      {"total", command_total},         {0}};
+      {"memory", command_memory},       {"hierarchy", command_hierarchy},
+      {"jitter", command_jitter},       {"total", command_total},
+      {0}};
   return dispatch("corot-bench", help, table, argc, argv);
 }

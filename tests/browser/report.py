@@ -324,6 +324,22 @@ def check_long(run):
         measure(page, path)
 
 
+def check_goal(folder):
+    """The values on the meshes lie in the diagram where they should, and so does the interval."""
+    solved = json.load(open(f"{folder}/solve.json"))
+    with Page(f"{folder}/report.html") as page:
+        assert page.js("return Object.keys(corot.charts)") == ["meshes"]
+        lines = page.all("#meshes .frame g.series")
+        assert len(lines) == 2 + (solved["limit"] is not None)
+        assert int(lines[0].get_attribute("data-points")) == len(solved["levels"]) >= 2
+        band = page.js("""const c = corot.charts.meshes, r = c.svg.querySelector('rect.interval');
+            return [+r.getAttribute('y'), +r.getAttribute('height'), c.down(arguments[1]),
+                    c.down(arguments[0]) - c.down(arguments[1]), c.height]""", solved["low"], solved["high"])
+        assert abs(band[0] - band[2]) < 0.01 and abs(band[1] - band[3]) < 0.01 and 0 < band[1] < band[4], band
+        assert page.js("return corot.charts.meshes.note.textContent") == ""
+        check_looks(page)
+
+
 def check_looks(page):
     for width, dark in (390, False), (390, True), (1200, True), (1200, False):
         page.open(width, dark)
@@ -420,4 +436,5 @@ if __name__ == "__main__":
         check_static("still")
         check_small("one", "bare", "gone")
         check_long("long")
+        check_goal("goal")
         check_study(sys.argv[2])

@@ -68,6 +68,30 @@ expect 2 mesh refine two.msh --order 3 -o fine.msh; err "--order 3: expected 1 o
 expect 2 mesh box --size 1,1,1 --cells 1,1,1 --order two -o x.msh; err "--order two: expected 1 or 2"
 [ ! -e fine.msh ] && [ ! -e x.msh ] || complain "a file was written"
 
+# local refinement: by a file of marks, and at a point
+printf '# the first two tets\n0 1\n\n3 # then one more\n' >marks.txt
+expect 0 mesh refine one.msh --marks marks.txt -o local.msh; no_out
+expect 0 mesh info local.msh --json
+json '48 + 3 * 7 <= d["tets"] <= 400 and d["shape"]["min"] > 0.6 and abs(d["volume"] - 1) < 1e-12 and len(d["groups"]) == 6'
+printf '0 1\n' >first.txt
+printf '3\n' >second.txt
+expect 0 mesh refine one.msh --marks first.txt -o step.msh
+expect 0 mesh refine step.msh --marks second.txt -o steps.msh
+cmp -s local.msh steps.msh || complain "two passes are not two refinements"
+expect 0 mesh refine one.msh --levels 1 --marks first.txt --order 2 -o both.msh
+expect 0 mesh info both.msh; out "order     2"
+expect 0 mesh refine one.msh --near 0,0,0 --times 6 -o near.msh
+expect 0 mesh info near.msh --json; json 'd["edge"][0] < 0.02 and d["tets"] < 4000 and d["shape"]["min"] > 0.6'
+expect 0 mesh refine two.msh --near 0.5,0.5,0.5 -o near.msh
+expect 0 mesh info near.msh; out "order     2"
+expect 3 mesh refine one.msh --marks none.txt -o none.msh; err "none.txt"
+printf '0\n5 1000\n' >bad.txt
+expect 3 mesh refine one.msh --marks bad.txt -o none.msh; err "bad.txt:2:3: tet 1000 does not exist"
+expect 2 mesh refine one.msh --near 0,0 -o none.msh; err "--near 0,0: expected X,Y,Z"
+expect 2 mesh refine one.msh --near 0,0,0 --times 0 -o none.msh; err "--times 0: expected"
+expect 2 mesh refine one.msh --times 2 -o none.msh; err "--times is for --near"
+[ ! -e none.msh ] || complain "none.msh was written"
+
 expect 3 mesh info none.msh; err "none.msh"; no_out
 echo garbage >bad.msh
 expect 3 mesh info bad.msh; err "bad.msh"; no_out

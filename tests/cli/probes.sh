@@ -118,4 +118,42 @@ out "it records the nearest point of the surface, (0.05, 0.05, 0.2)"; out "0.05 
 expect 0 check probed.yaml --set 'probes.x={point: [0.05, 0.05, 0.20000001]}'; ! grep -q warning stdout || complain "$what: a warning"
 expect 0 check probed.yaml --set 'probes.x={point: [0.05, 0.05, 0.25], nearest: true}'
 out "x: node "; out "from its point"
+
+# Pulled along its axis between supports that let it draw in, a block has one stress, and its tractions
+# are the load above and the reaction below; the load is that of the area at rest, 2 kPa on 0.01 m^2. Of
+# any strain measure but warp, whose stress is not symmetric, and of either order.
+cat >pulled.yaml <<'YAML'
+mesh: {box: {size: [0.1, 0.1, 0.2], cells: [1, 1, 2]}}
+material: {lambda: 1.0e5, mu: 1.0e4, density: 1000.0}
+boundary: [{group: zmin, fix: [z]}, {group: xmin, fix: [x]}, {group: ymin, fix: [y]}]
+loads: [{group: zmax, traction: [0, 0, 2.0e3]}]
+time: {end: 1}
+statics: {tolerance: 1.0e-13}
+probes:
+  above: {group: zmax, of: traction, take: sum}
+  below: {group: zmin, of: traction, take: sum}
+  side: {group: xmax, of: traction, take: max}
+  mean: {group: zmax, of: traction, component: z}
+  wall: {group: zmin, of: reaction}
+YAML
+cat >tractions.py <<'PY'
+import json, sys
+p = {n: q["value"] for n, q in json.load(open("pulled/result.json"))["probes"].items()}
+load = 20.0
+assert abs(p["above"]["tz"] - load) < 1e-9 * load and abs(p["below"]["tz"] + load) < 1e-9 * load, p
+assert abs(p["wall"]["fz"] + load) < 1e-9 * load and abs(p["side"]["value"]) < 1e-6 * 2e3, p
+# it draws in: the same force on a smaller area
+assert (p["mean"]["value"] > 2.02e3) == (sys.argv[1] != "cauchy"), p
+PY
+expect 0 check pulled.yaml --set 'groups.one={nodes: [3]}' --set 'probes.n={group: one}'
+out "one (1 node)"
+expect 0 check pulled.yaml; out "probe          side: traction magnitude, max, xmax"
+for strain in cauchy polar hybrid green; do
+  for order in 1 2; do
+    expect 0 static pulled.yaml -o pulled --quiet --force --set strain=$strain --set mesh.order=$order
+    python3 tractions.py $strain || complain "tractions of a pulled block, $strain, order $order"
+  done
+done
+expect 3 run pulled.yaml --set 'groups.two={nodes: [0, 5]}' --set probes.above.group=two
+err "group 'two' has no faces for a traction (2 nodes, 0 tets)"
 exit $failed

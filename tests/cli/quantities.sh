@@ -131,4 +131,18 @@ expect 2 $limit --quantity 'max(corner.ux' --below 1; err "--quantity: a ) is mi
 expect 2 $limit --quantity corner.ux@end; err "wants --below or --above"
 expect 2 $limit --below 1; err "are of a --quantity"
 expect 3 $limit --quantity cornr.ux@end --below 1; err "did you mean corner.ux?"
+
+# What is wrong with a quantity is told by what was typed, not by the setting that asks for it.
+for command in "$limit --below 1" "budget model.yaml --quiet"; do
+  expect 3 $command --quantity 'max(cornr.ux)'
+  err "--quantity max(cornr.ux): there is no column cornr.ux; did you mean corner.ux?"; err "      ^"
+  expect 3 $command --quantity 'max(corner.ux, 0, 99)'
+  err "--quantity max(corner.ux, 0, 99): t = 99 s is after the run"
+done
+expect 3 run model.yaml --set 'quantities.T=max(kinetik)'
+err "--set quantities.T=max(kinetik): there is no column kinetik"; err "      ^"
+sed 's/^measure.*/measure: dsplacement/' orders.yaml >wrong.yaml
+expect 3 study wrong.yaml; err "wrong.yaml:5:10: measure: dsplacement is no measure; did you mean displacement?"
+sed 's/^measure.*/measure: [dsplacement]/' orders.yaml >wrong.yaml
+expect 3 study wrong.yaml; err "measure[0]: dsplacement is no measure"
 exit $failed

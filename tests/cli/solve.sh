@@ -38,7 +38,7 @@ expect 0 solve model.yaml --static --goal corner.ux@end --within 0.03 $pull --js
 cmp -s stdout first || complain "another answer"
 [ "$before" = "$(find out/model-static-solve/runs -name result.json | wc -l)" ] || complain "runs made anew"
 expect 0 solve model.yaml --static --goal corner.ux@end --within 0.005 $pull
-out "corner.ux@end = "; out " m, between "; out "0.5 % asked"; out "of this space "
+out "corner.ux@end = "; out " m, between "; out "0.5 % asked"; out "  space  "
 [ "$before" -lt "$(find out/model-static-solve/runs -name result.json | wc -l)" ] || complain "no more runs"
 
 # Motion: method and tolerance are chosen, and an early extreme is followed no further than needed.
@@ -68,7 +68,7 @@ expect 0 solve model.yaml --static --goal corner.uy@end --within 1e-9 --within-a
   --set 'mesh.box={size: [1, 1, 1], cells: [1, 1, 1]}' --set 'groups.base={plane: {axis: x, at: 0}}' \
   --set 'loads=[{group: xmax, traction: [20, 0, 0]}]' --set 'boundary=[{group: base, fix: [x]}, {group: ymin, fix: [y]}, {group: zmin, fix: [z]}]' \
   --set 'material={lambda: 0, mu: 1e4, density: 1}' --set 'probes.corner={point: [1, 1, 1]}'
-out "+- "; out "1e-09 asked"
+out "+- "; out "1e-09 m asked"
 
 # Loads without an equilibrium, and a body that nothing holds.
 expect 4 solve model.yaml --static --goal corner.ux@end --within 0.1 -o none --set 'loads=[{group: zmax, pressure: 1e7}]'

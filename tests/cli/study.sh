@@ -49,6 +49,8 @@ expect 0 study study.yaml --quiet; no_err
 study 'axes: [{key: integrator.method, values: [ida, cvode, arkode]}, {key: integrator.rtol, values: [0.001, 1e-4]}]' 'repeat: 1'
 expect 0 study study.yaml -j 1; err "8 of 8 runs done (2 now)"
 expect 0 study status out/study; out "6 cells, 8 runs: 8 done, 0 failed, 0 missing"
+expect 0 study table out/study; out "too few points to say of 3 series"
+[ "$(grep -c 'too few points' stdout)" = 1 ] || complain "too few points, more than once"
 
 # Results of another version, or of another scenario by the same name, are not taken for ours.
 sed -i 's/"corot": "[^"]*"/"corot": "0.0.1"/' out/study/study.json

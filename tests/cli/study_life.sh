@@ -23,10 +23,9 @@ for link in first/names/*; do [ -f "$link/result.json" ] || complain "$link lead
 expect 0 study study.yaml -o first; ! grep -q pilot stderr || complain "a pilot of nothing"
 expect 0 study study.yaml -o quiet -q; no_err
 
-# A diagram of a study without a table, as one that still runs: what to do is said.
+# A diagram of a study without a table, as one that still runs: it is of the runs there are now.
 mkdir cut && cp -r first/runs first/study.json cut
-expect 5 plot cut; err "corot study collect cut writes it"
-expect 0 study collect cut; expect 0 plot cut
+expect 0 plot cut; out "cut/precision-"
 
 # The piece by which methods are compared may end before the window of a quantity begins.
 sed '/^axes/i measure: ["mean(corner.ux, 0.04, end)"]' study.yaml >late.yaml

@@ -98,6 +98,9 @@ case $name in
     holds 'near(at("four-node", 3) + at("correction", 2), at("ten-node", 3), 0.01)'
     holds 'near(at("ten-node", 3), 0.0487, 0.01)'
     holds 'at("missing", 2) > 20 && at("missing", 2) < 60'
+    # A half of the error is in a few tets, which cut into eight miss a quarter of it.
+    holds 'at("half", 5) < 288 / 4'
+    holds 'at("cut there", 3) - at("four-node", 3) > 0.4 * at("correction", 2)'
     ;;
   *) fail "no such example" ;;
 esac

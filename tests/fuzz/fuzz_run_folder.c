@@ -16,6 +16,7 @@
 #include "report/command/report.h"
 #include "report/read/fields_file.h"
 #include "report/run/budget_section.h"
+#include "report/study/report_goal.h"
 #include "scratch.h"
 #include "small_run.h"
 
@@ -31,7 +32,8 @@ static const char *const names[] = {"result.json", "groups.json",
                                     "fields.pvd",  "fields/fields_000000.vtu",
                                     "states.bin",  ".lock-run",
                                     "curve.csv",   "fields/fields_000001.vtu",
-                                    "report.html", "reactions.csv"};
+                                    "report.html", "reactions.csv",
+                                    "solve.json"};
 enum { NAMES = sizeof names / sizeof *names };
 
 /* What a run left, to be put back. */
@@ -71,6 +73,7 @@ static void check_report(const char *dir) {
   snprintf(page, sizeof page, "%s/report.html", dir);
   require(is_clean(report_write(dir, page)), "a report");
   require(is_clean(report_budget(dir, page)), "a budget's report");
+  require(is_clean(report_goal(dir, page)), "the report of a goal");
 }
 
 static void check_result(const char *dir, const unsigned char *data, size_t size) {

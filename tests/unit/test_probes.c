@@ -365,6 +365,126 @@ static void frames_turn_with_the_body(void **state) {
   close_scene(&s);
 }
 
+/* --- Faces --- */
+
+/* Stretched and sheared along z between the supports: F = I + g ez', the same everywhere. */
+static scene open_uniform(int order, const char *strain, const char *list, const double g[3]) {
+  char text[1500];
+  snprintf(text, sizeof text, "%sstrain: %s\n", list, strain);
+  scene s = open_scene(order, text, 0);
+  const int(*dof)[3] = corot_model_dof(s.model);
+  for (int n = 0; n < s.mesh->nnode; n++)
+    for (int c = 0; c < 3; c++)
+      if (dof[n][c] >= 0) s.u[dof[n][c]] = g[c] * s.mesh->x[n][2];
+  corot_nodal(s.model, 0, s.u, s.v, s.x, s.dx);
+  evaluate(&s);
+  return s;
+}
+
+static double component(const scene *s, const char *probe, const char *name) {
+  char column[32];
+  snprintf(column, sizeof column, "%s.%s", probe, name);
+  return value_of(s, column);
+}
+
+/* P of green strain on ez or ex: F (lambda tr E + 2 mu E), E = (F'F - I) / 2. */
+static void first_piola(const double g[3], int column, double P[3]) {
+  const double lambda = 1e5, mu = 1e4, norm = inner(3, g, g);
+  double F[3][3] = {{1, 0, g[0]}, {0, 1, g[1]}, {0, 0, 1 + g[2]}};
+  double E[3][3] = {{0, 0, g[0] / 2}, {0, 0, g[1] / 2}, {g[0] / 2, g[1] / 2, g[2] + norm / 2}};
+  double trace = E[0][0] + E[1][1] + E[2][2];
+  for (int i = 0; i < 3; i++) {
+    P[i] = 0;
+    for (int k = 0; k < 3; k++)
+      P[i] += F[i][k] * ((k == column ? lambda * trace : 0) + 2 * mu * E[k][column]);
+  }
+}
+
+/* Of the base, and of the side x = 0.2 m with the normal cof F ex = (1 + gz, 0, -gx). */
+static void uniform_tractions(const scene *s, const double g[3]) {
+  static const char *const t[3] = {"tx", "ty", "tz"}, *const f[3] = {"fx", "fy", "fz"};
+  double scale = fabs(component(s, "held", "fz")), length = 0;
+  for (int c = 0; c < 3; c++) {
+    assert_close(component(s, "sum", t[c]), component(s, "held", f[c]), 0, 1e-12 * scale);
+    /* the base is where it was: 0.02 m^2 */
+    assert_close(component(s, "mean", t[c]), component(s, "sum", t[c]) / 0.02, 0,
+                 1e-12 * scale / 0.02);
+    length += pow(component(s, "side", t[c]), 2);
+  }
+  assert_close(component(s, "z", "value"), component(s, "mean", "tz"), 1e-14, 0);
+  double n[3] = {1 + g[2], 0, -g[0]}, area = hypot(n[0], n[2]);
+  double tx = (component(s, "stress", "xx") * n[0] + component(s, "stress", "zx") * n[2]) / area;
+  assert_close(component(s, "side", "tx"), tx, 1e-11, 0);
+  assert_close(component(s, "most", "value"), sqrt(length), 1e-11, 0);
+  assert_close(component(s, "low", "value"), sqrt(length), 1e-11, 0);
+}
+
+/* The force of a uniform stress through a face is what holds the face, of any strain measure: sides
+   that are opposite take the same from the nodes of the base. Warp's stress is not symmetric, and
+   not the same in all tets: nothing is asked of it but where the largest is. Sums of some hundred
+   terms of one size: 1e-12. */
+static void tractions_are_what_the_supports_bear(void **state) {
+  (void)state;
+  static const char list[] =
+      "  sum: {group: base, of: traction, take: sum}\n"
+      "  held: {group: base, of: reaction, part: internal}\n"
+      "  mean: {group: base, of: traction}\n"
+      "  side: {group: xmax, of: traction, take: mean}\n"
+      "  most: {group: xmax, of: traction, take: max}\n"
+      "  low: {group: xmax, of: traction, take: min}\n"
+      "  z: {group: base, of: traction, component: z}\n"
+      "  stress: {group: xmax, of: stress}\n";
+  const double g[3] = {0.3, 0, -0.15};
+  for (int order = 1; order <= 2; order++)
+    for (int k = 0; corot_strain_traits(k); k++) {
+      const corot_strain_kind *kind = corot_strain_traits(k);
+      scene s = open_uniform(order, kind->name, list, g);
+      bool uniform = !kind->frames || kind->polar;
+      if (uniform) uniform_tractions(&s, kind->linear ? (double[3]){0} : g);
+      probe_where where = where_of(&s, "most.value");
+      assert_true(where.known && where.tet >= 0);
+      assert_close(where.x[0], 0.2, 1e-14, 0);
+      assert_unit(&s, "sum.tx", "N"), assert_unit(&s, "mean.tx", "Pa");
+      assert_unit(&s, "most.value", "Pa");
+      close_scene(&s);
+    }
+}
+
+static void tractions_in_closed_form(void **state) {
+  (void)state;
+  const double g[3] = {0.3, 0, -0.15};
+  for (int order = 1; order <= 2; order++) {
+    scene s = open_uniform(order, "green",
+                           "  base: {group: base, of: traction, take: sum}\n"
+                           "  side: {group: xmax, of: traction, take: sum}\n",
+                           g);
+    double through_base[3], through_side[3];
+    first_piola(g, 2, through_base);
+    first_piola(g, 0, through_side);
+    for (int c = 0; c < 3; c++) {
+      const char *name = (const char *[]){"tx", "ty", "tz"}[c];
+      assert_close(component(&s, "base", name), -0.02 * through_base[c], 1e-12, 1e-9);
+      assert_close(component(&s, "side", name), 0.03 * through_side[c], 1e-12, 1e-9);
+    }
+    close_scene(&s);
+  }
+}
+
+static void tractions_are_of_faces(void **state) {
+  (void)state;
+  refuse(MINIMAL "probes: {a: {of: traction}}",
+         "4:10: probes.a: a traction is of the faces of a group: give a group");
+  refuse(MINIMAL "probes: {a: {node: 1, of: traction}}",
+         "4:14: probes.a.node: a traction is of the faces of a group: give a group");
+  scenario *s =
+      accept(MINIMAL "groups: {two: {nodes: [0, 5]}}\nprobes: {a: {group: two, of: traction}}");
+  corot_mesh *mesh = NULL;
+  corot_model *model = NULL;
+  assert_fails(scenario_build(s, &mesh, NULL, &model), COROT_EFORMAT,
+               "5:21: probes.a.group: group 'two' has no faces for a traction (2 nodes, 0 tets)");
+  scenario_destroy(s);
+}
+
 /* --- Refusals --- */
 
 static void what_does_not_go_together(void **state) {
@@ -442,7 +562,8 @@ static void failed_allocations_are_survived(void **state) {
                          "  in: {point: [0.03, 0.041, 0.123]}\n  out: {point: [1, 1, 1]}\n"
                          "  r: {of: reaction}\n  v: {of: velocity, take: max}\n"
                          "  k: {group: top, of: kinetic}\n  s: {of: stress, take: max}\n"
-                         "  f: {group: base, of: von_mises}\n  n: {node: 3, of: det}\n",
+                         "  f: {group: base, of: von_mises}\n  n: {node: 3, of: det}\n"
+                         "  t: {group: base, of: traction, take: max}\n",
                          0);
     assert_true(assert_survives_failed_allocations(make, &s) >= 40);
     close_scene(&s);
@@ -458,6 +579,9 @@ int main(void) {
       cmocka_unit_test(places_between_tets_have_means),
       cmocka_unit_test(momenta_and_energies_are_those_of_the_ledger),
       cmocka_unit_test(frames_turn_with_the_body),
+      cmocka_unit_test(tractions_are_what_the_supports_bear),
+      cmocka_unit_test(tractions_in_closed_form),
+      cmocka_unit_test(tractions_are_of_faces),
       cmocka_unit_test(what_does_not_go_together),
       cmocka_unit_test(what_does_not_fit_the_mesh),
       cmocka_unit_test(failed_allocations_are_survived),

@@ -187,6 +187,11 @@ bool config_parse_number(const config_node *node, double *number) {
 
 /* --- Messages --- */
 
+/* Whether it was written where a list could stand, and made the only entry of one. */
+static bool stands_for_list(const config_node *n) {
+  return n->source && n->source == n->parent->source && n->at == n->parent->at;
+}
+
 void config_path(const config_node *node, size_t size, char *path) {
   /* from the root down: find the ancestor at each depth */
   int depth = 0;
@@ -198,7 +203,7 @@ void config_path(const config_node *node, size_t size, char *path) {
     for (int i = 1; i < depth; i++) n = n->parent;
     if (n->key) {
       used += (size_t)snprintf(path + used, size - used, "%s%s", used ? "." : "", n->key);
-    } else {
+    } else if (!stands_for_list(n)) {
       int index = 0;
       for (const config_node *c = n->parent->child; c != n; c = c->next) index++;
       used += (size_t)snprintf(path + used, size - used, "[%d]", index);

@@ -27,7 +27,8 @@ const schema_key *schema_find(const schema *table, const char *path) {
 
 void schema_inside(const schema_key *key, size_t size, char *path) {
   bool elsewhere = key->type == SCHEMA_LIST && key->words;
-  const char *suffix = key->type == SCHEMA_LIST ? "[]" : key->type == SCHEMA_NAMED ? ".NAME" : "";
+  bool named = key->type == SCHEMA_NAMED || key->type == SCHEMA_NAMED_SHORT;
+  const char *suffix = key->type == SCHEMA_LIST ? "[]" : named ? ".NAME" : "";
   snprintf(path, size, "%s%s", elsewhere ? key->words : key->path, elsewhere ? "" : suffix);
 }
 

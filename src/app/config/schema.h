@@ -10,6 +10,7 @@ typedef enum schema_type {
   SCHEMA_MAP,         /* keys as the table says */
   SCHEMA_NAMED,       /* keys are names given by the user, "groups.NAME" */
   SCHEMA_NAMED_TEXTS, /* the same, of texts: "quantities.NAME" is one */
+  SCHEMA_NAMED_SHORT, /* as SCHEMA_NAMED, or of one the value of its first key alone; of studies */
   SCHEMA_LIST,        /* entries are maps, "loads[]", or those of the path in `words` */
   SCHEMA_MAPS,        /* one map, or a list of such */
   SCHEMA_SHORT,       /* a map, or the value of its first key alone */
@@ -78,7 +79,7 @@ const schema_key *schema_child(const schema *table, const char *path, const sche
 /* The key of that path; NULL: there is none. */
 const schema_key *schema_find(const schema *table, const char *path);
 
-/* The path of what a SCHEMA_LIST, SCHEMA_NAMED or SCHEMA_MAPS holds. */
+/* The path of what a SCHEMA_LIST, SCHEMA_NAMED(_SHORT) or SCHEMA_MAPS holds. */
 void schema_inside(const schema_key *key, size_t size, char *path);
 
 /* Checks a tree against the table, notes the numbers in its nodes, drops keys without a value and

@@ -232,11 +232,14 @@ static corot_status apply_texts(const application *a, config_node *node) {
 
 /* --- Maps --- */
 
-static corot_status apply_named(const application *a, config_node *map, const char *path) {
+typedef corot_status apply_function(const application *a, config_node *node, const char *path);
+
+static corot_status apply_named(const application *a, config_node *map, const char *path,
+                                apply_function *apply) {
   if (map->kind != CONFIG_MAP) return expected(map, "a map of names");
   for (config_node *c = map->child; c; c = c->next) {
     if (!*c->key) return config_fail_key(c, "a name is empty");
-    COROT_TRY(apply_map(a, c, path));
+    COROT_TRY(apply(a, c, path));
   }
   return COROT_OK;
 }
@@ -306,7 +309,9 @@ static corot_status apply_value(const application *a, config_node *node, const s
     case SCHEMA_MAP:
       return apply_map(a, node, inside);
     case SCHEMA_NAMED:
-      return apply_named(a, node, inside);
+      return apply_named(a, node, inside, apply_map);
+    case SCHEMA_NAMED_SHORT:
+      return apply_named(a, node, inside, apply_short);
     case SCHEMA_NAMED_TEXTS:
       return apply_named_texts(node);
     case SCHEMA_LIST:

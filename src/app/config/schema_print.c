@@ -8,6 +8,7 @@ static const char *const type_words[] = {
     [SCHEMA_MAP] = "map",
     [SCHEMA_NAMED] = "map of names",
     [SCHEMA_NAMED_TEXTS] = "map of texts",
+    [SCHEMA_NAMED_SHORT] = "map of names",
     [SCHEMA_LIST] = "list of maps",
     [SCHEMA_MAPS] = "map or list",
     [SCHEMA_SHORT] = "map or value",

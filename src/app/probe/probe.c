@@ -10,16 +10,6 @@
 #include "app/text/json_text.h"
 #include "probe_parts.h"
 
-struct probes {
-  const corot_model *model;
-  int n, ncolumn;
-  probe *probe;  /* [n] */
-  char **column; /* [ncolumn] names, with the component */
-  char **unit;   /* [ncolumn] */
-  bool any;      /* fields are needed beside the displacement */
-  probe_fields fields;
-};
-
 void probes_destroy(probes *p) {
   if (!p) return;
   for (int i = 0; i < p->n; i++) samples_clear(&p->probe[i].samples);
@@ -59,7 +49,8 @@ static corot_status add_columns(probes *p, const probe *of) {
   const probe_quantity *q = of->quantity;
   const char *measure = measure_of(of);
   for (int c = 0; c < of->n; c++) {
-    const char *unit = q->moment_unit && c >= 3 ? q->moment_unit : q->unit;
+    bool force = q->carrier == OF_FACES && of->def->take == TAKE_SUM;
+    const char *unit = force ? "N" : q->moment_unit && c >= 3 ? q->moment_unit : q->unit;
     char **name = &p->column[p->ncolumn], **of_it = &p->unit[p->ncolumn];
     p->ncolumn++;
     *name = join(of->def->name, ".", of->def->component ? "value" : q->column[c]);

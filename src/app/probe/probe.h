@@ -53,4 +53,15 @@ void probes_rates(const probes *p, const double (*velocity)[3], double *rate);
  */
 corot_status probes_evaluate(probes *p, const probe_moment *now, double *value);
 
+/* goal [ndof] = the derivative of column i by the displacement of what is free, at the moment that
+   was evaluated last: what corot_space_indicators weighs by. *known: there is one. Of a
+   displacement, its component or length, at a point, over a group or the body, by any take (an
+   extreme is that of the node where it was); velocities and accelerations have the weights of the
+   displacement in their direction. Of what tets have, as a stress, at a point or a node, and of its
+   extremes: by differences over the nodes of the tets there, which leaves out those by which an
+   averaged dilatation reaches further. Of means and sums over many tets, of forces, energies and
+   momenta it is not known, and goal zero: there the energy is as good a guide. COROT_RETRY as
+   above; COROT_ENOMEM. */
+corot_status probes_goal(probes *p, const probe_moment *now, int i, double *goal, bool *known);
+
 #endif

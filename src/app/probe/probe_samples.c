@@ -10,8 +10,8 @@
 static corot_status no_room(void) { return corot_fail(COROT_ENOMEM, "the probes: out of memory"); }
 
 void samples_clear(samples *s) {
-  void *const all[] = {s->weight,    s->place,        s->at.frame, s->at.strain,
-                       s->at.stress, s->at.principal, s->at.det,   s->at.von_mises};
+  void *const all[] = {s->weight,    s->place,     s->side,         s->traction, s->at.frame,
+                       s->at.strain, s->at.stress, s->at.principal, s->at.det,   s->at.von_mises};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]);
   corot_points_destroy(s->points);
   *s = (samples){0};
@@ -63,6 +63,12 @@ static bool make_field(samples *s, probe_of of) {
   size_t n = (size_t)s->n + 1;
   corot_point_fields *at = &s->at;
   s->stride = of == PROBE_FRAME_ANGLE ? 9 : probe_quantities[of].n;
+  if (of == PROBE_TRACTION) {
+    s->traction = calloc(n, sizeof *s->traction);
+    at->stress = calloc(n, sizeof *at->stress);
+    s->value = (const double *)s->traction;
+    return s->traction && at->stress;
+  }
   void *room = calloc(n * (size_t)s->stride, sizeof *s->value);
   if (of == PROBE_STRESS) at->stress = room;
   if (of == PROBE_STRAIN) at->strain = room;
@@ -141,21 +147,12 @@ static int compare_faces(const void *a, const void *b) { return corot_face_compa
    that integrate quadratic functions. */
 static void put_on_face(const corot_mesh *mesh, int side, int q, corot_location *at,
                         double *weight) {
-  const int *corner = corot_tet_face[side % 4], *v = mesh->tet[side / 4];
-  double slope[4][3], normal[3];
+  const int *corner = corot_tet_face[side % 4];
+  double normal[3];
   at->tet = side / 4;
   for (int k = 0; k < 3; k++) at->at[corner[k]] = !mesh->mid ? 1.0 / 3 : k == q ? 2.0 / 3 : 1.0 / 6;
-  for (int a = 0; a < 4; a++) memcpy(slope[a], mesh->x[v[a]], sizeof slope[a]);
-  if (mesh->mid)
-    corot_curved_slopes((const double(*)[3])mesh->x, v, mesh->mid[at->tet], at->at, slope);
-  double a[3], b[3];
-  for (int i = 0; i < 3; i++) {
-    a[i] = slope[corner[1]][i] - slope[corner[0]][i];
-    b[i] = slope[corner[2]][i] - slope[corner[0]][i];
-  }
-  for (int i = 0; i < 3; i++)
-    normal[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-  *weight = 0.5 * hypot(hypot(normal[0], normal[1]), normal[2]) / (mesh->mid ? 3 : 1);
+  side_normal(mesh, NULL, side, at->at, normal);
+  *weight = hypot(hypot(normal[0], normal[1]), normal[2]) / (mesh->mid ? 3 : 1);
 }
 
 static corot_status take_faces(const corot_model *model, const corot_group *group, probe *p) {
@@ -164,6 +161,8 @@ static corot_status take_faces(const corot_model *model, const corot_group *grou
   corot_face *face;
   int per = mesh->mid ? 3 : 1;
   COROT_TRY(make_places(s, per * group->ntri));
+  s->side = calloc((size_t)(per * group->ntri) + 1, sizeof *s->side);
+  if (!s->side) return no_room();
   COROT_TRY(corot_faces_sort(mesh->nnode, mesh->ntet, (const int(*)[4])mesh->tet, &face));
   for (int k = 0; k < group->ntri; k++) {
     corot_face key = {.side = 0};
@@ -171,8 +170,10 @@ static corot_status take_faces(const corot_model *model, const corot_group *grou
     sort_three(key.v);
     const corot_face *found =
         bsearch(&key, face, 4 * (size_t)mesh->ntet, sizeof *face, compare_faces);
-    for (int q = 0; found && q < per; q++, s->n++)
+    for (int q = 0; found && q < per; q++, s->n++) {
+      s->side[s->n] = found->side;
       put_on_face(mesh, found->side, q, &s->place[s->n], &s->weight[s->n]);
+    }
   }
   free(face);
   return make_points(model, s, p->def->of);
@@ -190,7 +191,8 @@ corot_status samples_create(const corot_model *model, probe *p, probe_fields *f)
   if (carrier == OF_BODY || (def->body && def->of == PROBE_ELASTIC)) return COROT_OK;
   if (carrier == OF_NODES || carrier == SUM_OVER_NODES) return take_nodes(mesh, p);
   if (!def->group && !def->body) return take_place(model, p);
-  if (carrier == OF_TETS && group && group->ntet == 0) return take_faces(model, group, p);
+  if (carrier == OF_FACES || (carrier == OF_TETS && group && group->ntet == 0))
+    return take_faces(model, group, p);
   return take_tets(mesh, group, p, f);
 }
 

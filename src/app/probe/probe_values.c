@@ -239,6 +239,7 @@ corot_status probe_value(probe *p, const probe_fields *f, const probe_moment *no
     default:
       if (s->points)
         COROT_TRY(corot_points_evaluate(s->points, now->state, now->t, now->u, &s->at));
+      if (s->traction) samples_find_tractions(&p->samples, f->model, now->displacement);
       return take_samples(p, f, s->value, value);
   }
 }

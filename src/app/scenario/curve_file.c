@@ -4,12 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "app/text/no_memory.h"
-#include "core/mesh/read/reader.h"
-
-enum { MOST_BYTES = 256 << 20 };
+#include "plain_file.h"
 
 /* A table on its way in. */
 typedef struct reading {
@@ -112,15 +109,8 @@ static corot_status take_points(reading *r) {
   return COROT_OK;
 }
 
-/* Only what is a file, and not a large one: a device may have no end. */
 static corot_status load(const config_node *node, const char *path, char **text, size_t *size) {
-  struct stat about;
-  if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
-    return config_fail(node, "%s: not a file", path);
-  if (stat(path, &about) == 0 && about.st_size > MOST_BYTES)
-    return config_fail(node, "%s: larger than %d MiB, the limit of a table", path,
-                       MOST_BYTES >> 20);
-  corot_status status = corot_file_load(path, text, size);
+  corot_status status = plain_file_load(path, text, size);
   return status == COROT_EIO ? config_fail(node, "%s", corot_error()) : status;
 }
 

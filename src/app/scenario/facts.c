@@ -7,6 +7,7 @@
 
 #include "app/config/config.h"
 #include "app/text/json_text.h"
+#include "app/text/plural.h"
 #include "core/mesh/mesh.h"
 #include "probe_location.h"
 #include "words.h"
@@ -85,7 +86,7 @@ void facts_free(facts *f) {
 /* "stress, max" of what is not a displacement at a point or node. */
 static void describe_probe(const probe_def *p, size_t size, char *text) {
   const probe_quantity *q = &probe_quantities[p->of];
-  bool takes = !probe_is_local(p) && q->carrier <= OF_TETS;
+  bool takes = !probe_is_local(p) && q->carrier < SUM_OVER_NODES;
   snprintf(text, size, "%s%s%s%s%s", q->word, p->component ? " " : "",
            probe_components[p->component], takes ? ", " : "", takes ? probe_takes[p->take] : "");
 }
@@ -136,6 +137,7 @@ static void print_mesh(const scenario *s, const facts *f, FILE *out) {
   fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "");
   if (!s->mesh_file) print_box(&s->box, out);
   if (s->refine > 0) fprintf(out, ", refine %d", s->refine);
+  if (s->marks) fprintf(out, ", marks %s", s->marks);
   fprintf(out, ": %d nodes, %d %stets, %.6g m^3\n", f->mesh->nnode, f->mesh->ntet,
           f->mesh->mid ? "ten-node " : "", q->volume);
   fprintf(out, "extent         [%g, %g] x [%g, %g] x [%g, %g] m\n", q->min[0], q->max[0], q->min[1],
@@ -291,8 +293,9 @@ static void print_probe(const probe_def *p, const corot_location *at, const coro
   describe_probe(p, sizeof what, what);
   fprintf(out, "probe          %s: ", p->name);
   if (!probe_is_plain(p)) fprintf(out, "%s, ", what);
-  if (p->group)
-    fprintf(out, "%s (%d nodes)", p->group, corot_mesh_find_group(mesh, p->group)->nnode);
+  const corot_group *group = p->group ? corot_mesh_find_group(mesh, p->group) : NULL;
+  if (group)
+    fprintf(out, "%s (%d node%s)", p->group, group->nnode, plural(group->nnode));
   else if (p->body)
     fputs("the whole body", out);
   else
@@ -362,6 +365,7 @@ static json_t *mesh_json(const scenario *s, const facts *f) {
                         f->mesh->nnode, "tets", f->mesh->ntet, "volume", q->volume);
   j = json_text_with(j, "file", s->mesh_file ? json_text_string(s->mesh_file) : json_null());
   j = json_text_with(j, "refine", json_integer(s->refine));
+  if (s->marks) j = json_text_with(j, "marks", json_text_string(s->marks));
   j = json_text_with(j, "min", json_pack("[f, f, f]", q->min[0], q->min[1], q->min[2]));
   j = json_text_with(j, "max", json_pack("[f, f, f]", q->max[0], q->max[1], q->max[2]));
   return json_text_with(j, "shape",

@@ -56,6 +56,13 @@ const probe_quantity probe_quantities[NPROBE_OF] = {
     [PROBE_PRINCIPAL] =
         {"principal", OF_TETS, 3, {"p1", "p2", "p3"}, .unit = "Pa", .component = COMPONENT_VALUE},
     [PROBE_VON_MISES] = {"von_mises", OF_TETS, 1, {"value"}, .unit = "Pa"},
+    [PROBE_TRACTION] = {"traction",
+                        OF_FACES,
+                        3,
+                        {"tx", "ty", "tz"},
+                        .unit = "Pa",
+                        .component = COMPONENT_VECTOR,
+                        .length = "t"},
     [PROBE_STRAIN] = {"strain",
                       OF_TETS,
                       6,

@@ -14,6 +14,7 @@ typedef enum probe_of {
   PROBE_STRESS,
   PROBE_PRINCIPAL,
   PROBE_VON_MISES,
+  PROBE_TRACTION,
   PROBE_STRAIN,
   PROBE_FRAME_ANGLE,
   PROBE_DET,
@@ -30,7 +31,8 @@ typedef enum probe_of {
 } probe_of;
 
 #define PROBE_WORDS                                                                            \
-  "displacement|velocity|acceleration|reaction|force|stress|principal|von_mises|strain|"       \
+  "displacement|velocity|acceleration|reaction|force|stress|principal|von_mises|traction|"     \
+  "strain|"                                                                                    \
   "frame_angle|det|volume|momentum|angular_momentum|elastic|kinetic|dissipated|external_work|" \
   "balance|frame_energy"
 
@@ -56,6 +58,7 @@ enum { COMPONENT_VECTOR = 1, COMPONENT_MAGNITUDE = 4, COMPONENT_TENSOR, COMPONEN
 typedef enum probe_carrier {
   OF_NODES,       /* each node, and any point between */
   OF_TETS,        /* each point of a tet */
+  OF_FACES,       /* each point of a group's faces */
   SUM_OVER_NODES, /* a set of nodes as a whole */
   SUM_OVER_TETS,  /* a set of tets as a whole */
   OF_BODY,        /* the whole body alone */

@@ -2,7 +2,11 @@
 #include "refine.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
 #include <unistd.h>
+
+#include "app/text/no_memory.h"
 
 /* Of a mesh of either order, while it is made. */
 static const double bytes_per_tet[] = {0, 50, 250};
@@ -48,6 +52,38 @@ corot_status refine_by_levels(int nlevel, corot_diagonal diagonal, corot_mesh **
   if (status == COROT_OK && coarse) status = corot_refinement_lower(*refinement, coarse);
   corot_mesh_destroy(coarse);
   return status;
+}
+
+/* mark [ntet] = the tets that share a corner with tet e, itself included. */
+static int mark_around(const corot_mesh *mesh, int e, int *mark) {
+  const int *v = mesh->tet[e];
+  int n = 0;
+  for (int i = 0; i < mesh->ntet; i++) {
+    bool touches = false;
+    for (int k = 0; k < 16; k++) touches |= mesh->tet[i][k / 4] == v[k % 4];
+    if (touches) mark[n++] = i;
+  }
+  return n;
+}
+
+static corot_status refine_once_near(const double point[3], corot_mesh **mesh) {
+  corot_location at;
+  corot_mesh *fine = NULL;
+  COROT_TRY(corot_mesh_locate(*mesh, point, &at));
+  int *mark = malloc((size_t)(*mesh)->ntet * sizeof *mark);
+  if (!mark) return no_memory();
+  int n = mark_around(*mesh, at.tet, mark);
+  corot_status status = corot_mesh_refine_marked(*mesh, n, mark, &fine, NULL);
+  free(mark);
+  COROT_TRY(status);
+  corot_mesh_destroy(*mesh);
+  *mesh = fine;
+  return COROT_OK;
+}
+
+corot_status refine_near(const double point[3], int times, corot_mesh **mesh) {
+  for (int i = 0; i < times; i++) COROT_TRY(refine_once_near(point, mesh));
+  return COROT_OK;
 }
 
 static corot_status check_room(const corot_mesh *mesh, int order, double memory) {

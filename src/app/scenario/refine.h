@@ -13,6 +13,11 @@ corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
 corot_status refine_by_levels(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
                               corot_refinement **refinement);
 
+/* Replaces the mesh by what it becomes when the tet at a point, or nearest to it, and all that
+   share a corner with it are cut, and those that are there then, so many times. COROT_EINVAL: as
+   corot_mesh_refine_marked. */
+corot_status refine_near(const double point[3], int times, corot_mesh **mesh);
+
 /* Replaces the mesh by its copy of order 1 or 2. `refinement` (or NULL) of the mesh gets the level
    that is new at order 2. COROT_EINVAL: as corot_mesh_change_order, or too little memory. */
 corot_status change_order(int order, corot_mesh **mesh, corot_refinement *refinement);

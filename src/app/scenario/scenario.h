@@ -65,8 +65,9 @@ typedef struct scenario {
 
   const char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
   corot_box box;
-  int refine; /* times */
-  int order;  /* of the mesh; 0: as it is */
+  int refine;        /* times */
+  const char *marks; /* file of the tets that are cut then, as mesh_file; NULL: none */
+  int order;         /* of the mesh; 0: as it is */
   corot_diagonal diagonal;
   int ngroup;
   const group_def *group;

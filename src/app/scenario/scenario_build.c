@@ -1,4 +1,5 @@
 /* From scenario to mesh and model. What can be wrong here is how the scenario and the mesh fit. */
+#include "marks_file.h"
 #include "refine.h"
 #include "scenario_fault.h"
 #include "scenario_parts.h"
@@ -58,17 +59,29 @@ static corot_status set_order(const scenario *s, corot_mesh **mesh, corot_refine
 /* A file's four-node tets may be all that there is. */
 static corot_status check_levels(const scenario *s, const corot_refinement *refinement) {
   if (!scenario_solves_by_levels(s) || refinement->nlevel > 0) return COROT_OK;
-  return config_fail(place(s, "linear_solver.preconditioner"), "%s needs mesh.refine",
-                     s->integrator.linear.preconditioner);
+  return scenario_refuse_levels(s);
 }
 
-static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
-  bool needed = s->model.hierarchy || scenario_solves_by_levels(s);
-  if (s->refine == 0 && !needed) return COROT_OK;
-  corot_status status = needed ? refine_by_levels(s->refine, s->diagonal, mesh, refinement)
-                               : refine_mesh(s->refine, s->diagonal, mesh, NULL);
+/* Octasections; *refinement is set where it is needed. */
+static corot_status octasect(const scenario *s, int nlevel, bool needed, corot_mesh **mesh,
+                             corot_refinement **refinement) {
+  if (nlevel == 0 && !needed) return COROT_OK;
+  corot_status status = needed ? refine_by_levels(nlevel, s->diagonal, mesh, refinement)
+                               : refine_mesh(nlevel, s->diagonal, mesh, NULL);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, "mesh.refine"), "%s", corot_error());
+}
+
+/* What marks make of the octasected mesh has no levels below it but the corners of ten-node tets.
+ */
+static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinement **refinement) {
+  bool needed = s->model.hierarchy || scenario_solves_by_levels(s);
+  if (!s->marks) return octasect(s, s->refine, needed, mesh, refinement);
+  COROT_TRY(octasect(s, s->refine, false, mesh, NULL));
+  corot_status status = marks_file_apply(s->marks, mesh);
+  if (status == COROT_EIO) return config_fail(place(s, "mesh.marks"), "%s", corot_error());
+  COROT_TRY(status);
+  return octasect(s, 0, needed, mesh, refinement);
 }
 
 /* Numbers of nodes are those of the unrefined mesh, and the refined one inherits their groups.

@@ -94,6 +94,12 @@ bool scenario_solves_by_levels(const scenario *s) {
   return strcmp(preconditioner, "hierarchical") == 0 || strcmp(preconditioner, "multigrid") == 0;
 }
 
+corot_status scenario_refuse_levels(const scenario *s) {
+  return config_fail(config_find(s->source->root, "linear_solver.preconditioner"),
+                     "%s needs mesh.refine%s", s->integrator.linear.preconditioner,
+                     s->marks ? " without mesh.marks, or ten-node tets" : "");
+}
+
 static void read_linear_solver(config_node *node, corot_linear_def *def) {
   def->solver = text_at(node, "name");
   def->ordering = text_at(node, "ordering");
@@ -133,10 +139,8 @@ static corot_status read_integrator(scenario *s) {
   COROT_TRY(read_constant_step(node, &def));
   s->integrator = def;
   bool by_file = s->mesh_file && s->order == 0; /* which may be of ten-node tets */
-  if (s->refine == 0 && s->order != 2 && !by_file && scenario_solves_by_levels(s))
-    return config_fail(config_find(root, "linear_solver.preconditioner"), "%s needs mesh.refine",
-                       def.linear.preconditioner);
-  return COROT_OK;
+  bool none = scenario_levels(s) == 0 && !by_file && scenario_solves_by_levels(s);
+  return none ? scenario_refuse_levels(s) : COROT_OK;
 }
 
 static void read_dilatation(scenario *s) {

@@ -21,11 +21,15 @@ corot_status scenario_read_method(scenario *s);
 /* Whether the linear solver may have to know the levels of mesh.refine. */
 bool scenario_solves_by_levels(const scenario *s);
 
-/* The levels above the mesh as it is given: of mesh.refine, and of mesh.order: 2 one more. */
+/* The levels above the mesh as it is given: of mesh.refine, unless mesh.marks follow, and of
+   mesh.order: 2 one more. */
 int scenario_levels(const scenario *s);
 
+/* COROT_EFORMAT: the preconditioner needs levels. */
+corot_status scenario_refuse_levels(const scenario *s);
+
 /* hierarchy */
-void scenario_read_hierarchy(scenario *s);
+corot_status scenario_read_hierarchy(scenario *s);
 
 /* statics, after linear_solver */
 corot_status scenario_read_statics(scenario *s);

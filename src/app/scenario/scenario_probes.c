@@ -1,4 +1,5 @@
 /* Reads probes, and holds them against the mesh. */
+#include "app/text/plural.h"
 #include "probe_location.h"
 #include "scenario_fault.h"
 #include "scenario_parts.h"
@@ -46,6 +47,9 @@ static corot_status check_place(config_node *map, const probe_def *p) {
   config_node *place = config_find(map, key);
   if (q->carrier == OF_BODY && place)
     return config_fail_key(place, "%s is of the whole body: leave out the %s", q->word, key);
+  if (q->carrier == OF_FACES && !p->group)
+    return config_fail_key(place ? place : map, "%s%s is of the faces of a group: give a group",
+                           named(q), q->word);
   if (q->carrier == SUM_OVER_NODES && place && p->node < 0 && !p->group)
     return config_fail_key(
         place, "%s%s is of nodes: give a node or a group, or neither for the whole body", named(q),
@@ -61,7 +65,7 @@ static corot_status check_place(config_node *map, const probe_def *p) {
 static corot_status read_take(config_node *map, probe_def *p) {
   const probe_quantity *q = &probe_quantities[p->of];
   config_node *take = config_find(map, "take");
-  bool whole = q->carrier > OF_TETS;
+  bool whole = q->carrier >= SUM_OVER_NODES;
   if (take && probe_is_local(p))
     return config_fail_key(take, "a %s has one value: take is for a group or the whole body",
                            p->node >= 0 ? "node" : "point");
@@ -76,6 +80,9 @@ static corot_status read_take(config_node *map, probe_def *p) {
 static corot_status read_component(config_node *map, probe_def *p) {
   const probe_quantity *q = &probe_quantities[p->of];
   config_node *component = config_find(map, "component");
+  /* the largest traction is the longest */
+  bool extreme = p->take == TAKE_MAX || p->take == TAKE_MIN;
+  if (!component && extreme && p->of == PROBE_TRACTION) p->component = COMPONENT_MAGNITUDE;
   if (!component) return COROT_OK;
   if (!q->component)
     return config_fail_key(component, "%s%s has no components to choose from", named(q), q->word);
@@ -133,11 +140,16 @@ static corot_status check_group(const scenario *s, config_node *node, const prob
   if (!group) return scenario_unknown_group(node, mesh);
   if (group->nnode == 0) return config_fail(node, "group '%s' has no nodes", p->group);
   if (q->carrier == OF_TETS && group->ntet == 0 && group->ntri == 0)
-    return config_fail(node, "group '%s' has neither tets nor faces for %s%s (%d nodes)", p->group,
-                       named(q), q->word, group->nnode);
+    return config_fail(node, "group '%s' has neither tets nor faces for %s%s (%d node%s)", p->group,
+                       named(q), q->word, group->nnode, plural(group->nnode));
+  if (q->carrier == OF_FACES && group->ntri == 0)
+    return config_fail(node, "group '%s' has no faces for %s%s (%d node%s, %d tet%s)", p->group,
+                       named(q), q->word, group->nnode, plural(group->nnode), group->ntet,
+                       plural(group->ntet));
   if (q->carrier == SUM_OVER_TETS && group->ntet == 0)
-    return config_fail(node, "group '%s' has no tets for %s%s (%d nodes, %d faces)", p->group,
-                       named(q), q->word, group->nnode, group->ntri);
+    return config_fail(node, "group '%s' has no tets for %s%s (%d node%s, %d face%s)", p->group,
+                       named(q), q->word, group->nnode, plural(group->nnode), group->ntri,
+                       plural(group->ntri));
   if (p->of == PROBE_ELASTIC && s->model.hierarchy)
     return config_fail(node, "with a hierarchy only the whole body has an elastic energy");
   return COROT_OK;

@@ -2,6 +2,7 @@
 #include "scenario_quantities.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "scenario_parts.h"
 
@@ -19,13 +20,25 @@ static bool find_text(const config_node *node, size_t *begin) {
   return false;
 }
 
+/* Of a --set, which is no file: with the text under it. corot_error() is the reason. */
+static corot_status fail_in_setting(const config_source *source, const char *path, const char *text,
+                                    size_t at) {
+  char head[400];
+  bool says_path = strstr(source->name, path) != NULL;
+  snprintf(head, sizeof head, "%.256s%s%s", source->name, says_path ? "" : ": ",
+           says_path ? "" : path);
+  return quantity_point(head, text, at);
+}
+
 corot_status scenario_quantity_fail(const quantity_def *q, size_t at) {
+  const config_source *source = q->node->source;
   char reason[600], path[128];
   size_t begin;
   snprintf(reason, sizeof reason, "%s", corot_error());
   config_path(q->node, sizeof path, path);
   if (find_text(q->node, &begin))
     return config_fail_at(q->node->source, begin + at, "%s: %s", path, reason);
+  if (source && !source->lines) return fail_in_setting(source, path, q->node->text, at);
   return config_fail(q->node, "%.200s: %s", q->node->text, reason);
 }
 

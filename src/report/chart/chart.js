@@ -114,12 +114,13 @@ class Chart {
 
   /* The axes: of what is zoomed to, or of all there is. */
   findAxes() {
-    const { xLog, yLog, floor, time } = this.data;
+    const { xLog, yLog, floor, time, interval } = this.data;
     const range = time ? timeline.range : this.view && this.view.x;
     const all = this.extent('x', null);
     this.x = range ? Axis.around(range[0], range[1], xLog, true) : Axis.around(all[0], all[1], xLog, time);
     let [low, high] = this.extent('y', range);
     if (floor !== null && !range) low = Math.min(low, floor), high = Math.max(high, floor);
+    if (interval && !range) low = Math.min(low, interval[0]), high = Math.max(high, interval[1]);
     this.y = this.view && this.view.y ? Axis.around(this.view.y[0], this.view.y[1], yLog, true)
                                       : Axis.around(low, high, yLog, false);
     this.reset.hidden = !(range || this.view);
@@ -144,6 +145,7 @@ class Chart {
     const clip = svgElement('svg', { x: MARGIN.left, y: MARGIN.top, width: this.width, height: this.height,
       viewBox: `${MARGIN.left} ${MARGIN.top} ${this.width} ${this.height}` }, this.svg);
     this.drawFloor(clip);
+    this.drawInterval(clip);
     let skipped = 0;
     for (const s of this.shown()) skipped += this.drawSeries(s, clip);
     this.note.textContent = skipped ? `${skipped} point${skipped > 1 ? 's' : ''} without a place on these axes` : '';
@@ -184,6 +186,16 @@ class Chart {
                          height: MARGIN.top + this.height - y }, parent);
     svgElement('path', { class: 'floor-edge', d: `M${MARGIN.left} ${y}h${this.width}` }, parent);
     svgElement('text', { class: 'tick', x: MARGIN.left + 8, y: y - 6 }, parent, this.data.floorLabel || 'floor');
+  }
+
+  drawInterval(parent) {
+    if (!this.data.interval) return;
+    const [low, high] = this.data.interval, y = this.down(high);
+    svgElement('rect', { class: 'interval', x: MARGIN.left, y, width: this.width,
+                         height: Math.max(1, this.down(low) - y) }, parent);
+    /* above the band, where there is room */
+    svgElement('text', { class: 'tick', x: MARGIN.left + 8, y: y < MARGIN.top + 16 ? y + 15 : y - 6 }, parent,
+               this.data.intervalLabel);
   }
 
   /* Draws one series and returns how many of its points have no place. */

@@ -48,7 +48,7 @@ static corot_status collect(const precision *p, points *all) {
                           all->high + k};
     if (!study_cell_rated(c, p->error)) continue;
     all->x[k] = c->cost[p->cost];
-    all->y[k] = c->error[p->error];
+    all->y[k] = fabs(c->error[p->error]);
     all->low[k] = c->low[p->cost], all->high[k] = c->high[p->cost];
     s->npoint++;
     k++;
@@ -73,8 +73,9 @@ static corot_status draw(const precision *p, const points *all, const char *path
       .y = {label, true},
       .nseries = t->nseries,
       .series = all->series,
-      .floor = STUDY_FLOOR_FACTOR * t->floor[p->error],
-      .floor_label = "floor: ten times what the references differ by",
+      .floor = study_floor(t, p->error),
+      .floor_label = t->known[p->error] ? "floor: how far off the known value may be"
+                                        : "floor: ten times what the references differ by",
   };
   return save_text(path, write_svg, &c);
 }
@@ -91,7 +92,7 @@ static corot_status write_csv(const void *what, FILE *out) {
           study_cost_word[p->cost]);
   for (int i = 0; i < t->ncell; i++) {
     const study_cell *c = &t->cell[i];
-    const double value[] = {c->tolerance, c->cost[p->cost], c->error[p->error]};
+    const double value[] = {c->tolerance, c->cost[p->cost], fabs(c->error[p->error])};
     fprintf(out, "%d,", c->series);
     escape_csv(t->series[c->series], out);
     for (int k = 0; k < 3; k++) fputc(',', out), csv_number(value[k], out);

@@ -36,15 +36,14 @@ corot_status precision_gnuplot(const void *what, FILE *out) {
   fputs("\nset ylabel ", out);
   escape_gnuplot(label, out);
   fputs("\nrated(series, x) = $1 == series && strcol(6) eq 'rated' ? x : NaN\n", out);
-  if (isfinite(t->floor[error]))
-    fprintf(out, "floor = %.17g\n", STUDY_FLOOR_FACTOR * t->floor[error]);
+  if (isfinite(study_floor(t, error))) fprintf(out, "floor = %.17g\n", study_floor(t, error));
   fputs("plot \\\n", out);
   for (int k = 0; k < t->nseries; k++) {
     fprintf(out, "  csv using (rated(%d, $4)):5 with linespoints title ", k);
     escape_gnuplot(t->series[k], out);
     fputs(k + 1 < t->nseries ? ", \\\n" : "", out);
   }
-  if (isfinite(t->floor[error]))
+  if (isfinite(study_floor(t, error)))
     fprintf(out, "%s  floor with lines lt 0 lw 2 title 'floor'", t->nseries ? ", \\\n" : "");
   fputc('\n', out);
   return COROT_OK;
@@ -54,7 +53,7 @@ corot_status precision_matplotlib(const void *what, FILE *out) {
   const precision_script *s = what;
   const study_table *t = s->table;
   char label[160];
-  double floor = STUDY_FLOOR_FACTOR * t->floor[s->error];
+  double floor = study_floor(t, s->error);
   fputs(
       "\"\"\"Draws the diagram with matplotlib: python3 FILE [FIGURE.pdf]\"\"\"\n"
       "import csv\nimport pathlib\nimport sys\n\n"

@@ -8,7 +8,6 @@
 #include "app/text/say.h"
 #include "app/text/suggest.h"
 #include "commands.h"
-#include "report.h"
 #include "report/chart/precision.h"
 
 static const char help[] =
@@ -25,7 +24,9 @@ static const char help[] =
     "  -o, --output FILE    default: DIR/precision-COST-NAME.svg\n"
     "      --force          replaces files that corot has not written, too\n"
     "\n"
-    "Without --cost and --error: those that the study compares by.\n"
+    "Without --cost and --error: those that the study compares by. A study that was cut off "
+    "before\n"
+    "it had a table, or still runs, gets one of the runs there are now.\n"
     "\n"
     "example: corot plot out/integrators --cost rhs\n";
 
@@ -103,14 +104,6 @@ static int plot(const char *dir, const wish *w, const study_table *t) {
   return status == COROT_OK ? EXIT_OK : failure(status);
 }
 
-/* A study that has been cut off, or still runs, has no table yet. */
-static void tell_of_no_table(const char *dir) {
-  bool study = false, table = true;
-  if (report_has(dir, "study.json", &study) != COROT_OK) return;
-  if (report_has(dir, "table.json", &table) != COROT_OK) return;
-  if (study && !table) say("corot study collect %s writes it, of the runs there are now\n", dir);
-}
-
 int command_plot(int argc, char **argv) {
   wish w = {0};
   opterr = 0;
@@ -133,11 +126,7 @@ int command_plot(int argc, char **argv) {
   if (w.output && !*w.output) return usage_error("corot plot", "--output: the name is empty");
   study_table t;
   corot_status status = study_table_read(argv[optind], &t);
-  if (status != COROT_OK) {
-    int code = failure(status);
-    tell_of_no_table(argv[optind]);
-    return code;
-  }
+  if (status != COROT_OK) return failure(status);
   int code = plot(argv[optind], &w, &t);
   study_table_free(&t);
   return code;

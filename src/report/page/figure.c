@@ -43,6 +43,15 @@ static void write_series(const figure_series *s, FILE *out) {
   fputc('}', out);
 }
 
+static void write_interval(const figure *f, FILE *out) {
+  fputs(",\"interval\":[", out);
+  encode_number(f->interval[0], out);
+  fputc(',', out);
+  encode_number(f->interval[1], out);
+  fputs("],\"intervalLabel\":", out);
+  encode_text(f->interval_label, out);
+}
+
 void figure_json(const figure *f, FILE *out) {
   fputs("{\"title\":", out);
   encode_text(f->title, out);
@@ -54,6 +63,7 @@ void figure_json(const figure *f, FILE *out) {
           f->x_log ? "true" : "false", f->y_log ? "true" : "false", f->time ? "true" : "false",
           f->tall ? "true" : "false", f->whole ? "true" : "false");
   encode_number(f->floor, out);
+  if (f->interval) write_interval(f, out);
   fputs(",\"series\":[", out);
   for (int k = 0; k < f->nseries; k++) {
     if (k) fputc(',', out);

@@ -29,7 +29,9 @@ typedef struct figure {
   bool whole; /* y counts: no ticks between whole numbers */
   int nseries;
   const figure_series *series;
-  double floor; /* NAN: none */
+  double floor;           /* NAN: none */
+  const double *interval; /* [2] a band between two values of y; NULL: none */
+  const char *interval_label;
 } figure;
 
 /* Writes HTML with the data in it. Errors are left in the stream. */

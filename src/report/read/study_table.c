@@ -29,12 +29,18 @@ bool study_cell_rated(const study_cell *cell, int error) {
   return cell->status == STUDY_DONE && !cell->unrated[error];
 }
 
+double study_floor(const study_table *t, int error) {
+  return (t->known[error] ? 1 : STUDY_FLOOR_FACTOR) * t->floor[error];
+}
+
 void study_error_label(const char *name, size_t size, char *label) {
   size_t length = strlen(name);
   bool end = length > 4 && strcmp(name + length - 4, "_end") == 0;
   int base = (int)(end ? length - 4 : length);
   const char *when = end ? "at the end" : "largest over time";
-  if (strpbrk(name, "(@"))
+  if (strcmp(name, "total") == 0)
+    snprintf(label, size, "total error, the largest against known values");
+  else if (strpbrk(name, "(@"))
     snprintf(label, size, "relative error of %s", name);
   else if (strncmp(name, "probe.", 6) == 0)
     snprintf(label, size, "error of probe %.*s, %s [m]", base - 6, name + 6, when);
@@ -62,6 +68,7 @@ void study_table_free(study_table *t) {
   free(t->series);
   free(t->error_name);
   free(t->floor);
+  free(t->known);
   free(t->cell);
   free(t->errors);
   free(t->unrated);
@@ -111,7 +118,9 @@ static bool lists(const json_t *list, const char *word) {
 static corot_status read_cell(study_table *t, const json_t *cell, int i) {
   if (!json_is_object(cell)) return corot_fail(COROT_EFORMAT, "cell %d is not a map", i);
   const json_t *cost = json_object_get(cell, "cost"), *error = json_object_get(cell, "error");
+  const json_t *most = json_object_get(cell, "at_most");
   size_t at = (size_t)i * (size_t)t->nerror;
+  double *errors = t->errors + 2 * at, *bounds = errors + t->nerror;
   study_cell *c = &t->cell[i];
   *c = (study_cell){
       .id = lookup_text(cell, "id"),
@@ -119,13 +128,15 @@ static corot_status read_cell(study_table *t, const json_t *cell, int i) {
       .key = lookup_text(cell, "tolerance_key"),
       .series = place_of(lookup_text(cell, "series"), &t->nseries, t->series),
       .tolerance = lookup_number(cell, "tolerance"),
-      .error = t->errors + at,
+      .error = errors,
+      .at_most = bounds,
       .unrated = t->unrated + at,
   };
   COROT_TRY(read_status(cell, i, &c->status));
   for (int k = 0; k < STUDY_COSTS; k++) read_cost(cost, k, c);
   for (int e = 0; e < t->nerror; e++) {
-    t->errors[at + (size_t)e] = number(error, t->error_name[e]);
+    errors[e] = number(error, t->error_name[e]);
+    bounds[e] = number(most, t->error_name[e]);
     t->unrated[at + (size_t)e] = lists(json_object_get(cell, "unrated"), t->error_name[e]);
   }
   return COROT_OK;
@@ -141,7 +152,8 @@ static corot_status find_error_names(study_table *t, json_t *cells) {
   size_t n = json_object_size(most);
   t->error_name = calloc(n + 1, sizeof *t->error_name);
   t->floor = calloc(n + 1, sizeof *t->floor);
-  if (!t->error_name || !t->floor) return corot_fail(COROT_ENOMEM, "out of memory");
+  t->known = calloc(n + 1, sizeof *t->known);
+  if (!t->error_name || !t->floor || !t->known) return corot_fail(COROT_ENOMEM, "out of memory");
   const char *key;
   json_t *value;
   json_object_foreach(most, key, value) {
@@ -157,6 +169,22 @@ static void find_floors(study_table *t) {
     for (size_t i = 0; i < json_array_size(references); i++) {
       const json_t *floor = json_object_get(json_array_get(references, i), "floor");
       t->floor[e] = fmax(t->floor[e], number(floor, t->error_name[e]));
+    }
+  }
+}
+
+/* Those against known values have theirs; that of the total is not the same for all cells. */
+static void find_known(study_table *t) {
+  const json_t *known = json_object_get(t->root, "known");
+  for (int e = 0; e < t->nerror; e++) {
+    bool total = strcmp(t->error_name[e], "total") == 0;
+    t->known[e] = total && json_array_size(known) > 0;
+    for (size_t i = 0; i < json_array_size(known); i++) {
+      const json_t *k = json_array_get(known, i);
+      if (strcmp(lookup_text(k, "measure"), t->error_name[e]) != 0) continue;
+      t->known[e] = true;
+      double floor = lookup_number(k, "within") / lookup_number(k, "scale");
+      t->floor[e] = floor > 0 ? floor : NAN;
     }
   }
 }
@@ -192,7 +220,7 @@ static corot_status take_apart(study_table *t) {
   COROT_TRY(find_error_names(t, cells));
   t->series = calloc(n + 1, sizeof *t->series);
   t->cell = calloc(n + 1, sizeof *t->cell);
-  t->errors = calloc(n * (size_t)t->nerror + 1, sizeof *t->errors);
+  t->errors = calloc(2 * n * (size_t)t->nerror + 1, sizeof *t->errors);
   t->unrated = calloc(n * (size_t)t->nerror + 1, sizeof *t->unrated);
   if (!t->series || !t->cell || !t->errors || !t->unrated)
     return corot_fail(COROT_ENOMEM, "out of memory");
@@ -201,6 +229,7 @@ static corot_status take_apart(study_table *t) {
   t->ncell = (int)n;
   qsort(t->cell, n, sizeof *t->cell, by_series);
   find_floors(t);
+  find_known(t);
   find_choice(t);
   return COROT_OK;
 }

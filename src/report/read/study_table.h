@@ -32,8 +32,9 @@ typedef struct study_cell {
   study_status status;
   double tolerance;
   double cost[STUDY_COSTS], low[STUDY_COSTS], high[STUDY_COSTS]; /* median and extremes */
-  const double *error;                                           /* [nerror] */
-  const bool *unrated; /* [nerror] too near the reference's own error */
+  const double *error;   /* [nerror] signed where they are against a known value */
+  const double *at_most; /* [nerror] what such a one is at most, if it is not rated */
+  const bool *unrated;   /* [nerror] too near the reference's own error, or the known value's */
 } study_cell;
 
 typedef struct study_table {
@@ -41,9 +42,10 @@ typedef struct study_table {
   const char *title;
   int nseries, nerror, ncell;
   const char **series, **error_name; /* [nseries], [nerror] */
-  double *floor;                     /* [nerror] the highest of any reference; NAN: none */
-  study_cell *cell;                  /* [ncell] by series, in it by falling tolerance */
-  double *errors;                    /* what the cells' `error` point into */
+  double *floor;    /* [nerror] the highest of any reference, or of a known value; NAN: none */
+  bool *known;      /* [nerror] against a known value */
+  study_cell *cell; /* [ncell] by series, in it by falling tolerance */
+  double *errors;   /* what the cells' `error` and `at_most` point into */
   bool *unrated;
   study_cost cost; /* by which the study compares, and the index of its measure of error */
   int measure;
@@ -53,6 +55,9 @@ typedef struct study_table {
 corot_status study_table_read(const char *dir, study_table *table);
 
 void study_table_free(study_table *table);
+
+/* Errors of that kind below this are not rated; NAN: all are. */
+double study_floor(const study_table *table, int error);
 
 /* Whether the cell has a point in a diagram of that error. */
 bool study_cell_rated(const study_cell *cell, int error);

@@ -33,7 +33,7 @@ static void write_choices(const study_table *t, FILE *out) {
     fputs(e ? ",{\"label\":" : "{\"label\":", out);
     encode_text(label, out);
     fputs(",\"floor\":", out);
-    encode_number(STUDY_FLOOR_FACTOR * t->floor[e], out);
+    encode_number(study_floor(t, e), out);
     fputs(",\"leftOut\":", out);
     study_left_out(t, e, sizeof label, label);
     encode_text(label, out);
@@ -62,7 +62,7 @@ static void write_cell(const study_table *t, const study_cell *c, FILE *out) {
   fputs(",\"error\":[", out);
   for (int e = 0; e < t->nerror; e++) {
     if (e) fputc(',', out);
-    encode_number(study_cell_rated(c, e) ? c->error[e] : NAN, out);
+    encode_number(study_cell_rated(c, e) ? fabs(c->error[e]) : NAN, out);
   }
   fputs("]}", out);
 }
@@ -124,7 +124,7 @@ static void draw_tolerance(const study_table *t, double *x, double *y, figure_se
     if (!s->name) *s = (figure_series){t->series[c->series], FIGURE_MARKED, 0, x + k, y + k, NULL};
     if (!study_cell_rated(c, t->measure) || !isfinite(c->tolerance)) continue;
     x[k] = c->tolerance;
-    y[k] = c->error[t->measure];
+    y[k] = fabs(c->error[t->measure]);
     key = c->key;
     s->n++;
     k++;
@@ -139,7 +139,7 @@ static void draw_tolerance(const study_table *t, double *x, double *y, figure_se
                          .tall = true,
                          .nseries = t->nseries,
                          .series = series,
-                         .floor = STUDY_FLOOR_FACTOR * t->floor[t->measure]},
+                         .floor = study_floor(t, t->measure)},
                out);
 }
 

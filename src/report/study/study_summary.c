@@ -25,6 +25,21 @@ static void write_outcome(const study_table *t, FILE *out) {
                *label ? " Compared by the " : "", label, *label ? "." : "");
 }
 
+/* What errors against known values are held against. */
+static void write_known(const study_table *t, FILE *out) {
+  const json_t *known = lookup(t->root, "known");
+  for (size_t i = 0; i < json_array_size(known); i++) {
+    const json_t *k = json_array_get(known, i);
+    double value = lookup_number(k, "value"), scale = lookup_number(k, "scale");
+    char within[48] = "", relative[48] = "";
+    if (lookup_number(k, "within") > 0)
+      snprintf(within, sizeof within, " within %.3g", lookup_number(k, "within"));
+    if (scale != fabs(value)) snprintf(relative, sizeof relative, " to %.6g", scale);
+    page_element(out, "p", "Known: %s is %.6g%s; its errors are total, signed and relative%s.",
+                 lookup_text(k, "measure"), value, within, relative);
+  }
+}
+
 static void write_references(const study_table *t, FILE *out) {
   const json_t *references = lookup(t->root, "references");
   const char *shared = lookup_text(t->root, "shared");
@@ -49,7 +64,8 @@ static void write_references(const study_table *t, FILE *out) {
                  lookup_number(s, "refine"), quantity ? ", of " : "", quantity ? measure : "",
                  lookup_text(s, "verdict"));
   }
-  if (t->nerror > 0 && isfinite(t->floor[t->measure]))
+  write_known(t, out);
+  if (t->nerror > 0 && !t->known[t->measure] && isfinite(t->floor[t->measure]))
     page_element(out, "p",
                  "Errors below %.1e, ten times what the references differ by, are not rated.",
                  STUDY_FLOOR_FACTOR * t->floor[t->measure]);
@@ -144,10 +160,17 @@ void study_summary_write(const study_table *t, FILE *out) {
 }
 
 static void write_error(const study_cell *c, int error, FILE *out) {
-  if (!study_cell_rated(c, error) && c->status == STUDY_DONE)
+  if (isfinite(c->at_most[error]))
+    fprintf(out, "<td class=\"number\">at most %.2g</td>", c->at_most[error]);
+  else if (!study_cell_rated(c, error) && c->status == STUDY_DONE)
     fprintf(out, "<td class=\"number\">below the floor</td>");
   else
     page_number(out, c->error[error], 2);
+}
+
+/* Errors that stand beside the one that runs are compared by. */
+static bool is_beside(const study_table *t, int error) {
+  return t->known[error] && error != t->measure;
 }
 
 static void write_cell(const study_table *t, const study_cell *c, FILE *out) {
@@ -160,6 +183,8 @@ static void write_cell(const study_table *t, const study_cell *c, FILE *out) {
   page_text(out, "%s%s%s", word[c->status], *c->reason ? ": " : "", c->reason);
   fputs("</td>", out);
   if (t->nerror > 0) write_error(c, t->measure, out);
+  for (int e = 0; e < t->nerror; e++)
+    if (is_beside(t, e)) write_error(c, e, out);
   for (int k = 0; k < STUDY_COSTS; k++)
     page_number(out, c->cost[k], k == STUDY_CPU || k == STUDY_WALL ? 3 : 12);
   fputs("<td class=\"soft\">", out);
@@ -174,6 +199,12 @@ void study_summary_cells(const study_table *t, FILE *out) {
       "</th><th>outcome</th>",
       out);
   if (t->nerror > 0) fputs("<th class=\"number\">error</th>", out);
+  for (int e = 0; e < t->nerror; e++) {
+    if (!is_beside(t, e)) continue;
+    fputs("<th class=\"number\">", out);
+    page_text(out, "error of %s", t->error_name[e]);
+    fputs("</th>", out);
+  }
   for (int k = 0; k < STUDY_COSTS; k++) {
     fputs("<th class=\"number\">", out);
     markup_text(out, study_cost_label[k]);

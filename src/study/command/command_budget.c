@@ -116,6 +116,7 @@ static int ask(void *context, variants_arguments *a) {
   const arguments *own_arguments = context;
   for (int i = 0; i < own_arguments->nquantity; i++)
     a->set[a->nset++] = own_arguments->quantity[i].setting;
+  a->nasked = own_arguments->nquantity;
   return -1;
 }
 
@@ -125,7 +126,7 @@ static int make_budget(void *context, const scenario *s, const variants_argument
   int signal_number = 0;
   corot_status status = budget_make(s, a->nset, a->set, &own_arguments->options, &a->options,
                                     &budget, &signal_number);
-  if (status != COROT_OK) return failure(status);
+  if (status != COROT_OK) return failure(variants_retell(a, status));
   if (signal_number) return variants_interrupted(signal_number);
   int code = complete(budget);
   if (a->json)

@@ -312,9 +312,9 @@ static int ready(void *context, variants_arguments *a) {
     return usage_error("corot find-limit", "--quantity wants --below or --above");
   if (bounded && !s->bound.asked)
     return usage_error("corot find-limit", "--below and --above are of a --quantity");
-  if (s->bound.asked) a->set[a->nset++] = s->bound.of.setting;
   snprintf(s->first, sizeof s->first, "%s=%.9g", s->key, s->def.from);
   a->set[a->nset++] = s->first;
+  if (s->bound.asked) a->set[a->nset++] = s->bound.of.setting, a->nasked = 1;
   return -1;
 }
 
@@ -332,7 +332,7 @@ static int find(void *context, const scenario *of, const variants_arguments *a) 
   else if (status == COROT_EINVAL)
     code = usage_error("corot find-limit", "%s", corot_error());
   else
-    code = status == COROT_OK ? conclude(s, r) : failure(status);
+    code = status == COROT_OK ? conclude(s, r) : failure(variants_retell(a, status));
   builds_free(&s->made_by);
   free(r);
   return code;

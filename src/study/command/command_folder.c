@@ -85,8 +85,7 @@ int command_study_status(int argc, char **argv) {
   return status == COROT_OK ? EXIT_OK : failure(status);
 }
 
-/* Collects what there is now; the manifest is that of the folder. */
-static corot_status collect_folder(const char *dir, int *ndamaged) {
+corot_status study_collect(const char *dir, int *ndamaged) {
   manifest *m = NULL;
   COROT_TRY(manifest_read(dir, &m));
   corot_status status = write_tables(m, dir, false, stderr, ndamaged);
@@ -99,7 +98,7 @@ int command_study_collect(int argc, char **argv) {
   int code = only_folder("collect", argc, argv, &dir);
   if (code >= 0) return code;
   int ndamaged = 0;
-  corot_status status = collect_folder(dir, &ndamaged);
+  corot_status status = study_collect(dir, &ndamaged);
   if (status != COROT_OK) return failure(status);
   if (ndamaged == 0) return EXIT_OK;
   fputs("corot study with this study does again what is not as it was left\n", stderr);

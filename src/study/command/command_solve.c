@@ -10,6 +10,7 @@
 #include "command_study.h"
 #include "study/goal/goal.h"
 #include "study/goal/goal_text.h"
+#include "study/tables/report_page.h"
 #include "variants_command.h"
 
 static const char help[] =
@@ -25,10 +26,11 @@ static const char help[] =
     "that of the scenario's own strain measure; how far that is from green is measured, too, and\n"
     "counts with --exact-model. Frames are found in every evaluation, without a hierarchy.\n"
     "\n"
-    "The answer goes to stdout; solve.json and a folder for each run to DIR. Runs that\n"
-    "are there already are not repeated: to ask for less error goes on from there. Exit code 1: "
-    "the\n"
-    "goal was not met; the best interval is shown, and what stands in the way.\n"
+    "The answer goes to stdout; solve.json, report.html, which shows why, and a folder for each "
+    "run\n"
+    "to DIR. Runs that are there already are not repeated: to ask for less error goes on from "
+    "there.\n"
+    "Exit code 1: the goal was not met; the best interval is shown, and what stands in the way.\n"
     "\n"
     "      --goal QUANTITY  such as max(corner.ux), corner.ux@end, mean(wall.fx, 1, 2): a number "
     "out\n"
@@ -141,6 +143,7 @@ static int solve(void *context, const scenario *s, const variants_arguments *v) 
     status = show_all(write_answer, solved);
   if (result.senseless) say("corot solve: %s\n", result.obstacle);
   json_decref(solved);
+  if (status == COROT_OK) status = study_page(v->options.dir, v->options.quiet || result.senseless);
   return status == COROT_OK ? code_of(&result) : failure(status);
 }
 

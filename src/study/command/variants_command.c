@@ -62,7 +62,7 @@ static int go(const variants_command *c, const char *path, variants_arguments *a
   scenario *s = NULL;
   corot_status status = scenario_read(path, a->nset, (char *const *)a->set, &s);
   status = read_failure(status, path);
-  if (status != COROT_OK) return failure(status);
+  if (status != COROT_OK) return failure(variants_retell(a, status));
   char *folder = a->options.dir ? NULL : folder_default(path, c->suffix);
   if (folder) a->options.dir = folder;
   int code = a->options.dir ? c->go(c->context, s, a) : failure(COROT_ENOMEM);
@@ -108,6 +108,18 @@ int variants_take_option(const char *program, const char *option, const char *te
   quantity_name(&q, out->name);
   snprintf(out->setting, sizeof out->setting, "quantities.%s=%s", out->name, out->text);
   return -1;
+}
+
+corot_status variants_retell(const variants_arguments *a, corot_status status) {
+  static const char head[] = "--set ";
+  const char *said = corot_error() + strlen(head);
+  if (status == COROT_OK || strncmp(corot_error(), head, strlen(head)) != 0) return status;
+  for (int i = a->nset - a->nasked; i < a->nset; i++) {
+    size_t length = strcspn(a->set[i], "=") + 1;
+    if (strncmp(said, a->set[i], length) == 0)
+      return corot_fail(status, "--quantity %s", said + length);
+  }
+  return status;
 }
 
 int variants_interrupted(int signal_number) {

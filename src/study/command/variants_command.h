@@ -11,6 +11,7 @@ typedef struct variants_arguments {
   execute_options options;
   int nset;
   const char **set; /* [nset] "KEY=VALUE" */
+  int nasked;       /* so many of the last ask for a --quantity */
   bool json;
 } variants_arguments;
 
@@ -42,6 +43,9 @@ int variants_take_quantity(const char *program, const char *text, quantity_optio
 /* The same of an option of another name. */
 int variants_take_option(const char *program, const char *option, const char *text,
                          quantity_option *out);
+
+/* A failure of the scenario: of a --quantity by that name, not by the setting that asks for it. */
+corot_status variants_retell(const variants_arguments *a, corot_status status);
 
 /* Words and exit code of one that a signal ended. */
 int variants_interrupted(int signal_number);

@@ -92,6 +92,7 @@ static goal_search begin(const goal_request *r, const scenario *s, goal_result *
                           .low = NAN,
                           .high = NAN,
                           .order = NAN,
+                          .limit = NAN,
                           .space = NAN,
                           .time = r->still ? 0 : NAN,
                           .algebra = NAN,

@@ -20,12 +20,14 @@
       whether in the unit, "met", "asymptotic": the error of the mesh is extrapolated from values
       that look as if that were allowed, "why_not": else, "order": observed; "parts": {"space",
       "time", "algebra", "frames", "model": the estimated size of each in the unit, null: not
-   known}, "half": {"space", "time", "algebra", "frames", "tail", "model" where it counts}: what
-   each widens the interval by; "model_counts", "obstacle": what stands in the way, "advice": what
-      would be well posed; null where it was met; "levels": [{"label", "tets", "dofs", "value",
-      "cpu_s"}] of the meshes, "attempts": [{"label", "order", "refine", "passes", "tets", "dofs",
-      "method", "rtol", "until", "value", "status", "reason", "id", "cpu_s"}], "cpu_s": of all,
-      "overhead": that over the cost of the last mesh} */
+      known}, "half": {"space", "time", "algebra", "frames", "tail", "model" where it counts}: what
+      each widens the interval by; "limit": what the values of the meshes tend to, null: not known;
+      "allowed": "within" in the unit; "measured": {"space", "time", "algebra", "model", "tail"}:
+      labels of the attempts that a part is known by; "model_counts", "obstacle": what stands in the
+      way, "advice": what would be well posed; null where it was met; "levels": [{"label", "tets",
+      "dofs", "value", "cpu_s"}] of the meshes, "attempts": [{"label", "order", "refine", "passes",
+      "tets", "dofs", "method", "rtol", "until", "value", "status", "reason", "id", "cpu_s"}],
+      "cpu_s": of all, "overhead": that over the cost of the last mesh} */
 #ifndef COROT_STUDY_GOAL_GOAL_H
 #define COROT_STUDY_GOAL_GOAL_H
 

@@ -59,6 +59,46 @@ static json_t *half_json(const goal_request *request, const goal_result *r) {
   return half;
 }
 
+/* --- By which attempts a part is known --- */
+
+static json_t *push_label(json_t *list, const goal_search *s, int i) {
+  return i < 0 ? list : json_text_push(list, json_text_string(goal_attempt(s, i)->label));
+}
+
+/* Two attempts that differ in one thing; none of them where either was not made. */
+static json_t *pair_json(const goal_search *s, int i, int of) {
+  json_t *list = json_array();
+  return i < 0 ? list : push_label(push_label(list, s, i), s, of);
+}
+
+/* The last three meshes; the first alone is compared with four-node tets. */
+static json_t *space_json(const goal_search *s) {
+  json_t *list = json_array();
+  if (s->nlevel == 1) list = push_label(list, s, s->coarse);
+  for (int i = s->nlevel > 3 ? s->nlevel - 3 : 0; i < s->nlevel; i++)
+    list = push_label(list, s, s->level[i]);
+  return list;
+}
+
+/* Two tolerances on ten-node tets; methods and tolerances on four-node ones. */
+static json_t *time_json(const goal_search *s) {
+  json_t *list = json_array();
+  if (s->attempts.still) return list;
+  if (s->nlevel > 0) list = push_label(push_label(list, s, s->level[0]), s, s->base_loose);
+  for (int i = 0; i < s->attempts.n; i++) {
+    const attempt_def *def = &s->attempts.all[i].def;
+    if (def->order == 1 && !def->tight_algebra && !def->green) list = push_label(list, s, i);
+  }
+  return list;
+}
+
+static json_t *measured_json(const goal_search *s) {
+  json_t *tail = pair_json(s, s->tail > 0 ? s->coarse : -1, s->nlevel > 0 ? s->level[0] : -1);
+  return json_pack("{s:o, s:o, s:o, s:o, s:o}", "space", space_json(s), "time", time_json(s),
+                   "algebra", pair_json(s, s->algebra, s->algebra_of), "model",
+                   pair_json(s, s->model, s->model_of), "tail", tail);
+}
+
 json_t *goal_json(const goal_search *s) {
   const goal_request *q = s->request;
   const goal_result *r = s->result;
@@ -74,6 +114,9 @@ json_t *goal_json(const goal_search *s) {
                 text_or_null(r->asymptotic ? NULL : r->why_not), "order", json_text_real(r->order));
   json = json_text_with(json, "parts", parts_json(r));
   json = json_text_with(json, "half", half_json(q, r));
+  json = json_text_with(json, "limit", json_text_real(r->limit));
+  json = json_text_with(json, "allowed", json_text_real(goal_allowed(q, r->value)));
+  json = json_text_with(json, "measured", measured_json(s));
   json = json_text_with(json, "model_counts", json_boolean(q->exact_model));
   json = json_text_with(json, "obstacle", text_or_null(r->met ? NULL : r->obstacle));
   json = json_text_with(json, "advice", text_or_null(r->advice));

@@ -16,7 +16,7 @@ bool goal_affords(goal_search *s, double cpu) {
   double spent = attempts_cpu(&s->attempts), limit = s->request->cpu_limit;
   if (spent + cpu <= limit) return true;
   snprintf(s->result->obstacle, sizeof s->result->obstacle,
-           "the limit of %g s of CPU: %.2g s are spent, and the next attempt needs about %.2g s "
+           "the limit of %g s of CPU: %.3g s are spent, and the next attempt needs about %.3g s "
            "(--cpu-limit)",
            limit, spent, cpu);
   return false;
@@ -149,6 +149,7 @@ void goal_sum_up(goal_search *s) {
   r->half_space = mesh.half;
   r->half_tail = s->tail * fabs(value);
   r->order = mesh.order;
+  r->limit = value + mesh.estimate;
   r->asymptotic = mesh.asymptotic;
   r->why_not = mesh.why;
   double half = r->half_space + r->half_time + r->half_algebra + r->half_tail + r->half_model;

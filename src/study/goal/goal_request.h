@@ -20,7 +20,8 @@ typedef struct goal_result {
   int exit_code;       /* of a first attempt that failed; 0: none did, or it is not known */
   bool senseless;      /* what was asked for makes no sense, as obstacle says */
   const char *why_not; /* asymptotic */
-  double order;
+  double order, limit; /* observed, extrapolated; NaN: not known */
+
   double space, time, algebra, model; /* estimates; NaN: not known */
   double half_space, half_time, half_algebra, half_tail, half_model;
   char obstacle[512]; /* "": none */

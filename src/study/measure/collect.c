@@ -77,6 +77,21 @@ static corot_status look_reference(measuring *g, int index, table_reference *t) 
 
 /* --- Cells --- */
 
+/* Its errors by name: against a reference, NULL: there is none, and against known values. */
+static corot_status name_errors(measuring *g, const table_reference *r, table_row *t) {
+  const manifest *m = g->m;
+  bool measured = r != NULL;
+  COROT_TRY(quantities_rate(m, t->quantity, measured ? r->quantity : NULL,
+                            measured ? r->quantity_floor : NULL, &t->off));
+  if (!measured && !quantities_are_known(m)) return COROT_OK;
+  json_t *named = measured ? errors_json(g->yardstick, &t->error) : json_object();
+  json_t *unrated = measured ? errors_unrated(g->yardstick, &t->error, &r->floor) : json_array();
+  t->error_json = quantities_with_off(m, t->off, measured, named);
+  t->unrated = quantities_with_unrated(m, t->off, measured, unrated);
+  t->at_most = quantities_at_most(m, t->off);
+  return t->error_json && t->unrated && t->at_most ? COROT_OK : no_memory();
+}
+
 /* Of a run that is done: what it cost, and how far off it is. */
 static corot_status measure_cell(measuring *g, const table_reference *references,
                                  const json_t *result, table_row *t) {
@@ -88,16 +103,12 @@ static corot_status measure_cell(measuring *g, const table_reference *references
   COROT_TRY(quantities_read(g->m, result, &t->quantity));
   corot_status status =
       measure_run(g, t->run, result, known ? c->reference : -1, &t->error, &t->drift);
-  if (status != COROT_OK) return note(status, &t->note);
-  if (r && !known) return copy_text("its reference is not known", &t->note);
-  if (!known) return COROT_OK;
-  COROT_TRY(quantities_measure(g->m, t->quantity, r->quantity, &t->quantity_error));
-  t->measured = true;
-  t->error_json =
-      quantities_with_errors(g->m, t->quantity_error, errors_json(g->yardstick, &t->error));
-  t->unrated = quantities_with_unrated(g->m, t->quantity_error, r->quantity_floor,
-                                       errors_unrated(g->yardstick, &t->error, &r->floor));
-  return t->error_json && t->unrated ? COROT_OK : no_memory();
+  t->measured = status == COROT_OK && known;
+  if (status != COROT_OK)
+    COROT_TRY(note(status, &t->note));
+  else if (r && !known)
+    COROT_TRY(copy_text("its reference is not known", &t->note));
+  return name_errors(g, t->measured ? r : NULL, t);
 }
 
 /* The codes in a run's result, each once, in the order they were given in. */
@@ -141,8 +152,8 @@ static corot_status look_cell(measuring *g, const table_reference *references, i
 
 /* -1: it is unknown. */
 static int find_measure(const manifest *m) {
-  for (int i = 0; i < m->nquantity; i++)
-    if (strcmp(m->quantity[i].text, m->measure) == 0) return ERROR_PROBES + i;
+  for (int i = 0; i <= m->nquantity; i++)
+    if (strcmp(quantity_error_name(m, i), m->measure) == 0) return ERROR_PROBES + i;
   return error_named(m->measure);
 }
 
@@ -174,9 +185,10 @@ static void free_rows(int n, table_row *row) {
     free(row[i].note);
     errors_free(&row[i].error);
     free(row[i].quantity);
-    free(row[i].quantity_error);
+    free(row[i].off);
     json_decref(row[i].error_json);
     json_decref(row[i].unrated);
+    json_decref(row[i].at_most);
     json_decref(row[i].approximations);
     json_decref(row[i].warnings);
   }

@@ -5,6 +5,7 @@
      builds      of the runs that are done, the build of most runs first (builds.h)
      mixed       a sentence where there are several: which runs are of which; null: there are not
      quantities  those that all runs are asked for, as text
+     known       of some of them {measure, value, within, scale}, as in the study file
      static      true: of equilibria, as of corot static
      columns     names of the cells' coordinates
      series      names, in alphabetical order
@@ -19,10 +20,12 @@
                    steps, rhs, factorisations, solves
        quantity    values by text; null: the run has none
        error       by name, as in errors.h: the largest over time, and NAME_end at the end; of a
-                   quantity, by its text, relative to the reference's value
+                   quantity, by its text, relative to the reference's value, or against a known
+                   value, signed, relative to its scale; total: the largest of the latter
        digits      mescd
        below_floor the study's measure is not rated, as it is below ten times the floor
-       unrated     all errors of which that is true
+       unrated     all errors of which that is true, of those against known values below `within`
+       at_most     what these are at most, by name, of known values alone
        drift       energy, momentum
        reference   number in the list of references
        note        why there are no errors, though the run is done

@@ -61,19 +61,19 @@ static json_t *cell_json(const manifest *m, const table_rows *t, const table_row
   const study_cell *c = r->cell;
   const table_reference *reference = r->measured ? &t->reference[c->reference] : NULL;
   const errors *floor = reference ? &reference->floor : NULL;
-  bool below = reference && !isnan(row_error(t, r)) && !row_is_rated(t, r, reference);
+  bool below = row_has_error(t, r) && !isnan(row_error(t, r)) && !row_is_rated(t, r);
   json_t *drifts = json_pack("{s:o, s:o}", "energy", json_text_real(r->drift.energy), "momentum",
                              json_text_real(r->drift.momentum));
   return json_pack(
-      "{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:s?, s:o, "
-      "s:o}",
+      "{s:s, s:s, s:O, s:o, s:s?, s:s, s:s?, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:o, s:s?, "
+      "s:o, s:o}",
       "id", r->run->id, "series", c->series, "settings", c->settings, "tolerance",
       json_text_real(c->tolerance), "tolerance_key", c->tolerance_key, "status",
       state_words[r->state], "reason", r->reason, "cost",
       r->state == RUN_DONE ? costs_json(&r->cost) : json_null(), "quantity",
       quantities_values(m, r->quantity), "error", owned(r->error_json), "digits",
       floor ? digits(&r->error, floor) : json_null(), "below_floor", below, "unrated",
-      owned(r->unrated), "drift", drifts, "reference",
+      owned(r->unrated), "at_most", owned(r->at_most), "drift", drifts, "reference",
       c->reference >= 0 ? json_integer(c->reference) : json_null(), "note", r->note, "shared",
       cell_shared(t, r), "warnings", owned(r->warnings));
 }
@@ -153,12 +153,12 @@ corot_status collect_json(const manifest *m, const table_rows *t, json_t *space,
   bool whole =
       (int)json_array_size(cells) == t->n && (int)json_array_size(references) == m->nreference;
   json_t *table = json_pack(
-      "{s:s, s:b, s:s, s:s, s:o, s:s, s:O, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}",
+      "{s:s, s:b, s:s, s:s, s:o, s:o, s:s, s:O, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:O}",
       "title", m->title, "static", m->still, "cost", m->cost, "measure", m->measure, "quantities",
-      quantity_texts(m), "corot", m->version, "builds", made_by, "mixed", builds_sentence(made_by),
-      "columns", columns_json(m), "series", series_json(t), "shared", table_shared(t), "references",
-      references, "fits", collect_fits(t), "quantity_fits", quantity_fits(m, t), "rankings",
-      collect_rankings(t), "cells", cells, "space", space);
+      quantity_texts(m), "known", quantities_known(m), "corot", m->version, "builds", made_by,
+      "mixed", builds_sentence(made_by), "columns", columns_json(m), "series", series_json(t),
+      "shared", table_shared(t), "references", references, "fits", collect_fits(t), "quantity_fits",
+      quantity_fits(m, t), "rankings", collect_rankings(t), "cells", cells, "space", space);
   if (!whole || !table) {
     json_decref(table);
     return no_memory();

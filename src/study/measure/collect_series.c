@@ -10,12 +10,6 @@
 #include "collect_shared.h"
 #include "fit.h"
 
-/* NULL: there is none that is known. */
-static const table_reference *reference_of(const table_rows *t, const table_row *r) {
-  int k = r->cell->reference;
-  return k >= 0 && t->reference[k].known ? &t->reference[k] : NULL;
-}
-
 static const char *key_of(const table_row *r) {
   return r->cell->tolerance_key ? r->cell->tolerance_key : "";
 }
@@ -29,11 +23,15 @@ static bool go_together(const table_row *a, const table_row *b) {
 
 static bool is_of_mesh(const char *key) { return key && strcmp(key, "mesh.refine") == 0; }
 
+/* Whether nobody knows how much of its error the mesh makes: the reference has the same. */
+static bool hides_mesh(const table_rows *t, const table_row *r) {
+  return r->measured && !row_is_of_known(t, r) && cell_shares_mesh(t, r);
+}
+
 static bool is_point(const table_rows *t, const table_row *r) {
-  const table_reference *reference = reference_of(t, r);
-  double error = r->measured && reference ? row_error(t, r) : 0;
-  if (is_of_mesh(r->cell->tolerance_key) && r->measured && cell_shares_mesh(t, r)) return false;
-  return r->cell->tolerance > 0 && error > 0 && isfinite(error) && row_is_rated(t, r, reference);
+  double error = row_has_error(t, r) ? row_error(t, r) : 0;
+  if (is_of_mesh(r->cell->tolerance_key) && hides_mesh(t, r)) return false;
+  return r->cell->tolerance > 0 && error > 0 && isfinite(error) && row_is_rated(t, r);
 }
 
 static json_t *fit_json(const table_row *r, const power_fit *f) {
@@ -69,12 +67,10 @@ json_t *collect_fits(const table_rows *t) {
 
 /* --- Rankings --- */
 
-/* What the error is at most, as far as the reference is known. */
+/* What the error is at most, as far as what it is held against is known. */
 static double bound(const table_rows *t, const table_row *r) {
-  const table_reference *reference = reference_of(t, r);
-  if (!r->measured || !reference) return INFINITY;
-  if (t->total && cell_shares_mesh(t, r)) return INFINITY; /* nobody knows its mesh's */
-  return row_error(t, r) + row_floor(t, reference);
+  if (!row_has_error(t, r) || (t->total && hides_mesh(t, r))) return INFINITY;
+  return row_error(t, r) + row_floor(t, r);
 }
 
 /* The cheapest row of a series with an error of at most `target`; NULL: there is none. */

@@ -95,6 +95,16 @@ static corot_status read_heads(manifest *m, const char *where) {
   return read_texts(json_object_get(m->root, "columns"), where, "columns", &m->ncolumn, &m->column);
 }
 
+/* NULL: there is none. */
+static bool read_known(const json_t *known, study_quantity *q) {
+  q->known = known != NULL;
+  if (!known) return true;
+  q->value = json_number_value(json_object_get(known, "value"));
+  q->within = json_number_value(json_object_get(known, "within"));
+  q->scale = json_number_value(json_object_get(known, "scale"));
+  return q->within >= 0 && q->scale > 0;
+}
+
 /* A study of an earlier version has none. */
 static corot_status read_quantities(manifest *m, const char *where) {
   const json_t *list = json_object_get(m->root, "quantities");
@@ -104,7 +114,9 @@ static corot_status read_quantities(manifest *m, const char *where) {
   for (int i = 0; i < m->nquantity; i++) {
     const json_t *entry = json_array_get(list, (size_t)i);
     m->quantity[i] = (study_quantity){.text = text_of(entry, "of"), .name = text_of(entry, "name")};
-    if (!m->quantity[i].text || !m->quantity[i].name) return malformed(where, "quantities");
+    if (!m->quantity[i].text || !m->quantity[i].name ||
+        !read_known(json_object_get(entry, "known"), &m->quantity[i]))
+      return malformed(where, "quantities");
   }
   return COROT_OK;
 }

@@ -400,11 +400,18 @@ static json_t *column_names(const study *s) {
   return list;
 }
 
+static json_t *quantity_json(const study_quantity *q) {
+  json_t *entry = json_pack("{s:s, s:s}", "of", q->text, "name", q->name);
+  if (!q->known) return entry;
+  return json_text_with(
+      entry, "known",
+      json_pack("{s:f, s:f, s:f}", "value", q->value, "within", q->within, "scale", q->scale));
+}
+
 static json_t *quantity_list(const study *s) {
   json_t *list = json_array();
   for (int i = 0; i < s->nquantity; i++)
-    list = json_text_push(
-        list, json_pack("{s:s, s:s}", "of", s->quantity[i].text, "name", s->quantity[i].name));
+    list = json_text_push(list, quantity_json(&s->quantity[i]));
   return list;
 }
 

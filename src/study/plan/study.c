@@ -47,10 +47,20 @@ static corot_status read_heads(study *s, const char *path) {
   return check_base(s);
 }
 
+/* Whether somebody has said how references are run. */
+static bool asks_for_runs(config_node *reference) {
+  static const char *const key[] = {"use", "rtol", "methods", "set"};
+  bool asks = false;
+  for (size_t i = 0; i < sizeof key / sizeof *key; i++)
+    asks |= config_find(reference, key[i])->source != NULL;
+  return asks;
+}
+
 static corot_status read_reference(study *s) {
   config_node *node = config_find(s->tree->root, "reference");
   const config_node *methods = config_find(node, "methods");
-  s->referred = strcmp(config_find(node, "use")->text, "auto") == 0;
+  s->referred =
+      strcmp(config_find(node, "use")->text, "auto") == 0 && (!s->all_known || asks_for_runs(node));
   if (methods->nchild != 2)
     return config_fail(methods, "two methods: how far they agree is what is known");
   if (s->still && methods->source)

@@ -34,9 +34,14 @@ typedef struct grid {
 
 /* A quantity that every run is asked for. */
 typedef struct study_quantity {
-  const char *text; /* as quantity_print() writes it */
-  const char *name; /* in the scenario's `quantities` */
+  const char *text;            /* as quantity_print() writes it */
+  const char *name;            /* in the scenario's `quantities` */
+  bool known;                  /* its value is, in its own unit: */
+  double value, within, scale; /* how far off it may be, >= 0; what errors are relative to, > 0 */
 } study_quantity;
+
+/* The error that is the largest of those against known values. */
+#define STUDY_TOTAL "total"
 
 /* One run that the study asks for. */
 typedef struct cell {
@@ -72,7 +77,8 @@ typedef struct study {
 
   const config_node *tolerance; /* list of keys: the first that is a coordinate of a cell */
   const config_node *group;     /* list of columns that name the series; NULL: all the others */
-  const char *cost, *measure;   /* by which cells are compared: a norm, or a quantity's text */
+  const char *cost, *measure;   /* by which cells are compared: a norm, a quantity's text, total */
+  bool all_known;               /* all that is measured is a quantity with a known value */
   int nquantity;
   const study_quantity *quantity; /* [nquantity] */
 
@@ -102,7 +108,7 @@ corot_status study_read_axes(config *tree, const config_node *list, int nabove, 
 corot_status study_read_settings(config *tree, const config_node *map, int *nset,
                                  const setting **set);
 
-/* measure, quantity, and the settings that ask for it, after `set`. */
+/* measure, quantity with its known value, and the settings that ask for it, after `set`. */
 corot_status study_read_measures(study *s);
 
 /* Makes study.cell from study.grid. */

@@ -47,10 +47,15 @@ static const schema_key keys[] = {
   {"reference.mesh",       CHOICE,        OPTIONAL, ANY,      "",  "finest", "finest|own", "finest: where cells differ in mesh.refine or mesh.order, all are held against one reference on the finest of both, or on what reference.set says, at their nodes, which it must have: errors are those of the mesh, too; own: each mesh has a reference of its own"},
   {"reference.set",        SCHEMA_OPEN,   OPTIONAL, ANY,      "",  "{}", 0, "keys that are the same for all references, such as the strain: errors are then those of the model, too"},
 
+  {"reference.known",      SCHEMA_NAMED_SHORT, OPTIONAL, ANY, "",  "{}", 0, "values that are known, by quantities of measure or by names of the scenario's quantities: {max(corner.ux): 0.1}. Errors of these are total, signed, and need no reference run; where all that is measured is known, none is made unless use, rtol, methods or set is given"},
+  {"reference.known.NAME.value", NUMBER,  REQUIRED, ANY,      "",  0, 0, "what it is, in the quantity's unit"},
+  {"reference.known.NAME.within", NUMBER, OPTIONAL, SCHEMA_NOT_NEGATIVE, "", "0", 0, "how far off the known value may be, in the same unit; of an error below that it is said what it is at most"},
+  {"reference.known.NAME.scale", NUMBER,  OPTIONAL, POSITIVE, "",  "auto", "auto", "what errors are relative to, in the same unit; auto: the value's size"},
+
   {"tolerance",            SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  "[integrator.rtol, integrator.step, statics.tolerance, mesh.refine]", 0, "the key that makes a run finer along a series; of several, the first that is varied. mesh.refine counts as the size of the tets, 2^-refine"},
   {"group",                SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  0, 0, "the columns that tell series apart; default: all but the tolerance"},
   {"cost",                 CHOICE,        OPTIONAL, ANY,      "",  "cpu", "cpu|wall|steps|rhs|factorisations|solves", "by which runs are compared"},
-  {"measure",              SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  "displacement", 0, "the error by which runs are compared: displacement, velocity, energy, mixed, or that of a quantity, such as max(corner.ux), as in quantities of a scenario; of several, by the first, and all runs are asked for all quantities"},
+  {"measure",              SCHEMA_TEXTS,  OPTIONAL, ANY,      "",  "displacement", 0, "the error by which runs are compared: displacement, velocity, energy, mixed, or that of a quantity, such as max(corner.ux), as in quantities of a scenario, or one of its names; total: the largest of those that reference.known has values for, and the default where it has; of several, by the first, and all runs are asked for all quantities"},
 };
 /* clang-format on */
 

@@ -41,7 +41,7 @@ static bool among(const char *word, size_t n, const char *const *list) {
 
 /* Whether a coordinate has the name of a column of ours. */
 static bool is_taken(const char *key) {
-  static const char *const prefix[] = {"cost.", "error.", "drift.", "quantity."};
+  static const char *const prefix[] = {"cost.", "error.", "at_most.", "drift.", "quantity."};
   for (size_t i = 0; i < COUNT(prefix); i++)
     if (strncasecmp(key, prefix[i], strlen(prefix[i])) == 0) return true;
   return among(key, COUNT(before), before) || among(key, COUNT(after), after) ||
@@ -85,6 +85,16 @@ static corot_status add_quantities(flat *f, const json_t *quantities) {
   return COROT_OK;
 }
 
+/* Of errors against known values. */
+static corot_status add_bounds(flat *f, const json_t *known) {
+  for (size_t i = 0; i < json_array_size(known); i++) {
+    const char *text = json_string_value(json_object_get(json_array_get(known, i), "measure"));
+    if (!text) return corot_fail(COROT_EFORMAT, "table.json: not a table of a study");
+    COROT_TRY(add(f, "at_most", "at_most.", text));
+  }
+  return json_array_size(known) > 0 ? add(f, "at_most", "at_most.", "total") : COROT_OK;
+}
+
 static corot_status fill(flat *f, const json_t *table, json_t *errors) {
   const json_t *columns = json_object_get(table, "columns");
   COROT_TRY(add_all(f, NULL, "", COUNT(before), before));
@@ -93,6 +103,7 @@ static corot_status fill(flat *f, const json_t *table, json_t *errors) {
   COROT_TRY(add_all(f, "cost", "cost.", COUNT(costs), costs));
   COROT_TRY(add_quantities(f, json_object_get(table, "quantities")));
   COROT_TRY(add_errors(f, errors));
+  COROT_TRY(add_bounds(f, json_object_get(table, "known")));
   COROT_TRY(add_all(f, "drift", "drift.", COUNT(drifts), drifts));
   return add_all(f, NULL, "", COUNT(last), last);
 }
@@ -104,8 +115,8 @@ corot_status flat_make(const json_t *table, flat *out) {
     return corot_fail(COROT_EFORMAT, "table.json: not a table of a study");
   json_t *errors = richest_errors(cells);
   size_t n = json_array_size(columns) + json_array_size(json_object_get(table, "quantities")) +
-             json_object_size(errors) + COUNT(before) + COUNT(after) + COUNT(costs) +
-             COUNT(drifts) + COUNT(last);
+             json_object_size(errors) + json_array_size(json_object_get(table, "known")) + 1 +
+             COUNT(before) + COUNT(after) + COUNT(costs) + COUNT(drifts) + COUNT(last);
   flat f = {.column = calloc(n, sizeof *f.column)};
   if (!f.column) return corot_fail(COROT_ENOMEM, "out of memory");
   corot_status status = fill(&f, table, errors);

@@ -16,7 +16,8 @@ enum { MAX_COLUMNS = 80, CELL = 40 };
 typedef struct column {
   const char *title, *group, *key;
   int width;
-  bool number; /* to the right */
+  bool number;    /* to the right */
+  bool is_signed; /* it is an error against a known value */
 } column;
 
 typedef struct layout {
@@ -26,7 +27,7 @@ typedef struct layout {
 
 static void add(layout *l, const char *title, const char *group, const char *key, bool number) {
   if (l->n < MAX_COLUMNS)
-    l->column[l->n++] = (column){title, group, key, (int)strlen(title), number};
+    l->column[l->n++] = (column){title, group, key, (int)strlen(title), number, false};
 }
 
 static const json_t *value_of(const json_t *cell, const column *c) {
@@ -46,18 +47,23 @@ static void write_cell(const json_t *cell, const column *c, char text[CELL]) {
   const json_t *value = value_of(cell, c);
   bool error = c->group && strcmp(c->group, "error") == 0;
   bool quantity = c->group && strcmp(c->group, "quantity") == 0;
+  bool imbalance = c->group && strcmp(c->group, "drift") == 0;
   bool doubtful = error && is_unrated(cell, c->key);
-  if (json_is_string(value))
+  const json_t *most = doubtful ? json_object_get(json_object_get(cell, "at_most"), c->key) : NULL;
+  if (json_is_real(most))
+    snprintf(text, CELL, "< %.1e", json_real_value(most));
+  else if (json_is_string(value))
     escape_line_cut(json_string_value(value), CELL, text);
   else if (json_is_integer(value))
     snprintf(text, CELL, "%lld", (long long)json_integer_value(value));
   else if (json_is_real(value))
     snprintf(text, CELL,
-             doubtful   ? "(%.1e)"
-             : error    ? "%.2e"
-             : quantity ? "%.6g"
-             : c->group ? "%.4g"
-                        : "%.2f",
+             doubtful    ? "(%.1e)"
+             : error     ? (c->is_signed ? "%+.2e" : "%.2e")
+             : quantity  ? "%.6g"
+             : imbalance ? "%.1e"
+             : c->group  ? "%.4g"
+                         : "%.2f",
              json_real_value(value));
   else if (!value || json_is_null(value))
     snprintf(text, CELL, "-");
@@ -77,11 +83,22 @@ static bool has_numbers(const json_t *cells, const column *c) {
   return found;
 }
 
+static bool is_known(const json_t *known, const char *quantity) {
+  bool found = false;
+  for (size_t i = 0; i < json_array_size(known); i++) {
+    const char *text = json_string_value(json_object_get(json_array_get(known, i), "measure"));
+    found |= text && strcmp(text, quantity) == 0;
+  }
+  return found;
+}
+
 static void lay_out(const json_t *table, layout *l) {
   static const char *const errors[] = {"displacement", "velocity", "energy"};
   const json_t *columns = json_object_get(table, "columns");
   const json_t *cells = json_object_get(table, "cells");
   const json_t *quantities = json_object_get(table, "quantities");
+  const json_t *known = json_object_get(table, "known");
+  bool norms = json_array_size(known) == 0 || json_array_size(json_object_get(table, "references"));
   /* the columns */
   for (size_t i = 0; i < json_array_size(columns); i++) {
     const char *key = json_string_value(json_array_get(columns, i));
@@ -93,15 +110,19 @@ static void lay_out(const json_t *table, layout *l) {
   add(l, "steps", "cost", "steps", true);
   add(l, "rhs", "cost", "rhs", true);
   add(l, "factorisations", "cost", "factorisations", true);
-  for (size_t i = 0; i < sizeof errors / sizeof *errors; i++)
+  for (size_t i = 0; norms && i < sizeof errors / sizeof *errors; i++)
     add(l, errors[i], "error", errors[i], true);
-  add(l, "digits", NULL, "digits", true);
+  if (norms) add(l, "digits", NULL, "digits", true);
+  add(l, "imbalance", "drift", "energy", true);
+  if (!has_numbers(cells, &l->column[l->n - 1])) l->n--;
   for (size_t i = 0; i < json_array_size(quantities); i++) {
     const char *text = json_string_value(json_array_get(quantities, i));
     if (!text) continue;
     add(l, text, "quantity", text, true);
     add(l, "error", "error", text, true);
+    l->column[l->n - 1].is_signed = is_known(known, text);
   }
+  if (json_array_size(known) > 1) add(l, "total error", "error", "total", true);
 
   /* each as wide as its widest cell */
   char text[CELL];
@@ -157,6 +178,19 @@ static corot_status print_references(const json_t *table, FILE *out) {
   return COROT_OK;
 }
 
+static void print_known(const json_t *list, FILE *out) {
+  if (json_array_size(list) > 0)
+    fputs("\nknown values, against which errors are total, signed and relative\n", out);
+  for (size_t i = 0; i < json_array_size(list); i++) {
+    const json_t *k = json_array_get(list, i);
+    fprintf(out, "  %s = %.6g", text_at(k, "measure"), number_at(k, "value"));
+    if (number_at(k, "within") > 0) fprintf(out, ", within %.3g", number_at(k, "within"));
+    if (number_at(k, "scale") != fabs(number_at(k, "value")))
+      fprintf(out, ", relative to %.6g", number_at(k, "scale"));
+    fputc('\n', out);
+  }
+}
+
 static void print_space(const json_t *list, FILE *out) {
   if (json_array_size(list) > 0) fputs("\nspace, by references of neighbouring levels\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
@@ -168,9 +202,18 @@ static void print_space(const json_t *list, FILE *out) {
   }
 }
 
+/* Of a fit through too few points, of which there may be one for each series. */
+static bool says_nothing(const json_t *fit) {
+  return strncmp(text_at(fit, "verdict"), "too few points", 14) == 0;
+}
+
 static void print_fits(const json_t *list, FILE *out) {
+  size_t nothing = 0;
+  for (size_t i = 0; i < json_array_size(list); i++)
+    nothing += says_nothing(json_array_get(list, i));
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *f = json_array_get(list, i);
+    if (nothing > 1 && says_nothing(f)) continue;
     bool measure = json_is_string(json_object_get(f, "measure"));
     fprintf(out, "  %s%s", measure ? text_at(f, "measure") : "", measure ? ", " : "");
     escape_line(text_at(f, "series"), out);
@@ -181,13 +224,15 @@ static void print_fits(const json_t *list, FILE *out) {
               text_at(f, "tolerance_key"));
     fprintf(out, "%s\n", text_at(f, "verdict"));
   }
+  if (nothing > 1) fprintf(out, "  too few points to say of %zu series\n", nothing);
 }
 
 static void print_rankings(const json_t *table, FILE *out) {
   const json_t *list = json_object_get(table, "rankings");
+  bool total = strcmp(text_at(table, "measure"), "total") == 0;
   if (json_array_size(list) > 0)
-    fprintf(out, "\ncheapest by %s for an error of %s of at most\n", text_at(table, "cost"),
-            text_at(table, "measure"));
+    fprintf(out, "\ncheapest by %s for %s%s of at most\n", text_at(table, "cost"),
+            total ? "a total error" : "an error of ", total ? "" : text_at(table, "measure"));
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *entry = json_array_get(list, i), *best = json_object_get(entry, "best");
     fprintf(out, "  %.0e: ", number_at(entry, "error"));
@@ -223,6 +268,7 @@ corot_status table_print(const json_t *table, FILE *out) {
     fprintf(out, "\n%s\n", text_at(table, "shared"));
   if (json_is_string(json_object_get(table, "mixed")))
     fprintf(out, "\n%s\n", text_at(table, "mixed"));
+  print_known(json_object_get(table, "known"), out);
   COROT_TRY(print_references(table, out));
   print_space(json_object_get(table, "space"), out);
   if (json_array_size(json_object_get(table, "fits")) > 0)
