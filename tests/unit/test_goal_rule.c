@@ -13,8 +13,8 @@ static void make(double order, double first, double r, goal_level level[3]) {
   }
 }
 
-/* One power of the size: the error is found exactly, whatever the sizes, and the truth is inside.
- */
+/* One power of the size: the error is found, whatever the sizes; exactly, where no corner has to be
+   feared, and else a little more; and the truth is inside. */
 static void a_power_is_found(void **state) {
   (void)state;
   static const double orders[] = {0.6, 1, 1.5, 2, 3, 4, 4.8};
@@ -26,7 +26,10 @@ static void a_power_is_found(void **state) {
       double error = 1 - level[2].value;
       assert_true(e.asymptotic && !e.why && !e.settled && !e.diverging);
       assert_close(e.order, orders[i], 1e-8, 0);
-      assert_close(e.estimate, error, 1e-7, 0);
+      if (orders[i] >= 3)
+        assert_close(e.estimate, error, 1e-7, 0);
+      else
+        assert_true(e.estimate > error && e.estimate < 1.3 * error);
       assert_true(e.half >= GOAL_SAFETY * error * (1 - 1e-7));
     }
 }
@@ -40,7 +43,7 @@ static void ratios_may_differ(void **state) {
   goal_error e = goal_judge(3, level, NAN, 0);
   assert_true(e.asymptotic);
   assert_close(e.order, 1.4, 1e-8, 0);
-  assert_close(e.estimate, 2 - level[2].value, 1e-7, 0);
+  assert_close(e.estimate, 2 - level[2].value, 0.2, 0);
 }
 
 /* A smooth part of order 4 that is the larger one to begin with, and a singular one of order 1.2

@@ -108,6 +108,8 @@ static int ready(void *context, variants_arguments *v) {
                        "--within-abs it is in the quantity's unit",
                        a->request.within);
   v->set[v->nset++] = a->goal.setting;
+  v->nasked = 1;
+  v->asked_by = "--goal";
   return -1;
 }
 

@@ -117,7 +117,7 @@ corot_status variants_retell(const variants_arguments *a, corot_status status) {
   for (int i = a->nset - a->nasked; i < a->nset; i++) {
     size_t length = strcspn(a->set[i], "=") + 1;
     if (strncmp(said, a->set[i], length) == 0)
-      return corot_fail(status, "--quantity %s", said + length);
+      return corot_fail(status, "%s %s", a->asked_by ? a->asked_by : "--quantity", said + length);
   }
   return status;
 }

@@ -10,8 +10,9 @@
 typedef struct variants_arguments {
   execute_options options;
   int nset;
-  const char **set; /* [nset] "KEY=VALUE" */
-  int nasked;       /* so many of the last ask for a --quantity */
+  const char **set;     /* [nset] "KEY=VALUE" */
+  int nasked;           /* so many of the last ask for a --quantity */
+  const char *asked_by; /* the option that asked for them; NULL: --quantity */
   bool json;
 } variants_arguments;
 

@@ -61,9 +61,13 @@ static corot_status make_base(goal_search *s) {
   if (is_over(s)) return COROT_OK;
   goal_choose_window(s);
   goal_plan_loose(s);
-  goal_plan_rest(s);
+  goal_plan_model(s);
   COROT_TRY(attempts_make(&s->attempts));
-  return s->attempts.signal_number ? COROT_OK : goal_settle_time(s);
+  if (s->attempts.signal_number) return COROT_OK;
+  COROT_TRY(goal_settle_time(s));
+  if (s->attempts.signal_number) return COROT_OK;
+  goal_plan_algebra(s);
+  return attempts_make(&s->attempts);
 }
 
 static corot_status refine(goal_search *s) {
@@ -117,6 +121,7 @@ corot_status goal_solve(const goal_request *r, const scenario *s, int nset, cons
   snprintf(column, sizeof column, "%.*s", (int)r->quantity->column_length,
            r->quantity->text + r->quantity->column_at);
   search_of.attempts = (attempts){.scenario = s,
+                                  .quantity = r->quantity,
                                   .name = r->name,
                                   .column = column,
                                   .still = r->still,

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "app/text/no_memory.h"
 #include "app/text/say.h"
@@ -87,12 +88,25 @@ static void set_time(const scenario *s, const attempt_def *def, attempt *a) {
   if (def->until < s->t_end) add(a, "time.end=%.17g", def->until);
 }
 
+/* A window that ends later than the run. */
+static void set_window(const attempts *all, attempt *a) {
+  quantity q = *all->quantity;
+  char text[QUANTITY_TEXT];
+  if (!(q.to > a->def.until) || isinf(q.to)) return;
+  q.to = a->def.until;
+  quantity_print(&q, text);
+  add(a, "quantities.%s=%s", all->name, text);
+}
+
 static corot_status set_all(const attempts *all, attempt *a) {
   const scenario *s = all->scenario;
   const attempt_def *def = &a->def;
   set_model(s, def, a);
   COROT_TRY(set_mesh(all, def, a));
-  if (!all->still) set_time(s, def, a);
+  if (!all->still) {
+    set_time(s, def, a);
+    set_window(all, a);
+  }
   if (all->still && def->tight_algebra) add(a, "statics.tolerance=1e-13");
   if (def->tight_algebra) add(a, "linear_solver.tolerance=1e-13");
   if (s->write_fields) add(a, "output.fields=none");
@@ -193,6 +207,18 @@ static void tell(const attempts *all, const attempt *a) {
     say("%s: %d tets, %.6g %s (%.2g s)\n", a->label, a->tets, a->value, all->unit, a->cpu);
 }
 
+/* Processes inherit the limit, each for itself; what this one has used counts for it alone. */
+static void limit_cpu(const attempts *a, struct rlimit *before) {
+  struct rusage own;
+  getrlimit(RLIMIT_CPU, before);
+  getrusage(RUSAGE_SELF, &own);
+  double left = fmax(0, a->cpu_limit - attempts_cpu(a)) + (double)own.ru_utime.tv_sec + 2;
+  struct rlimit limit = *before;
+  if (left < 1e9 && (limit.rlim_cur == RLIM_INFINITY || left < (double)limit.rlim_cur))
+    limit.rlim_cur = (rlim_t)ceil(left);
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
 corot_status attempts_make(attempts *a) {
   variant list[ATTEMPT_MOST];
   const char *set[ATTEMPT_MOST][ATTEMPT_SETTINGS];
@@ -211,13 +237,15 @@ corot_status attempts_make(attempts *a) {
                 .nvariant = a->n,
                 .variant = list};
   execute_options options = a->options;
-  double left = 2 * (a->cpu_limit - attempts_cpu(a)) + 5; /* runs share processors */
-  if (!(options.timeout > 0) || options.timeout > left) options.timeout = fmax(left, 1);
   options.expects_failures = true;
   options.progress = false;
   options.tells_builds = !a->manifest;
   manifest *m = NULL;
-  COROT_TRY(variants_execute(&v, &options, &m, at, &a->signal_number));
+  struct rlimit before;
+  limit_cpu(a, &before);
+  corot_status status = variants_execute(&v, &options, &m, at, &a->signal_number);
+  setrlimit(RLIMIT_CPU, &before);
+  COROT_TRY(status);
   manifest_destroy(a->manifest);
   a->manifest = m;
   for (int i = 0; i < a->n && !a->signal_number; i++) {

@@ -10,7 +10,7 @@
 enum {
   ATTEMPT_MOST = 64,
   ATTEMPT_SETTINGS = 12,
-  ATTEMPT_SETTING_SIZE = 192,
+  ATTEMPT_SETTING_SIZE = 2 * QUANTITY_TEXT + 16,
   ATTEMPT_LABEL_SIZE = 128,
   ATTEMPT_REASON_SIZE = 256,
 };
@@ -45,6 +45,7 @@ typedef struct attempt {
 
 typedef struct attempts {
   const scenario *scenario;
+  const quantity *quantity;
   const char *name;   /* of the quantity */
   const char *column; /* of the quantity */
   bool still;

@@ -59,27 +59,24 @@ static attempt_def base_def(const goal_search *s) {
   return def;
 }
 
-/* Where runs are cheap: of motion, four-node tets. */
-static void plan_algebra(goal_search *s) {
+/* Where runs are cheap: of motion, four-node tets, at the tolerance in use. */
+void goal_plan_algebra(goal_search *s) {
   attempt_def def = goal_attempt(s, s->request->still ? s->level[0] : s->coarse)->def;
-  s->algebra_of = s->request->still ? s->level[0] : s->coarse;
+  if (!s->request->still) def.rtol = s->rtol;
+  s->algebra_of = attempts_plan(&s->attempts, def);
   def.tight_algebra = true;
   s->algebra = attempts_plan(&s->attempts, def);
 }
 
-/* On the first mesh of ten-node tets, as far as the window; the same by the scenario's own measure
-   is there already, or is the first level, whose extreme is inside of the window. */
-static void plan_model(goal_search *s) {
+/* Of an equilibrium, or where it counts, on the first mesh of ten-node tets, as far as the window;
+   else on four-node tets. */
+void goal_plan_model(goal_search *s) {
   if (corot_strain_find(s->attempts.scenario->model.strain)->exact) return;
-  attempt_def def = base_def(s);
+  bool counts = s->request->still || s->request->exact_model;
+  s->model_of = counts ? s->level[0] : s->coarse;
+  attempt_def def = counts ? base_def(s) : goal_attempt(s, s->coarse)->def;
   def.green = true;
-  s->model_of = s->level[0];
   s->model = attempts_plan(&s->attempts, def);
-}
-
-void goal_plan_rest(goal_search *s) {
-  plan_algebra(s);
-  plan_model(s);
 }
 
 /* Scaled from the mesh where it was measured to the value. */
@@ -93,14 +90,16 @@ static void sum_algebra(const goal_search *s, double value) {
   if (s->algebra < 0) return;
   double of = goal_value(s, s->algebra_of), tight = goal_value(s, s->algebra);
   r->algebra = isnan(tight) ? NAN : scaled(tight - of, of, value);
-  r->half_algebra = isnan(tight) ? 0 : 2 * r->algebra;
+  /* what is seen of it goes with the steps, which tolerances of the algebra change, too */
+  r->half_algebra = isnan(tight) ? 0 : fmax(0, 2 * r->algebra - r->half_time);
 }
 
 static void sum_model(const goal_search *s) {
   goal_result *r = s->result;
   r->model = r->half_model = 0;
   if (corot_strain_find(s->attempts.scenario->model.strain)->exact) return;
-  r->model = fabs(goal_value(s, s->model) - goal_value(s, s->model_of));
+  r->model = scaled(goal_value(s, s->model) - goal_value(s, s->model_of),
+                    goal_value(s, s->model_of), goal_value(s, s->level[s->nlevel - 1]));
   if (s->request->exact_model) r->half_model = isnan(r->model) ? INFINITY : 1.25 * r->model;
 }
 
@@ -143,7 +142,7 @@ void goal_sum_up(goal_search *s) {
   double value = goal_value(s, s->level[s->nlevel - 1]);
   sum_algebra(s, value);
   sum_model(s);
-  double noise = fmax(r->half_time + r->half_algebra, 1e-9 * fabs(value));
+  double noise = fmax(GOAL_NOISE * (r->half_time + r->half_algebra), 1e-9 * fabs(value));
   goal_error mesh = judge_mesh(s, noise);
   r->space = fabs(mesh.estimate);
   r->half_space = mesh.half;

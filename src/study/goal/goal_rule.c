@@ -46,6 +46,11 @@ static void widen(goal_error *e, double d1, double d2, double ratio) {
   e->half = isfinite(d) ? GOAL_SAFETY_UNPROVEN * d * fmax(1, remainder_of(ratio, 1)) : INFINITY;
 }
 
+/* The order that is seen falls to that of a singularity from mesh to mesh: below two it will. */
+static double falls_to(double order) {
+  return 1 - (1 - GOAL_ORDER_FALLS) * fmin(1, fmax(0, 3 - order) / 1.5);
+}
+
 goal_error goal_judge(int n, const goal_level *level, double coarse, double noise) {
   if (n < 2) return judge_one(level, coarse);
   const goal_level *last = level + n - 1;
@@ -53,13 +58,15 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
   double d1 = n >= 3 ? last[-1].value - last[-2].value : NAN;
   goal_error e = {.order = NAN, .why = "there are but two meshes of ten-node tets"};
 
-  /* nothing to be seen beside what the values are known by anyway */
-  if (fabs(d2) <= noise && (n == 2 || fabs(d1) <= noise)) {
-    e.settled = true;
-    e.asymptotic = n >= 3;
+  /* nothing to be seen beside what the values are known by anyway; of two meshes with ten-node tets
+     four-node ones are the third */
+  double before = n >= 3 ? d1 : last[-1].value - coarse;
+  e.settled = fabs(d2) <= noise && !(n >= 3 && fabs(d1) > noise);
+  if (e.settled) {
+    e.asymptotic = fabs(before) <= noise;
     e.why = e.asymptotic ? NULL : e.why;
     e.estimate = d2;
-    e.half = noise + GOAL_SAFETY_UNPROVEN * fabs(d2);
+    e.half = GOAL_SAFETY_UNPROVEN * fabs(d2) + noise;
     return e;
   }
   if (n >= 3) {
@@ -74,7 +81,7 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
     return e;
   }
   double cautious = fmin(GOAL_CAUTIOUS_FACTOR * e.order, GOAL_CAUTIOUS_ORDER);
-  e.estimate = d2 * remainder_of(ratio, e.order);
+  e.estimate = d2 * remainder_of(ratio, e.order * falls_to(e.order));
   double least = fabs(d1) * pow(ratio, -GOAL_CAUTIOUS_FALL);
   e.half = GOAL_SAFETY * fmax(fmax(fabs(d2), least), noise) * remainder_of(ratio, cautious);
   return e;

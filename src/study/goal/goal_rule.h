@@ -8,12 +8,13 @@
    J. Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter
    5).
 
-   One thing is added: half-widths count six tenths of the observed order, and none above
-   GOAL_CAUTIOUS_ORDER. The smooth part of an error vanishes first, and the order it vanishes with
-   says little of what a singular corner leaves: the order that is seen falls from mesh to mesh. Nor
-   is it counted that the last difference has fallen faster than at order GOAL_CAUTIOUS_FALL, which
-   may be chance. With that the interval holds for any sum of a part of order 4 and one of
-   order 1.2, whichever is the larger, and sizes in ratios from 1.3 to 2
+   Near a re-entrant corner the order that is seen falls from mesh to mesh, to 2 x 0.54 of an L; so
+   e counts nine tenths of an order of 1.5 or less, all of one of 3 and more. For half-widths more
+   is taken away: they count six tenths of the observed order, and none above GOAL_CAUTIOUS_ORDER.
+   The smooth part of an error vanishes first, and the order it vanishes with says little of what a
+   singular corner leaves. Nor is it counted that the last difference has fallen faster than at
+   order GOAL_CAUTIOUS_FALL, which may be chance. With that the interval holds for any sum of a part
+   of order 4 and one of order 1.2, whichever is the larger, and sizes in ratios from 1.3 to 2
    (tests/unit/test_goal_rule.c).
  */
 #ifndef COROT_STUDY_GOAL_GOAL_RULE_H
@@ -28,6 +29,7 @@
 #define GOAL_CAUTIOUS_ORDER 1.5
 #define GOAL_CAUTIOUS_FACTOR 0.6
 #define GOAL_CAUTIOUS_FALL 3.0
+#define GOAL_ORDER_FALLS 0.9
 
 #define GOAL_SAFETY 1.25         /* asymptotic */
 #define GOAL_SAFETY_UNPROVEN 3.0 /* not */

@@ -11,6 +11,9 @@ enum { GOAL_LEVELS = 12 };
 /* A part may take so much of what is allowed; the mesh gets the rest. */
 #define GOAL_TIME_SHARE 0.15
 
+/* Errors of time and algebra are much the same on all meshes: so much of them is not. */
+#define GOAL_NOISE 0.2
+
 typedef struct goal_search {
   const goal_request *request;
   attempts attempts;
@@ -66,7 +69,8 @@ corot_status goal_find_tail(goal_search *s);
 corot_status goal_refine(goal_search *s, bool *made);
 
 /* What algebra and strain measure do, on a mesh where that is cheap. */
-void goal_plan_rest(goal_search *s);
+void goal_plan_algebra(goal_search *s);
+void goal_plan_model(goal_search *s);
 
 /* Sums up what is known by now in s->result. */
 void goal_sum_up(goal_search *s);
