@@ -89,6 +89,11 @@ corot_status corot_space_error(const corot_model_def *def, const corot_model *mo
 
      J(exact) - J(u) = sum_T integral of (e* - e)(u) : C : (e* - e)(z)   to first order.
 
+   That is a guide to which tets to cut, and a rough number: for a body without edges that bend in, the
+   root of the energy is 0.9 to 1.2 times the true one (a tube under pressure, six tets through its wall);
+   of coarse bending four-node tets the goal's is 0.5 to 0.7 of what is missing, and of ten-node tets at
+   such an edge, or a clamped one, 0.45 to 0.75, the more the better these are cut.
+
    What moves is looked at as if it stood still under the forces of the moment, inertia among them;
    a part that nothing holds has neither goal nor dual state along its rigid motions.
 
@@ -107,13 +112,17 @@ typedef struct corot_space_total {
    [J], their sum the energy. None is negative. Of the moment, u and what says which it is are looked
    at. `linear` NULL: the defaults; it is for z alone. `total` may be NULL.
 
+   It takes some 2 microseconds a four-node tet and 10 a ten-node one, and with a goal one factor of K
+   beside.
+
    COROT_EINVAL: the model has a hierarchy; a linear solver as for corot_pencil_create. COROT_RETRY,
-   COROT_ESINGULAR: a tet is inverted, or the linear system has no solution. COROT_ENOMEM. */
+   COROT_ESINGULAR: u is not finite; with a goal, a tet is inverted, or the linear system has no
+   solution. COROT_ENOMEM. */
 corot_status corot_space_indicators(const corot_model *model, const corot_space_moment *at,
                                     const double *goal, const corot_linear_def *linear,
                                     double *indicator, corot_space_total *total);
 
-/* Which tets to refine: the fewest that carry this fraction of the sum of the indicators [ntet]
+/* Which tets to refine (corot_mesh_refine_marked): the fewest that carry this fraction of the sum of the indicators [ntet]
    (Doerfler 1996); of equal ones those of lower numbers. mark [ntet], of which *nmark are set:
    their numbers, ascending. None carries a sum of zero. *nmark / ntet says how concentrated the error is: a
    fraction of a half in a twentieth of the tets is local; in a third, uniform refinement is as

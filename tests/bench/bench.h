@@ -15,6 +15,7 @@ int command_example(int argc, char **argv);
 int command_memory(int argc, char **argv);
 int command_frames(int argc, char **argv);
 int command_hierarchy(int argc, char **argv);
+int command_local(int argc, char **argv);
 int command_jitter(int argc, char **argv);
 int command_total(int argc, char **argv);
 

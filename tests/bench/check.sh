@@ -67,6 +67,7 @@ case $?:$message in
 esac
 "$bench" --help | grep -q kernels || { echo "FAILED: corot-bench --help"; failed=1; }
 usage
+usage local --fraction 2
 usage kernel
 usage kernels --tets 0
 usage run --rtol -1

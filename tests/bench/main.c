@@ -12,6 +12,7 @@ static const char help[] =
     "       corot-bench memory [--json] [--tets N]\n"
     "       corot-bench hierarchy [--json] [--levels N]\n"
     "       corot-bench jitter [--json] [OPTIONS]\n"
+    "       corot-bench local [--fraction F] [--within E]\n"
     "       corot-bench total [--json] [OPTIONS]\n"
     "\n"
     "kernels   forces, Jacobians and the rest, per tet, beside the floor set by memory and\n"
@@ -22,6 +23,7 @@ static const char help[] =
     "memory    bytes per tet\n"
     "hierarchy solvers that use the levels of a refined mesh, and the hierarchical basis\n"
     "jitter    how even the steps of an animation are in wall time\n"
+    "local     unknowns for an accuracy, by local refinement and by uniform\n"
     "total     error of space and time together against CPU time, beside CalculiX\n"
     "\n"
     "'corot-bench COMMAND --help' says more.\n"
@@ -47,10 +49,19 @@ int only_json(const char *program, const char *text, int argc, char **argv, bool
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"kernels", command_kernels},     {"solvers", command_solvers},
-      {"run", command_example},         {"frames", command_frames},
-      {"memory", command_memory},       {"hierarchy", command_hierarchy},
-      {"jitter", command_jitter},       {"total", command_total},
-      {0}};
+      {"kernels", command_kernels}, {"solvers", command_solvers}, {"run", command_example},
+      {"frames", command_frames},   {"memory", command_memory},   {"hierarchy", command_hierarchy},
+      {"jitter", command_jitter},   {"total", command_total},     {0}};
+  static const command table[] = {{"kernels", command_kernels},
+                                  {"solvers", command_solvers},
+                                  {"run", command_example},
+                                  {"frames", command_frames},
+                                  {"memory", command_memory},
+                                  {"precision", command_precision},
+                                  {"hierarchy", command_hierarchy},
+                                  {"jitter", command_jitter},
+                                  {"local", command_local},
+                                  {"total", command_total},
+                                  {0}};
   return dispatch("corot-bench", help, table, argc, argv);
 }

@@ -84,5 +84,9 @@ expect 2 budget model.yaml --sett a=b; err "--sett"
 expect 3 budget none.yaml; err "none.yaml"; no_out
 expect 3 budget model.yaml --set strain=gren; err "did you mean green?"; no_out
 expect 3 budget model.yaml -o bad --set mesh.refine=99; err "--set mesh.refine=99: mesh.refine: "; no_out
+echo 0 >marks.txt # numbers of tets that a finer mesh would have elsewhere
+expect 3 budget model.yaml -o bad --set mesh.marks=marks.txt; no_out
+err "--set mesh.marks=marks.txt: mesh.marks: these numbers are of one mesh, and the budget would refine it"
+expect 0 budget model.yaml --static -o marked --set mesh.marks=marks.txt --levels 2 --quiet
 expect 0 budget --help; out "example: corot budget"; no_err
 exit $failed

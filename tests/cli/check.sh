@@ -60,6 +60,18 @@ out "mass           2 kg"
 expect 0 check model.yaml --set mesh.refine=2 --json
 json 'd["mesh"]["refine"] == 2 and d["mesh"]["tets"] == 768 and d["warnings"] == []'
 
+# Cut where a file says; the second pass is of tets that the first has made.
+printf '# at the base\n0 1\n\n20\n' >marks.txt
+expect 0 check model.yaml --set mesh.marks=marks.txt; out "box, marks marks.txt: "
+expect 0 check model.yaml --set mesh.marks=marks.txt --json
+json 'd["mesh"]["marks"] == "marks.txt" and d["mesh"]["tets"] > 12 + 3 * 7 and abs(d["mesh"]["volume"] - 0.002) < 1e-15'
+expect 0 check model.yaml --set mesh.marks=marks.txt --set mesh.refine=1 --set mesh.order=2 --json
+json 'd["mesh"]["order"] == 2 and d["mesh"]["tets"] > 96 + 3 * 7'
+printf '0 1\n2000\n' >marks.txt
+expect 3 check model.yaml --set mesh.marks=marks.txt; err "marks.txt:2:1: tet 2000 does not exist"
+expect 3 check model.yaml --set mesh.marks=none.txt; err "--set mesh.marks=none.txt: mesh.marks: none.txt"
+expect 3 check model.yaml --set mesh.marks=.; err "mesh.marks: .: not a file"
+
 # A slender tet, whose octahedron has a long diagonal: cut along the short one it comes out better.
 printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 0.5 3 0\n3 1 0 0\n4 0.5 3 1\n%s\n' \
   '$EndNodes' >tet.msh

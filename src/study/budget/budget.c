@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/config/config.h"
 #include "app/folder/hash.h"
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
@@ -347,15 +348,27 @@ static int order_of(const scenario *s) {
   return order;
 }
 
+/* Octasections come before mesh.marks, whose numbers would be of other tets then. */
+static corot_status check_marks(const scenario *s, int order, const budget_options *options) {
+  bool octasects = order == 2 || options->levels != 2;
+  if (!s->marks || options->skip[BUDGET_SPACE] || !octasects) return COROT_OK;
+  return config_fail(
+      config_find(s->source->root, "mesh.marks"),
+      "these numbers are of one mesh, and the budget would refine it: write what they "
+      "make of it by corot mesh refine --marks, and give that as mesh.file; or "
+      "--skip space, of four-node tets --levels 2");
+}
+
 corot_status budget_make(const scenario *s, int nset, const char *const *set,
                          const budget_options *options, const execute_options *execute,
                          json_t **out, int *signal_number) {
+  int order = order_of(s);
+  COROT_TRY(check_marks(s, order, options));
   budgeting *b = calloc(1, sizeof *b);
   if (!b) return no_memory();
   b->scenario = s;
   b->options = options;
   b->builds = builds_begin();
-  int order = order_of(s);
   if (options->still)
     budget_plan_make_static(s, order, &b->plan);
   else

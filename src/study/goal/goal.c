@@ -59,7 +59,8 @@ static corot_status make_base(goal_search *s) {
   }
   look_at_size(s);
   if (is_over(s)) return COROT_OK;
-  goal_choose_window(s);
+  COROT_TRY(goal_choose_window(s));
+  goal_plan_window(s);
   goal_plan_loose(s);
   goal_plan_model(s);
   COROT_TRY(attempts_make(&s->attempts));

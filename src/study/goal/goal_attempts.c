@@ -178,6 +178,8 @@ static void read_result(attempts *all, json_t *result, attempt *a) {
   a->tets = (int)json_integer_value(json_object_get(mesh, "tets"));
   a->dofs = (int)json_integer_value(json_object_get(mesh, "dofs"));
   a->cpu = number_of(json_object_get(result, "timings"), "cpu");
+  const json_t *counts = json_object_get(result, "statistics");
+  a->work = number_of(counts, "nfe") + fmax(0, number_of(counts, "nsolve"));
   a->value = quantity_found(result, all->name);
   a->when = number_of(found, "t");
   a->largest = largest_of(result, all->column);

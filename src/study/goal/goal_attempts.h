@@ -40,6 +40,7 @@ typedef struct attempt {
   int exit_code;                    /* of a run that failed; 0: not known */
   double largest;                   /* absolute value in the columns of its probe; NaN: not known */
   double cpu;                       /* [s] */
+  double work;                      /* evaluations of forces and solutions of linear systems */
   int tets, dofs;
 } attempt;
 

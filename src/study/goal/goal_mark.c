@@ -10,12 +10,13 @@
 
 #include "app/folder/folder.h"
 #include "app/folder/states.h"
+#include "app/probe/probe.h"
 #include "app/text/no_memory.h"
 #include "app/text/text_stream.h"
 #include "study/execute/store.h"
 
 /* The next mesh has about so many times the tets. */
-#define GROWTH_LEAST 2.0
+#define GROWTH_LEAST 1.8
 #define GROWTH_MOST 5.0 /* by marks alone: beyond, octasection is the same at less ado */
 
 /* The last level as it was run. */
@@ -69,6 +70,68 @@ static int record_of(const goal_search *s, const trajectory *states) {
   return best;
 }
 
+/* --- What it weighs by --- */
+
+static int column_of(const probes *p, const char *name) {
+  for (int i = 0; i < probes_ncolumn(p); i++)
+    if (strcmp(probes_columns(p)[i], name) == 0) return i;
+  return -1;
+}
+
+/* goal [ndof] of a column at a moment, if it has a derivative. */
+static corot_status weigh(probes *p, const probe_moment *now, int column, double *goal,
+                          bool *known) {
+  double *value = calloc((size_t)probes_ncolumn(p) + 1, sizeof *value);
+  if (!value) return no_memory();
+  corot_status status = probes_evaluate(p, now, value);
+  if (status == COROT_OK) status = probes_goal(p, now, column, goal, known);
+  free(value);
+  return status;
+}
+
+static corot_status weigh_at(const goal_search *s, const solved *of, const corot_space_moment *at,
+                             corot_state *state, double *goal, bool *known) {
+  static const ledger none;
+  probes *p = NULL;
+  double(*x)[3] = calloc((size_t)of->mesh->nnode, sizeof *x);
+  corot_status status = x ? probes_create(of->scenario, of->model, &p) : no_memory();
+  int column = status == COROT_OK ? column_of(p, s->attempts.column) : -1;
+  if (status == COROT_OK && column >= 0) {
+    if (at->still)
+      corot_state_stand_still(state, at->load_t, at->factor);
+    else
+      corot_state_enter(state, at->t);
+    corot_nodal(of->model, at->still ? at->load_t : at->t, at->u, NULL, x, NULL);
+    const probe_moment now = {.t = at->t,
+                              .state = state,
+                              .u = at->u,
+                              .v = at->v,
+                              .displacement = (const double(*)[3])x,
+                              .ledger = &none,
+                              .still = at->still};
+    status = weigh(p, &now, column, goal, known);
+  }
+  probes_destroy(p);
+  free(x);
+  return status;
+}
+
+/* The energy alone, where the quantity has no derivative. */
+static corot_status indicate(const goal_search *s, const solved *of, const corot_space_moment *at,
+                             double *indicator) {
+  corot_state *state = NULL;
+  double *goal = calloc((size_t)corot_model_ndof(of->model) + 1, sizeof *goal);
+  bool known = false;
+  corot_status status = goal ? corot_state_create(of->model, &state) : no_memory();
+  if (status == COROT_OK) status = weigh_at(s, of, at, state, goal, &known);
+  if (status == COROT_RETRY) status = COROT_OK, known = false;
+  if (status == COROT_OK)
+    status = corot_space_indicators(of->model, at, known ? goal : NULL, NULL, indicator, NULL);
+  corot_state_destroy(state);
+  free(goal);
+  return status;
+}
+
 static corot_status find_indicators(const goal_search *s, const solved *of, double *indicator) {
   int k = record_of(s, &of->states);
   double t = states_t(&of->states, k);
@@ -78,7 +141,7 @@ static corot_status find_indicators(const goal_search *s, const solved *of, doub
                            .still = s->request->still,
                            .load_t = of->scenario->t_end,
                            .factor = of->scenario->t_end > 0 ? t / of->scenario->t_end : 1};
-  return corot_space_indicators(of->model, &at, NULL, NULL, indicator, NULL);
+  return indicate(s, of, &at, indicator);
 }
 
 /* --- How many --- */
@@ -98,7 +161,7 @@ static corot_status count(const solved *of, marks *m) {
 
 /* Ever more of the error, until the mesh grows enough. */
 static corot_status choose(const solved *of, const double *indicator, marks *m) {
-  static const double fractions[] = {0.5, 0.7, 0.8, 0.9, 0.95, 0.99};
+  static const double fractions[] = {0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99};
   m->growth = 1;
   for (size_t i = 0; i < sizeof fractions / sizeof *fractions && m->growth < GROWTH_LEAST; i++) {
     COROT_TRY(corot_space_mark(of->mesh->ntet, indicator, fractions[i], &m->n, m->tet));

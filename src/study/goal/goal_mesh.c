@@ -15,15 +15,6 @@ static bool is_extreme(const quantity *q) {
   return q->operation == QUANTITY_MAX || q->operation == QUANTITY_MIN;
 }
 
-void goal_choose_window(goal_search *s) {
-  s->window = s->until;
-  if (s->request->still || !is_extreme(s->request->quantity)) return;
-  double when = goal_attempt(s, s->level[0])->when;
-  if (s->request->quantity->when) when = goal_value(s, s->level[0]);
-  double past = 1.05 * when + 0.02 * s->until;
-  if (past <= 0.7 * s->until) s->window = past;
-}
-
 /* The extreme of what comes after the window over that within it, as rows of the tables have them;
    NaN: not known. */
 static double later_extreme(const goal_search *s, const csv *table) {
@@ -44,22 +35,60 @@ static double later_extreme(const goal_search *s, const csv *table) {
                                                             : NAN;
 }
 
-static corot_status read_later(const goal_search *s, int i, double *later) {
+/* Calls `look` with the table of an attempt that has the column; *found: there is one. */
+static corot_status read_table(const goal_search *s, int i,
+                               double (*look)(const goal_search *s, const csv *table),
+                               double *out) {
   static const char *const name[] = {"probes.csv", "energy.csv"};
   const attempt *a = goal_attempt(s, i);
-  *later = NAN;
+  *out = NAN;
   if (!a->done) return COROT_OK;
   char *folder = store_path(s->attempts.options.dir, &s->attempts.manifest->run[a->at], "");
   corot_status status = folder ? COROT_OK : COROT_ENOMEM;
-  for (int k = 0; k < 2 && status == COROT_OK && isnan(*later); k++) {
+  for (int k = 0; k < 2 && status == COROT_OK && isnan(*out); k++) {
     csv table;
     status = csv_read_if_there(folder, name[k], &table);
     if (status != COROT_OK) break;
-    *later = later_extreme(s, &table);
+    *out = look(s, &table);
     csv_free(&table);
   }
   free(folder);
   return status;
+}
+
+/* The time of the first extreme that comes close to the largest: later ones like it, of a body that
+   swings on, say nothing new. NaN: not known. */
+static double first_extreme(const goal_search *s, const csv *table) {
+  const quantity *q = s->request->quantity;
+  double *t = NULL, *x = NULL, most = -INFINITY, when = NAN;
+  double sign = q->operation == QUANTITY_MIN ? -1 : 1;
+  int column = csv_find(table, s->attempts.column), first = -1;
+  if (column >= 0 && csv_column(table, "t", &t) == COROT_OK &&
+      csv_numbers(table, column, &x) == COROT_OK) {
+    for (int i = 0; i < table->nrow; i++) {
+      x[i] = sign * (q->magnitude ? fabs(x[i]) : x[i]);
+      if (t[i] >= q->from && t[i] <= fmin(q->to, s->until)) most = fmax(most, x[i]);
+    }
+    double close = GOAL_LIKE * goal_allowed(s->request, most);
+    for (int i = table->nrow - 1; i >= 0; i--)
+      if (t[i] >= q->from && t[i] <= fmin(q->to, s->until) && x[i] >= most - close) first = i;
+    while (first >= 0 && first + 1 < table->nrow && x[first + 1] > x[first]) first++;
+    if (first >= 0) when = t[first];
+  }
+  free(t);
+  free(x);
+  return when;
+}
+
+corot_status goal_choose_window(goal_search *s) {
+  const quantity *q = s->request->quantity;
+  s->window = s->until;
+  if (s->request->still || !is_extreme(q)) return COROT_OK;
+  double when = goal_value(s, s->full);
+  if (!q->when) COROT_TRY(read_table(s, s->full, first_extreme, &when));
+  double past = 1.05 * when + 0.02 * s->until;
+  if (past <= 0.7 * s->until) s->window = past;
+  return COROT_OK;
 }
 
 /* How a later extreme compares with the early one has changed from four-node to ten-node tets; from
@@ -68,8 +97,8 @@ corot_status goal_find_tail(goal_search *s) {
   double before, now;
   s->tail = 0;
   if (s->window >= s->until || s->nlevel < 2) return COROT_OK;
-  COROT_TRY(read_later(s, s->coarse, &before));
-  COROT_TRY(read_later(s, s->full, &now));
+  COROT_TRY(read_table(s, s->coarse, later_extreme, &before));
+  COROT_TRY(read_table(s, s->full, later_extreme, &now));
   double base = goal_value(s, s->level[0]), last = goal_value(s, s->level[s->nlevel - 1]);
   double moved = fabs((last - base) / (base - goal_value(s, s->coarse)));
   double later = now + 2 * fabs(now - before) * fmin(1, moved);

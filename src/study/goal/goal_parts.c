@@ -111,7 +111,7 @@ static goal_error judge_mesh(const goal_search *s, double noise) {
     const attempt *a = goal_attempt(s, s->level[i]);
     level[i] = (goal_level){a->value, pow(a->dofs, -1.0 / 3)};
   }
-  return goal_judge(s->nlevel, level, goal_value(s, s->coarse), noise);
+  return goal_judge(s->nlevel, level, goal_value(s, s->coarse), noise, s->npass > 0);
 }
 
 static void advise(const goal_search *s, const goal_error *mesh) {

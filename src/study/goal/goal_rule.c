@@ -21,12 +21,13 @@ static double order_of(const double size[3], double ratio) {
 /* What remains of the last difference at order p. */
 static double remainder_of(double ratio, double p) { return 1 / (pow(ratio, p) - 1); }
 
-static const char *doubt(double d1, double d2, double order) {
+static const char *doubt(double d1, double d2, double order, bool local) {
   if (!isfinite(d1) || !isfinite(d2)) return "a mesh has no value";
   if (d1 * d2 < 0) return "the values alternate from mesh to mesh";
   if (order == 0) return "the values do not settle as the mesh is refined";
   if (!(order >= GOAL_LOWEST_ORDER)) return "the values hardly settle as the mesh is refined";
-  if (order > GOAL_HIGHEST_ORDER) return "the values settle faster than ten-node tets can";
+  if (order > (local ? GOAL_HIGHEST_ORDER_LOCAL : GOAL_HIGHEST_ORDER))
+    return "the values settle faster than ten-node tets can";
   return NULL;
 }
 
@@ -46,12 +47,13 @@ static void widen(goal_error *e, double d1, double d2, double ratio) {
   e->half = isfinite(d) ? GOAL_SAFETY_UNPROVEN * d * fmax(1, remainder_of(ratio, 1)) : INFINITY;
 }
 
-/* The order that is seen falls to that of a singularity from mesh to mesh: below two it will. */
-static double falls_to(double order) {
-  return 1 - (1 - GOAL_ORDER_FALLS) * fmin(1, fmax(0, 3 - order) / 1.5);
+/* The order that an estimate counts, of one that is seen. */
+static double counted(double order, bool local) {
+  if (local) return fmin(0.75 * order, 3.5);
+  return order * (1 - 0.1 * fmin(1, fmax(0, 3 - order) / 1.5));
 }
 
-goal_error goal_judge(int n, const goal_level *level, double coarse, double noise) {
+goal_error goal_judge(int n, const goal_level *level, double coarse, double noise, bool local) {
   if (n < 2) return judge_one(level, coarse);
   const goal_level *last = level + n - 1;
   double d2 = last[0].value - last[-1].value, ratio = last[-1].size / last[0].size;
@@ -72,7 +74,7 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
   if (n >= 3) {
     const double size[3] = {last[-2].size, last[-1].size, last[0].size};
     e.order = d1 * d2 > 0 ? order_of(size, d1 / d2) : NAN;
-    e.why = doubt(d1, d2, e.order);
+    e.why = doubt(d1, d2, e.order, local);
     e.diverging = e.order == 0;
     e.asymptotic = !e.why;
   }
@@ -81,8 +83,9 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
     return e;
   }
   double cautious = fmin(GOAL_CAUTIOUS_FACTOR * e.order, GOAL_CAUTIOUS_ORDER);
-  e.estimate = d2 * remainder_of(ratio, e.order * falls_to(e.order));
-  double least = fabs(d1) * pow(ratio, -GOAL_CAUTIOUS_FALL);
+  e.estimate = d2 * remainder_of(ratio, counted(e.order, local));
+  double fall = local ? GOAL_CAUTIOUS_FALL_LOCAL : GOAL_CAUTIOUS_FALL;
+  double least = fabs(d1) * pow(ratio, -fall);
   e.half = GOAL_SAFETY * fmax(fmax(fabs(d2), least), noise) * remainder_of(ratio, cautious);
   return e;
 }

@@ -9,14 +9,16 @@
    5).
 
    Near a re-entrant corner the order that is seen falls from mesh to mesh, to 2 x 0.54 of an L; so
-   e counts nine tenths of an order of 1.5 or less, all of one of 3 and more. For half-widths more
-   is taken away: they count six tenths of the observed order, and none above GOAL_CAUTIOUS_ORDER.
-   The smooth part of an error vanishes first, and the order it vanishes with says little of what a
-   singular corner leaves. Nor is it counted that the last difference has fallen faster than at
-   order GOAL_CAUTIOUS_FALL, which may be chance. With that the interval holds for any sum of a part
-   of order 4 and one of order 1.2, whichever is the larger, and sizes in ratios from 1.3 to 2
-   (tests/unit/test_goal_rule.c).
- */
+   e counts nine tenths of an order of 1.5 or less, all of one of 3 and more. Where tets are cut
+   locally the size is the third root of the number of unknowns, the order that is seen may be
+   anything, and varies from mesh to mesh: e counts three quarters of it, and none above 3.5.
+
+   For half-widths more is taken away: they count 0.55 of the observed order, and none above 2.5;
+   nor that the last difference has fallen faster than at order 3 (4, where tets are cut locally),
+   which may be chance. The smooth part of an error vanishes first, and the order it vanishes with
+   says little of what a singular corner leaves. With that the interval holds for any sum of a part
+   of order 4 and one of order 1.2, whichever is the larger, and sizes in ratios from 1.2 to 2
+   (tests/unit/test_goal_rule.c). */
 #ifndef COROT_STUDY_GOAL_GOAL_RULE_H
 #define COROT_STUDY_GOAL_GOAL_RULE_H
 
@@ -26,10 +28,11 @@
    slower has not begun to, or never will. */
 #define GOAL_LOWEST_ORDER 0.5
 #define GOAL_HIGHEST_ORDER 5.0
-#define GOAL_CAUTIOUS_ORDER 1.5
-#define GOAL_CAUTIOUS_FACTOR 0.6
+#define GOAL_HIGHEST_ORDER_LOCAL 9.0
+#define GOAL_CAUTIOUS_ORDER 2.5
+#define GOAL_CAUTIOUS_FACTOR 0.55
 #define GOAL_CAUTIOUS_FALL 3.0
-#define GOAL_ORDER_FALLS 0.9
+#define GOAL_CAUTIOUS_FALL_LOCAL 4.0
 
 #define GOAL_SAFETY 1.25         /* asymptotic */
 #define GOAL_SAFETY_UNPROVEN 3.0 /* not */
@@ -51,7 +54,8 @@ typedef struct goal_error {
 
 /* level [n], from coarse to fine, n >= 1; of them the last three count. `coarse`: the value of
    four-node tets on the mesh of the first level, NaN: not known; it counts where there is but one.
-   `noise`: what each value is known by. */
-goal_error goal_judge(int n, const goal_level *level, double coarse, double noise);
+   `noise`: what each value is known by. `local`: the last mesh is one whose tets are cut where they
+   are marked. */
+goal_error goal_judge(int n, const goal_level *level, double coarse, double noise, bool local);
 
 #endif

@@ -9,7 +9,10 @@
 enum { GOAL_LEVELS = 12 };
 
 /* A part may take so much of what is allowed; the mesh gets the rest. */
-#define GOAL_TIME_SHARE 0.15
+#define GOAL_TIME_SHARE 0.2
+
+/* Extremes that differ by so much of what is allowed are alike. */
+#define GOAL_LIKE 0.2
 
 /* Errors of time and algebra are much the same on all meshes: so much of them is not. */
 #define GOAL_NOISE 0.2
@@ -58,11 +61,12 @@ corot_status goal_choose_time(goal_search *s);
 /* The first mesh of ten-node tets; the same with ten times the tolerance, as far as the window; and
    smaller tolerances, once both are there, until the error of time is small. */
 void goal_plan_base(goal_search *s);
+void goal_plan_window(goal_search *s); /* the same as far as the window, where that matters */
 void goal_plan_loose(goal_search *s);
 corot_status goal_settle_time(goal_search *s);
 
 /* Where the extreme is early enough: s->window. */
-void goal_choose_window(goal_search *s);
+corot_status goal_choose_window(goal_search *s);
 corot_status goal_find_tail(goal_search *s);
 
 /* The next mesh: *made: there is one. */

@@ -45,20 +45,21 @@ static void judge(const goal_search *s, const trial *t, double off[2]) {
   for (int i = 0; i < 2; i++) off[i] = fabs(goal_value(s, t->at[i][0]) - reference) + known;
 }
 
-/* The scenario's own method is taken where both will do. */
+/* Of methods that are good enough, the one with fewer solutions of a linear system. */
 static bool accept(goal_search *s, const trial *t, double rtol) {
-  double off[2];
+  double off[2], least = INFINITY;
   judge(s, t, off);
   for (int i = 0; i < 2; i++) {
-    double value = goal_value(s, t->at[i][0]);
-    if (!(off[i] <= GOAL_TIME_SHARE * goal_allowed(s->request, value))) continue;
+    const attempt *a = goal_attempt(s, t->at[i][0]);
+    if (!(off[i] <= GOAL_TIME_SHARE * goal_allowed(s->request, a->value))) continue;
+    if (!(a->work < least)) continue;
+    least = a->work;
     s->method = t->method[i];
     s->rtol = rtol;
     s->coarse = t->at[i][0];
-    s->coarse_off = off[i] / fabs(value);
-    return true;
+    s->coarse_off = off[i] / fabs(a->value);
   }
-  return false;
+  return isfinite(least);
 }
 
 /* The first attempt of all: whether there is anything to be looked for. */
@@ -115,6 +116,14 @@ void goal_plan_base(goal_search *s) {
   s->nlevel = 1;
 }
 
+void goal_plan_window(goal_search *s) {
+  const attempt *full = goal_attempt(s, s->full);
+  const quantity *q = s->request->quantity;
+  if (s->request->still || s->window >= s->until) return;
+  double when = q->when ? full->value : full->when;
+  if (!(when < s->window)) s->level[0] = plan_base(s, s->rtol, s->window);
+}
+
 void goal_plan_loose(goal_search *s) {
   if (!s->request->still) s->base_loose = plan_base(s, fmin(10 * s->rtol, 0.1), s->window);
 }
@@ -126,14 +135,14 @@ static double find_time(goal_search *s) {
   double changed = fabs(value - goal_value(s, s->base_loose));
   if (isnan(changed)) changed = 0;
   r->time = fmax(changed / 10, s->coarse_off * fabs(value));
-  r->half_time = fmax(changed / 2, 2 * s->coarse_off * fabs(value));
+  r->half_time = fmax(changed / 2, 1.25 * s->coarse_off * fabs(value));
   return changed / 2;
 }
 
 corot_status goal_settle_time(goal_search *s) {
   while (!s->request->still) {
     double value = goal_value(s, s->level[0]), half = find_time(s);
-    bool enough = half <= 2 * GOAL_TIME_SHARE * goal_allowed(s->request, value);
+    bool enough = half <= 1.25 * GOAL_TIME_SHARE * goal_allowed(s->request, value);
     if (enough || isnan(value) || s->rtol <= LOWEST_RTOL) break;
     if (!goal_affords(s, 2 * goal_attempt(s, s->level[0])->cpu)) break;
     s->base_loose = s->level[0];
