@@ -48,20 +48,10 @@ int only_json(const char *program, const char *text, int argc, char **argv, bool
 }
 
 int main(int argc, char **argv) {
-  static const command table[] = {
-      {"kernels", command_kernels}, {"solvers", command_solvers}, {"run", command_example},
-      {"frames", command_frames},   {"memory", command_memory},   {"hierarchy", command_hierarchy},
-      {"jitter", command_jitter},   {"total", command_total},     {0}};
-  static const command table[] = {{"kernels", command_kernels},
-                                  {"solvers", command_solvers},
-                                  {"run", command_example},
-                                  {"frames", command_frames},
-                                  {"memory", command_memory},
-                                  {"precision", command_precision},
-                                  {"hierarchy", command_hierarchy},
-                                  {"jitter", command_jitter},
-                                  {"local", command_local},
-                                  {"total", command_total},
-                                  {0}};
+  static const command table[] = {{"kernels", command_kernels}, {"solvers", command_solvers},
+                                  {"run", command_example},     {"frames", command_frames},
+                                  {"memory", command_memory},   {"hierarchy", command_hierarchy},
+                                  {"jitter", command_jitter},   {"local", command_local},
+                                  {"total", command_total},     {0}};
   return dispatch("corot-bench", help, table, argc, argv);
 }

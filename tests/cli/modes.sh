@@ -124,4 +124,20 @@ expect 3 report a; err "holds the modes of corot modes"
 mkdir own && echo mine >own/modes.csv
 expect 5 modes model.yaml -o own; err "own"
 grep -qx mine own/modes.csv || complain "a foreign file is gone"
+
+# A mesh of four-node tets is told by how much its lowest frequency is too high: on ten-node tets it is
+# there, to the two digits of the warning and what the shape changes, a twentieth.
+expect 0 modes model.yaml -o coarse -n 2; err "mode 1, at "; err "[space]"
+cp stderr told
+expect 0 modes model.yaml -o fine -n 2 --set mesh.order=2
+! grep -q "\[space\]" stderr || complain "$what: [space]"
+python3 - <<'PY' || complain "the frequency of ten-node tets"
+import csv, re
+near = float(re.search("would be near ([0-9.e+-]+) Hz", open("told").read()).group(1))
+coarse, fine = (float(next(csv.DictReader(open(d + "/modes.csv")))["frequency"]) for d in ("coarse", "fine"))
+assert coarse > 1.05 * fine and abs(near / fine - 1) < 0.05, (coarse, near, fine)
+PY
+expect 0 modes model.yaml -o coarse -n 2 --set output.space_error=false
+! grep -q "\[space\]" stderr || complain "$what: [space]"
+expect 0 modes model.yaml -o free -n 7 --set boundary=[]; err "mode 7, at "
 exit $failed

@@ -78,7 +78,7 @@ expect 0 study export mesh.yaml --format snakemake -o mesh; out '{PROGRAM:q} sta
 
 # What makes no sense of an equilibrium.
 refuse() { sed "\$a $1" mesh.yaml >refused.yaml; expect 3 study refused.yaml -o refused; err "$2"; }
-refuse 'measure: velocity' "refused.yaml:6:10: measure[0]: nothing moves in a static study"
+refuse 'measure: velocity' "refused.yaml:6:10: measure: nothing moves in a static study"
 refuse 'reference: {methods: [cvode, ida]}' "a static study has no methods: its references are Newton's"
 sed 's/static: true/static: yes/' mesh.yaml >refused.yaml; expect 3 study refused.yaml; err "refused.yaml:3:9: static: "
 exit $failed

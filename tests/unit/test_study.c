@@ -250,7 +250,7 @@ static void wrong_measures_are_refused(void **state) {
        "study.yaml:4:11: measure[0]: displacment is no measure; did you mean "
        "displacement?\n  measure: [displacment]\n            ^"},
       {"tips",
-       "4:10: measure[0]: tips is no measure: expected displacement, velocity, energy, "
+       "4:10: measure: tips is no measure: expected displacement, velocity, energy, "
        "mixed, or a quantity such as max(corner.ux)"},
       {"[energy, max(corner.ux]", "4:32: measure[1]: a ) is missing at the end"},
       {"max(cornr.ux)",

@@ -3,6 +3,7 @@
 #include "app/folder/hash.h"
 #include "study/execute/store.h"
 #include "study/measure/collect.h"
+#include "study/measure/collect_quantities.h"
 #include "study/measure/errors.h"
 #include "study/measure/fit.h"
 #include "study/plan/json_file.h"
@@ -252,6 +253,54 @@ static void power_laws(void **state) {
   assert_true(isnan(f.exponent));
   fit_verdict(&f, true, sizeof words, words);
   assert_string_equal(words, "too few points to say: 1");
+}
+
+/* --- Known values --- */
+
+/* Of three quantities that should be 10 within 1, -4 within 1 relative to 8, and 2; the fourth has
+   no known value. In eighths, which are exact. */
+static void errors_against_known_values(void **state) {
+  (void)state;
+  study_quantity q[] = {{"a@end", "a", true, 10, 1, 10},
+                        {"b@end", "b", true, -4, 1, 8},
+                        {"c@end", "c", true, 2, 0, 2},
+                        {.text = "d@end", .name = "d"}};
+  const manifest m = {.nquantity = 4, .quantity = q};
+  static const struct {
+    double value[4], error[3], total, floor;
+    bool rated[4]; /* of the three, and of the total */
+  } of[] = {
+      /* the largest is rated, and what the others may be is less */
+      {{15, -4.5, 2, 7}, {0.5, -0.0625, 0}, 0.5, 0.1, {true, false, true, true}},
+      {{5, -4, 2, 7}, {-0.5, 0, 0}, 0.5, 0.1, {true, false, true, true}},
+      /* none is larger than what is known of b: the total is at most that */
+      {{10, -4.5, 2.125, 7}, {0, -0.0625, 0.0625}, 0.0625, 0.125, {false, false, true, false}},
+  };
+  for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+    quantity_error *off = NULL;
+    assert_ok(quantities_rate(&m, of[i].value, NULL, NULL, &off));
+    for (int k = 0; k < 3; k++) {
+      assert_true(off[k].known);
+      assert_close(off[k].error, of[i].error[k], 1e-15, 0);
+      assert_int_equal(quantity_is_rated(&off[k]), of[i].rated[k]);
+    }
+    assert_true(!off[3].known && isnan(off[3].error));
+    assert_close(off[4].error, of[i].total, 1e-15, 0);
+    assert_close(off[4].floor, of[i].floor, 1e-15, 0);
+    assert_int_equal(quantity_is_rated(&off[4]), of[i].rated[3]);
+    free(off);
+  }
+  /* a value that is not there leaves no total */
+  quantity_error *off = NULL;
+  const double value[] = {10, NAN, 2, 7}, reference[] = {1, 1, 1, 8}, floor[] = {1e-3, 1, 1, 1e-3};
+  assert_ok(quantities_rate(&m, value, reference, floor, &off));
+  assert_true(isnan(off[4].error) && !quantity_is_rated(&off[4]));
+  /* what has no known value is held against the reference, by ten times its floor */
+  assert_close(off[3].error, 0.125, 1e-15, 0);
+  assert_true(quantity_is_rated(&off[3]));
+  off[3].floor = 0.02;
+  assert_false(quantity_is_rated(&off[3]));
+  free(off);
 }
 
 /* --- A whole study whose runs are made up --- */
@@ -595,6 +644,7 @@ int main(void) {
       cmocka_unit_test(drift_of_the_books),
       cmocka_unit_test(drift_under_loads_that_jump_and_swing),
       cmocka_unit_test(power_laws),
+      cmocka_unit_test(errors_against_known_values),
       cmocka_unit_test(errors_fits_and_rankings),
       cmocka_unit_test(quantities_are_measured),
       cmocka_unit_test(a_wrong_reference_is_caught),

@@ -11,6 +11,7 @@
 #include "app/text/json_text.h"
 #include "app/text/say.h"
 #include "fields.h"
+#include "modes_space.h"
 #include "result_modes.h"
 #include "run_clock.h"
 #include "run_common.h"
@@ -87,6 +88,8 @@ static corot_status prepare(modal_run *r) {
   COROT_TRY(find_modes(r));
   int before = r->warnings.n;
   COROT_TRY(warnings_of_modes(s, r->modes, &r->warnings));
+  if (r->rest && !r->options->lean)
+    COROT_TRY(modes_space_warn(s, r->model, r->modes, &r->warnings));
   if (!r->options->quiet) warnings_print(&r->warnings, before, "warning: ", stderr);
   return COROT_OK;
 }

@@ -288,15 +288,9 @@ static void tell(const run *r, const run_summary *summary) {
 
 static corot_status warn(run *r, int code) {
   corot_statistics n = corot_integrator_statistics(r->integrator);
-  const run_end end = {
-      .scenario = r->scenario,
-      .model = r->model,
-      .state = r->state,
-      .outputs = r->outputs,
-      .options = r->options,
-      .code = code,
-      .work = {n.nfe + n.nfeQ, n.nje, n.nfactor, n.nsolve},
-  };
+  run_end end = run_end_of(r->scenario, r->model, r->state, r->outputs, r->options);
+  end.code = code;
+  end.work = (run_work){n.nfe + n.nfeQ, n.nje, n.nfactor, n.nsolve};
   return run_warn_after(&end, &r->warnings, &r->seen);
 }
 

@@ -63,6 +63,12 @@ typedef struct run_end {
   run_work work;
 } run_end;
 
+/* Of these parts; how it ended is for the caller to say. */
+static inline run_end run_end_of(const scenario *s, const corot_model *model, corot_state *state,
+                                 const outputs *o, const run_options *options) {
+  return (run_end){.scenario = s, .model = model, .state = state, .outputs = o, .options = options};
+}
+
 /* The warnings of what there is before the first step, told on stderr unless the options ask for
    quiet. */
 corot_status run_warn_before(const scenario *s, const corot_model *model, bool statics,

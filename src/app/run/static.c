@@ -235,16 +235,10 @@ static void tell(const equilibrium_run *r, const char *reason, const run_summary
 
 static corot_status warn(equilibrium_run *r, int code) {
   corot_statics_counts n = corot_statics_statistics(r->statics);
-  const run_end end = {
-      .scenario = r->scenario,
-      .model = r->model,
-      .state = r->state,
-      .outputs = r->outputs,
-      .options = r->options,
-      .statics = true,
-      .code = code,
-      .work = {n.nfe, n.nje, n.nfactor, n.nsolve},
-  };
+  run_end end = run_end_of(r->scenario, r->model, r->state, r->outputs, r->options);
+  end.statics = true;
+  end.code = code;
+  end.work = (run_work){n.nfe, n.nje, n.nfactor, n.nsolve};
   return run_warn_after(&end, &r->warnings, &r->seen);
 }
 

@@ -4,15 +4,17 @@
    what is allowed, each where it pays:
 
    * time: on four-node tets as given, where runs are cheap, the scenario's method and a second one
-     at falling tolerances, until one is good enough by both; its tolerance is checked on the first
-     mesh of ten-node tets, against ten times as much.
+     at falling tolerances, until one is good enough by both; on the first mesh of ten-node tets it
+     is checked: a multistep method beside a Runge-Kutta one, that at ten times the tolerance.
    * space: ten-node tets on the same mesh, then finer ones: everywhere (octasection), or where the
-     estimator marks them (mesh.marks). The values on the last three meshes tell order and error
-     (goal_rule.h). Of an extreme that is reached early, finer meshes are integrated no further than
-     past it; what a later one could add is measured on the first two.
+     estimator marks them (mesh.marks), of equilibria and of motion that is nearly a row of these.
+     The values on the last three meshes tell order and error (goal_rule.h). Of an extreme that is
+     reached early, or is like an early one, finer meshes are integrated no further than past that;
+     what a later one could add is measured on the first two.
    * algebra: with a hundred times smaller tolerances of all equations.
    * frames: found in every evaluation, without a hierarchy, in all attempts: no part.
-   * the strain measure, which is the user's choice: against green, on the first mesh.
+   * the strain measure, which is the user's choice: against green: of equilibria, and
+     where it counts, on the first mesh of ten-node tets, else on four-node ones.
 
    DIR/solve.json, and what --json prints:
      {"title", "scenario", "static", "goal": the quantity, "unit", "value", "low", "high": the truth

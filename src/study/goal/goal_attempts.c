@@ -142,7 +142,7 @@ int attempts_plan(attempts *a, attempt_def def) {
     if (is_same(&a->all[i].def, &def, a->still)) return i;
   if (a->n == ATTEMPT_MOST) return -1;
   attempt *new = &a->all[a->n];
-  *new = (attempt){.def = def, .value = NAN, .when = NAN, .largest = NAN, .cpu = NAN};
+  *new = (attempt){.def = def, .value = NAN, .when = NAN, .largest = NAN, .swing = NAN, .cpu = NAN};
   name(a, new);
   return a->n++;
 }
@@ -169,6 +169,11 @@ static double largest_of(json_t *result, const char *column) {
   return largest;
 }
 
+static double extreme_of(const json_t *result, const char *column) {
+  const json_t *of = json_object_get(json_object_get(result, "extremes"), column);
+  return number_of(json_object_get(of, "max"), "value");
+}
+
 static void read_result(attempts *all, json_t *result, attempt *a) {
   const json_t *mesh = json_object_get(result, "mesh");
   const json_t *found = json_object_get(json_object_get(result, "quantities"), all->name);
@@ -180,6 +185,7 @@ static void read_result(attempts *all, json_t *result, attempt *a) {
   a->cpu = number_of(json_object_get(result, "timings"), "cpu");
   const json_t *counts = json_object_get(result, "statistics");
   a->work = number_of(counts, "nfe") + fmax(0, number_of(counts, "nsolve"));
+  a->swing = extreme_of(result, "kinetic") / extreme_of(result, "elastic");
   a->value = quantity_found(result, all->name);
   a->when = number_of(found, "t");
   a->largest = largest_of(result, all->column);

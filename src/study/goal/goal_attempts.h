@@ -41,6 +41,7 @@ typedef struct attempt {
   double largest;                   /* absolute value in the columns of its probe; NaN: not known */
   double cpu;                       /* [s] */
   double work;                      /* evaluations of forces and solutions of linear systems */
+  double swing;                     /* largest kinetic over largest elastic energy; NaN */
   int tets, dofs;
 } attempt;
 

@@ -222,7 +222,8 @@ static corot_status mark(goal_search *s, const solved *of, marks *m, goal_markin
 
 corot_status goal_mark(goal_search *s, goal_marking *out) {
   *out = (goal_marking){.local = false, .growth = 8};
-  if (s->npass == 0 && !goal_attempt(s, s->level[s->nlevel - 1])->looked) return COROT_OK;
+  /* what the estimator sees is a shape at a moment: it says little of waves that pass */
+  if (!s->request->still && !(goal_attempt(s, s->full)->swing <= GOAL_QUIET)) return COROT_OK;
   solved of = {0};
   marks m = {0};
   corot_status status = recall(s, &of);

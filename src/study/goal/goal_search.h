@@ -11,6 +11,10 @@ enum { GOAL_LEVELS = 12 };
 /* A part may take so much of what is allowed; the mesh gets the rest. */
 #define GOAL_TIME_SHARE 0.2
 
+/* Motion with so much less kinetic than elastic energy is nearly a row of equilibria, whose shapes
+   say where a mesh must be finer. */
+#define GOAL_QUIET 0.1
+
 /* Extremes that differ by so much of what is allowed are alike. */
 #define GOAL_LIKE 0.2
 
@@ -33,7 +37,7 @@ typedef struct goal_search {
   int level[GOAL_LEVELS];  /* attempts */
   int full;                /* an attempt of the first level that goes to `until` */
   int refine, npass;       /* of the last */
-  int base_loose;          /* the first level with ten times the tolerance; -1: none */
+  int check;               /* the first level, by what its error of time is judged; -1: none */
   int algebra, algebra_of; /* an attempt with tight algebra, and the same without; -1: none */
   int model, model_of;     /* an attempt by green, and the same by the scenario's measure */
   double tail;             /* half-width, over the value: of what is not seen in the window */
@@ -58,11 +62,11 @@ bool goal_is_sensible(goal_search *s, int i);
    coarse_off. Where there is no value: result->obstacle. */
 corot_status goal_choose_time(goal_search *s);
 
-/* The first mesh of ten-node tets; the same with ten times the tolerance, as far as the window; and
-   smaller tolerances, once both are there, until the error of time is small. */
+/* The first mesh of ten-node tets; by what its error of time is judged, as far as the window; and
+   better methods and tolerances, once both are there, until that error is small. */
 void goal_plan_base(goal_search *s);
 void goal_plan_window(goal_search *s); /* the same as far as the window, where that matters */
-void goal_plan_loose(goal_search *s);
+void goal_plan_check(goal_search *s);
 corot_status goal_settle_time(goal_search *s);
 
 /* Where the extreme is early enough: s->window. */

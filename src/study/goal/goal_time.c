@@ -124,19 +124,42 @@ void goal_plan_window(goal_search *s) {
   if (!(when < s->window)) s->level[0] = plan_base(s, s->rtol, s->window);
 }
 
-void goal_plan_loose(goal_search *s) {
-  if (!s->request->still) s->base_loose = plan_base(s, fmin(10 * s->rtol, 0.1), s->window);
+/* By what the error of time is judged there: a Runge-Kutta method's falls with the tolerance, and
+   shows in ten times as much; that of a multistep method may rise and fall, and shows beside a
+   Runge-Kutta method. */
+void goal_plan_check(goal_search *s) {
+  if (s->request->still) return;
+  bool stages = corot_method_traits(s->method)->stages;
+  attempt_def def = goal_attempt(s, s->level[0])->def;
+  def.method = stages ? s->method : "arkode";
+  if (stages) def.rtol = fmin(10 * s->rtol, 0.1);
+  s->check = attempts_plan(&s->attempts, def);
 }
 
-/* By what ten times the tolerance has changed, and by what was seen on four-node tets. */
+/* Half-width by the check alone. */
 static double find_time(goal_search *s) {
   goal_result *r = s->result;
-  double value = goal_value(s, s->level[0]);
-  double changed = fabs(value - goal_value(s, s->base_loose));
+  double value = goal_value(s, s->level[0]), coarse = s->coarse_off * fabs(value);
+  double changed = fabs(value - goal_value(s, s->check));
+  bool stages = corot_method_traits(s->method)->stages;
   if (isnan(changed)) changed = 0;
-  r->time = fmax(changed / 10, s->coarse_off * fabs(value));
-  r->half_time = fmax(changed / 2, 1.25 * s->coarse_off * fabs(value));
-  return changed / 2;
+  r->time = fmax(stages ? changed / 10 : changed, coarse);
+  r->half_time = 1.25 * fmax(stages ? changed / 2 : changed, coarse);
+  return stages ? changed / 2 : changed;
+}
+
+/* The check of a multistep method is the better one, and has ten times its tolerance for a check.
+ */
+static void tighten(goal_search *s) {
+  if (corot_method_traits(s->method)->stages) {
+    s->rtol /= 10;
+    s->check = s->level[0];
+    s->level[0] = plan_base(s, s->rtol, s->window);
+  } else {
+    s->method = "arkode";
+    s->level[0] = s->check;
+    goal_plan_check(s);
+  }
 }
 
 corot_status goal_settle_time(goal_search *s) {
@@ -145,9 +168,7 @@ corot_status goal_settle_time(goal_search *s) {
     bool enough = half <= 1.25 * GOAL_TIME_SHARE * goal_allowed(s->request, value);
     if (enough || isnan(value) || s->rtol <= LOWEST_RTOL) break;
     if (!goal_affords(s, 2 * goal_attempt(s, s->level[0])->cpu)) break;
-    s->base_loose = s->level[0];
-    s->rtol /= 10;
-    s->level[0] = plan_base(s, s->rtol, s->window);
+    tighten(s);
     COROT_TRY(attempts_make(&s->attempts));
     if (s->attempts.signal_number) break;
   }

@@ -183,7 +183,9 @@ static void print_known(const json_t *list, FILE *out) {
     fputs("\nknown values, against which errors are total, signed and relative\n", out);
   for (size_t i = 0; i < json_array_size(list); i++) {
     const json_t *k = json_array_get(list, i);
-    fprintf(out, "  %s = %.6g", text_at(k, "measure"), number_at(k, "value"));
+    fputs("  ", out);
+    escape_line(text_at(k, "measure"), out);
+    fprintf(out, " = %.6g", number_at(k, "value"));
     if (number_at(k, "within") > 0) fprintf(out, ", within %.3g", number_at(k, "within"));
     if (number_at(k, "scale") != fabs(number_at(k, "value")))
       fprintf(out, ", relative to %.6g", number_at(k, "scale"));
