@@ -78,6 +78,9 @@ LIMIT = ("find-limit model.yaml -o out/limit -j 1 --set integrator.method=backwa
          " --set integrator.step=0.005 --set integrator.max_steps=3"
          " --key time.end --from 0.01 --to 0.02 --scan 2 --precision 1")
 
+# Two meshes.
+SOLVE = "solve model.yaml --goal corner.ux@end --within 0.9 --set strain=green -o out/solve -j 1"
+
 # Each: what has been done before (a case, or nothing), the command, and whether an "ok" beside a
 # failure is one of several runs, of which others may have failed.
 # And its exit code.
@@ -105,6 +108,9 @@ CASES = {
     "export": Case("study", "study export study.yaml --format slurm -o out/study", True),
     "budget": Case(None, "budget model.yaml -o out/budget -j 1 --skip space", True),
     "budget-again": Case("budget", "budget model.yaml -o out/budget -j 1 --skip space", True),
+    "solve": Case(None, SOLVE, True),
+    "solve-again": Case("solve", SOLVE, True),
+    "report-solve": Case("solve", "report out/solve", True),
     "find-limit": Case(None, LIMIT, True),
     "find-limit-again": Case("find-limit", LIMIT, True),
 }

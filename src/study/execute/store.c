@@ -155,6 +155,7 @@ run_failure store_failure(int ended) {
   if (is_request(-ended) || ended > 127) return (run_failure){"interrupted", true};
   if (ended < 0) return (run_failure){"crash", true}; /* mostly for want of memory */
   if (ended == EXIT_SYSTEM || ended == 127) return (run_failure){"io", true};
+  if (ended == EXIT_CHECK) return (run_failure){"crash", true}; /* OpenMP's, for want of memory */
   if (ended == EXIT_INTEGRATOR) return (run_failure){"integrator", false};
   return (run_failure){"scenario", ended == 0}; /* 0: it was changed meanwhile */
 }
