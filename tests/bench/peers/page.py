@@ -69,12 +69,12 @@ def rank_table(rows, peers, problems, level):
     for problem in problems:
         order = ranks.ranking(rows, problem, peers, level)
         cost = {peer: row["cpu_s"] for peer, row in order}
-        best = order[0] if order else None
+        best = order[0] if order and not ranks.undecided(problem, level) else None
         yield f"<tr><td>{html.escape(PROBLEMS[problem]['title'])}</td>"
         for peer in peers:
             first = ' class="first"' if best and best[0] == peer else ""
             yield f"<td{first}>{cost[peer]:.3f}</td>" if peer in cost else "<td>-</td>"
-        what = f"{best[0]}: {best[1]['row']}, {best[1]['mesh']}" if best else "none"
+        what = f"{best[0]}: {best[1]['row']}, {best[1]['mesh']}" if best else "-"
         yield f"<td>{html.escape(what)}</td></tr>"
     yield "</table>"
 

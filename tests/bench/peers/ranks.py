@@ -30,8 +30,14 @@ def ranking(rows, problem, peers, level):
     return sorted([f for f in found if f[1]], key=lambda f: f[1]["cpu_s"])
 
 
+def undecided(problem, level):
+    """Whether the truth is not known well enough for a level."""
+    value, known_to = PROBLEMS[problem]["truth"]
+    return known_to > level * abs(value)
+
+
 def table(rows, peers, problems):
-    """As Markdown."""
+    """As Markdown. Where the truth is not known to the level, nobody is first."""
     rows, lines, fronts = earned(rows), [], {}
     for level in LEVELS:
         lines += [f"CPU seconds to {100 * level:g} %:", "",
@@ -40,13 +46,15 @@ def table(rows, peers, problems):
         for problem in problems:
             order = ranking(rows, problem, peers, level)
             cost = {peer: f"{row['cpu_s']:.3f}" for peer, row in order}
-            if order:
+            if undecided(problem, level):
+                what = "not decided: the truth is not known so well"
+            elif order:
                 first, best = order[0]
                 cost[first] = f"**{cost[first]}**"
                 fronts[first, level] = fronts.get((first, level), 0) + 1
                 what = f"{first}: {best['row']}, {best['mesh']}"
             else:
-                what = "none"
+                what = "none in the time"
             cells = [PROBLEMS[problem]["title"]] + [cost.get(p, "-") for p in peers] + [what]
             lines.append("| " + " | ".join(cells) + " |")
         lines.append("")
