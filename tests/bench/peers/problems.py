@@ -66,18 +66,19 @@ BAR = dict(lame=(1e5, 1e4), density=1000.0, shape=box(0.1, 0.1, 0.6), grades={2:
            point=(0.1, 0.1, 0.6), component="x")
 FLAG = dict(density=1000.0, shape=flag, grades={0: power(1.5)}, plane=True,
             hold=[("s0", FIXED), PLANE], gravity=(0, -2.0, 0), point=(0.6, 0.2, 0), component="y",
-            cells=[(10, 1, 1), (20, 1, 1), (40, 2, 1), (80, 4, 1)],
-            coarse=[(80, 4, 1), (160, 8, 1)])
+            cells=[(10, 1, 1), (20, 1, 1), (30, 1, 1), (40, 2, 1), (60, 2, 1), (80, 4, 1)],
+            coarse=[(30, 1, 1), (60, 2, 1), (80, 4, 1), (160, 8, 1)])
 
 PROBLEMS = {
     "bar-rest": dict(
         BAR, title="The bar at rest", truth=(0.3449, 2e-4), take="u", increment=1.0,
-        cells=[(1, 1, 4), (2, 2, 6), (2, 2, 10), (4, 4, 12), (6, 6, 16)],
-        coarse=[(2, 2, 12), (4, 4, 24)]),
+        cells=[(1, 1, 4), (2, 2, 6), (2, 2, 8), (2, 2, 10), (4, 4, 12), (6, 6, 16)],
+        coarse=[(1, 1, 6), (2, 2, 12), (4, 4, 24)]),
     "bar-run": dict(
         BAR, title="The bar over 40 s", truth=(0.3688, 6e-4), take="max", end=40.0, rise=10.0,
         output=0.1, steps=[0.4, 0.2], tolerances=[1e-2, 1e-3, 1e-4],
-        cells=[(1, 1, 4), (2, 2, 6), (2, 2, 10), (3, 3, 10)], coarse=[(2, 2, 12)]),
+        cells=[(1, 1, 4), (2, 2, 6), (2, 2, 10), (3, 3, 12)],
+        coarse=[(1, 1, 6), (2, 2, 12)]),
     "csm1": dict(
         FLAG, title="Turek and Hron, CSM1", truth=(-0.066104, 3e-6), lame=lame(1.4e6, 0.4),
         take="u", increment=1.0),
@@ -93,32 +94,32 @@ PROBLEMS = {
         density=1.0, hold=[("s0", FIXED)], tractions=[("s1", (0, 0, 600.0))], take="u",
         point=bend(1.0, 0.5, 0.0), component="z", increment=0.5,
         cells=[(8, 1, 1), (16, 1, 1), (32, 1, 1), (32, 2, 2), (64, 2, 2)],
-        coarse=[(64, 2, 2), (128, 4, 4)]),
+        coarse=[(24, 1, 1), (64, 2, 2), (128, 4, 4)]),
     "elastica": dict(
         title="The elastica", truth=(0.81341, 5e-5), shape=box(1.0, 0.05, 0.05),
         lame=lame(1.2e9, 0.3), density=1000.0, hold=[("s0", FIXED)],
         tractions=[("s1", (0, 2.5e6, 0))], take="u", point=(1.0, 0.025, 0), component="y",
         increment=0.25, cells=[(5, 1, 1), (10, 1, 1), (20, 1, 1), (20, 2, 2), (40, 2, 2)],
-        coarse=[(40, 2, 2), (80, 4, 4)]),
+        coarse=[(20, 1, 1), (40, 2, 2), (80, 4, 4)]),
     "cook": dict(
         title="Cook's panel in space", truth=(0.47139, 4e-5), shape=panel,
         grades={0: power(1.5)}, lame=lame(50.0, 0.3), density=1.0,
         hold=[("s0", FIXED), ("w0", "z")], tractions=[("s1", (0, 0.0625, 0))], take="u",
         point=(48.0, 52.0, 0), component="y", increment=1.0,
-        cells=[(2, 2, 1), (4, 4, 1), (6, 6, 2), (10, 10, 3), (14, 14, 4)],
-        coarse=[(8, 8, 2), (16, 16, 4)]),
+        cells=[(2, 2, 1), (4, 4, 1), (6, 6, 2), (8, 8, 2), (10, 10, 3), (14, 14, 4)],
+        coarse=[(4, 4, 1), (8, 8, 2), (16, 16, 4)]),
     "rod": dict(
         title="The spinning rod", truth=(-0.30755, 1e-4), shape=box(1.0, 0.1, 0.1),
         lame=lame(1e6, 0.3), density=1000.0, hold=[], spin=(20.0, (0.5, 0.05, 0.05)), take="end",
         end=0.3, output=0.003, point=(1.0, 0.05, 0), component="y",
         steps=[3e-3, 1.5e-3], tolerances=[1e-2, 1e-3, 1e-4],
-        cells=[(4, 1, 1), (8, 1, 1), (12, 2, 2)], coarse=[(10, 2, 2), (20, 2, 2)]),
+        cells=[(4, 1, 1), (8, 1, 1), (12, 2, 2)], coarse=[(10, 1, 1), (10, 2, 2), (20, 2, 2)]),
     "arch": dict(
         title="A snap-through arch", truth=(-0.4548, 1e-4), shape=arch, lame=lame(1e6, 0.3),
         density=1000.0, hold=[("s0", FIXED)], move=("s1", (0, -0.1, 0)), take="reaction",
         side="s1", component="y", increment=1.0,
-        cells=[(4, 1, 1), (8, 1, 1), (16, 1, 1), (24, 2, 2), (32, 3, 3)],
-        coarse=[(32, 2, 2), (64, 4, 4)]),
+        cells=[(4, 1, 1), (8, 1, 1), (16, 1, 1), (20, 2, 2), (24, 2, 2), (32, 3, 3)],
+        coarse=[(16, 1, 1), (32, 2, 2), (64, 4, 4)]),
     "liver": dict(
         title="The liver, pushed", truth=(-0.0458, 4e-4), file="models/liver/liver.msh",
         lame=(99e3, 1e3), density=1060.0, hold=[("fixed", FIXED)],
@@ -130,6 +131,5 @@ PROBLEMS = {
         linear=True, hold=[("t0", "y"), ("t1", "x"), ("s1", "xy"), ("middle", "z")],
         line=lambda s, t, w: (s > 1 - 1e-9) & (abs(w - 0.5) < 1e-9),
         tractions=[("w1", (0, 0, -1e6))], take="stress", point=(2.0, 0, 0.6), component="yy",
-        cells=[(2, 3, 2), (3, 5, 2), (4, 6, 4), (6, 9, 4), (8, 12, 6)],
-        coarse=[(8, 12, 4), (16, 24, 8)]),
+        cells=[(2, 3, 2), (4, 6, 4), (8, 12, 8)], coarse=[(4, 6, 4), (8, 12, 8), (16, 24, 16)]),
 }

@@ -7,14 +7,12 @@ LEVELS = [0.01, 0.001]
 def earned(rows):
     """For each row its error, or that of a finer mesh of the same family where it is larger: what
     a single row is better by is chance, where an error changes its sign."""
-    out, worst = [], {}
-    for row in reversed(rows):
-        if "error" not in row:
-            continue
-        family = row["problem"], row["peer"], row["row"]
-        worst[family] = max(row["error"], worst.get(family, 0))
-        out.append(dict(row, earned=worst[family]))
-    return out[::-1]
+    rows, families = [row for row in rows if "error" in row], {}
+    for row in rows:
+        families.setdefault((row["problem"], row["peer"], row["row"]), []).append(row)
+    return [dict(row, earned=max(
+        other["error"] for other in families[row["problem"], row["peer"], row["row"]]
+        if other["unknowns"] >= row["unknowns"])) for row in rows]
 
 
 def least(rows, problem, peer, level):
