@@ -9,7 +9,8 @@ COLOURS = {"corot": "#1f5fa8", "calculix": "#c8571b", "getfem": "#3a8a4d", "dolf
 WIDTH, HEIGHT, LEFT, BOTTOM = 420, 280, 62, 40
 STYLE = """body{font:15px/1.45 Helvetica,Arial,sans-serif;max-width:1320px;margin:2em auto;
 padding:0 1em;color:#222}table{border-collapse:collapse}td,th{padding:.2em .7em;text-align:right;
-border-bottom:1px solid #ddd}td:first-child,th:first-child,td:last-child,th:last-child{text-align:left}
+border-bottom:1px solid #ddd}td:first-child,th:first-child,
+td:last-child,th:last-child{text-align:left}
 .first{font-weight:bold}figure{display:inline-block;margin:0 1em 1em 0}figcaption{font-size:13px}"""
 
 
