@@ -18,6 +18,7 @@ int command_hierarchy(int argc, char **argv);
 int command_local(int argc, char **argv);
 int command_jitter(int argc, char **argv);
 int command_total(int argc, char **argv);
+int command_peers(int argc, char **argv);
 
 /* Where the bar of corot-bench run comes from. */
 typedef struct bar_source {

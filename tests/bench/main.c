@@ -14,6 +14,7 @@ static const char help[] =
     "       corot-bench jitter [--json] [OPTIONS]\n"
     "       corot-bench local [--fraction F] [--within E]\n"
     "       corot-bench total [--json] [OPTIONS]\n"
+    "       corot-bench peers [OPTIONS]\n"
     "\n"
     "kernels   forces, Jacobians and the rest, per tet, beside the floor set by memory and\n"
     "          arithmetic of this machine\n"
@@ -25,6 +26,7 @@ static const char help[] =
     "jitter    how even the steps of an animation are in wall time\n"
     "local     unknowns for an accuracy, by local refinement and by uniform\n"
     "total     error of space and time together against CPU time, beside CalculiX\n"
+    "peers     twelve problems by corot and by other programs: error against CPU time\n"
     "\n"
     "'corot-bench COMMAND --help' says more.\n"
     "\n"
@@ -48,10 +50,16 @@ int only_json(const char *program, const char *text, int argc, char **argv, bool
 }
 
 int main(int argc, char **argv) {
-  static const command table[] = {{"kernels", command_kernels}, {"solvers", command_solvers},
-                                  {"run", command_example},     {"frames", command_frames},
-                                  {"memory", command_memory},   {"hierarchy", command_hierarchy},
-                                  {"jitter", command_jitter},   {"local", command_local},
-                                  {"total", command_total},     {0}};
+  static const command table[] = {{"kernels", command_kernels},
+                                  {"solvers", command_solvers},
+                                  {"run", command_example},
+                                  {"frames", command_frames},
+                                  {"memory", command_memory},
+                                  {"hierarchy", command_hierarchy},
+                                  {"jitter", command_jitter},
+                                  {"local", command_local},
+                                  {"total", command_total},
+                                  {"peers", command_peers},
+                                  {0}};
   return dispatch("corot-bench", help, table, argc, argv);
 }

@@ -114,6 +114,17 @@ static goal_error judge_mesh(const goal_search *s, double noise) {
   return goal_judge(s->nlevel, level, goal_value(s, s->coarse), noise, s->npass > 0);
 }
 
+/* Waves and shocks: two meshes may agree by chance where four-node tets do not, and a peak that is
+   overshot on every mesh does not settle. */
+static void doubt_waves(const goal_search *s, double value, goal_error *mesh) {
+  if (s->request->still || s->nlevel != 2 || mesh->settled) return;
+  if (goal_attempt(s, s->full)->swing <= GOAL_QUIET) return;
+  double coarse = fabs(value - goal_value(s, s->coarse));
+  double changed = fabs(value - goal_value(s, s->level[0]));
+  mesh->half = fmax(mesh->half, coarse / 2);
+  if (changed > 0.1 * fabs(value)) mesh->half = fmax(mesh->half, 2 * (coarse + changed));
+}
+
 static void advise(const goal_search *s, const goal_error *mesh) {
   goal_result *r = s->result;
   const quantity *q = s->request->quantity;
@@ -144,6 +155,7 @@ void goal_sum_up(goal_search *s) {
   sum_model(s);
   double noise = fmax(GOAL_NOISE * (r->half_time + r->half_algebra), 1e-9 * fabs(value));
   goal_error mesh = judge_mesh(s, noise);
+  doubt_waves(s, value, &mesh);
   r->space = fabs(mesh.estimate);
   r->half_space = mesh.half;
   r->half_tail = s->tail * fabs(value);

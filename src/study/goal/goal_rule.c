@@ -35,9 +35,18 @@ static const char *doubt(double d1, double d2, double order, bool local) {
 static goal_error judge_one(const goal_level *level, double coarse) {
   double d = fabs(level->value - coarse);
   return (goal_error){.estimate = NAN,
-                      .half = isfinite(d) ? d : INFINITY,
+                      .half = isfinite(d) ? GOAL_SAFETY_ALONE * d : INFINITY,
                       .order = NAN,
                       .why = "there is but one mesh of ten-node tets"};
+}
+
+/* Whether an earlier difference, no smaller than the last, has the other sign. */
+static bool has_turned(int n, const goal_level *level, double d2) {
+  for (int i = 1; i < n - 1; i++) {
+    double d = level[i].value - level[i - 1].value;
+    if (d * d2 < 0 && fabs(d) >= fabs(d2)) return true;
+  }
+  return false;
 }
 
 /* Without an order to believe in. */
@@ -45,6 +54,7 @@ static void widen(goal_error *e, double d1, double d2, double ratio) {
   double d = isfinite(d1) ? fmax(fabs(d2), fabs(d1) / ratio) : fabs(d2);
   e->estimate = NAN;
   e->half = isfinite(d) ? GOAL_SAFETY_UNPROVEN * d * fmax(1, remainder_of(ratio, 1)) : INFINITY;
+  if (e->diverging || d1 * d2 < 0) e->half = fmax(e->half, 2 * (fabs(d1) + fabs(d2)));
 }
 
 /* The order that an estimate counts, of one that is seen. */
@@ -75,6 +85,7 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
     const double size[3] = {last[-2].size, last[-1].size, last[0].size};
     e.order = d1 * d2 > 0 ? order_of(size, d1 / d2) : NAN;
     e.why = doubt(d1, d2, e.order, local);
+    if (!e.why && has_turned(n, level, d2)) e.why = "the values have turned, and may do so again";
     e.diverging = e.order == 0;
     e.asymptotic = !e.why;
   }

@@ -36,6 +36,7 @@
 
 #define GOAL_SAFETY 1.25         /* asymptotic */
 #define GOAL_SAFETY_UNPROVEN 3.0 /* not */
+#define GOAL_SAFETY_ALONE 5.0    /* one mesh, beside four-node tets on it */
 
 typedef struct goal_level {
   double value;
@@ -52,8 +53,9 @@ typedef struct goal_error {
   const char *why; /* not asymptotic, static; NULL: it is */
 } goal_error;
 
-/* level [n], from coarse to fine, n >= 1; of them the last three count. `coarse`: the value of
-   four-node tets on the mesh of the first level, NaN: not known; it counts where there is but one.
+/* level [n], from coarse to fine, n >= 1; of them the last three count, and that none before has
+   changed the other way. `coarse`: the value of four-node tets on the mesh of the first level, NaN:
+   not known; it counts where there is but one.
    `noise`: what each value is known by. `local`: the last mesh is one whose tets are cut where they
    are marked. */
 goal_error goal_judge(int n, const goal_level *level, double coarse, double noise, bool local);
