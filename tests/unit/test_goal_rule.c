@@ -112,11 +112,40 @@ static void noise_is_no_convergence(void **state) {
   assert_false(e.settled || e.asymptotic);
 }
 
+/* Of meshes that are cut locally three are no proof: a fourth has to lead to the same limit. */
+static void local_meshes_have_to_agree(void **state) {
+  (void)state;
+  goal_level level[4];
+  for (int i = 0; i < 4; i++) {
+    double size = pow(1.3, -i);
+    level[i] = (goal_level){1 - 0.1 * pow(size, 2), size};
+  }
+  assert_false(goal_judge(3, level, NAN, 0, true).asymptotic);
+  goal_error e = goal_judge(4, level, NAN, 0, true);
+  assert_true(e.asymptotic && e.half >= 1 - level[3].value);
+  level[3].value = level[2].value + 0.3 * (level[3].value - level[2].value);
+  e = goal_judge(4, level, NAN, 0, true);
+  assert_false(e.asymptotic);
+  assert_non_null(strstr(e.why, "agree"));
+}
+
+/* Where values have once gone the other way, what they seem to tend to is not believed. */
+static void a_turn_is_remembered(void **state) {
+  (void)state;
+  const goal_level level[5] = {
+      {0.018594, 1}, {0.019076, 0.8}, {0.018833, 0.64}, {0.018718, 0.5}, {0.018672, 0.4}};
+  goal_error e = goal_judge(5, level, NAN, 0, true);
+  assert_false(e.asymptotic);
+  assert_non_null(strstr(e.why, "turned"));
+  assert_true(e.half > 0.018672 - 0.018506); /* what finer meshes tend to */
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_power_is_found),        cmocka_unit_test(ratios_may_differ),
-      cmocka_unit_test(two_powers_stay_inside),  cmocka_unit_test(doubts_are_told),
-      cmocka_unit_test(few_meshes_prove_little), cmocka_unit_test(noise_is_no_convergence),
+      cmocka_unit_test(a_power_is_found),           cmocka_unit_test(ratios_may_differ),
+      cmocka_unit_test(two_powers_stay_inside),     cmocka_unit_test(doubts_are_told),
+      cmocka_unit_test(few_meshes_prove_little),    cmocka_unit_test(noise_is_no_convergence),
+      cmocka_unit_test(local_meshes_have_to_agree), cmocka_unit_test(a_turn_is_remembered),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

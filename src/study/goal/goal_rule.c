@@ -63,40 +63,70 @@ static double counted(double order, bool local) {
   return order * (1 - 0.1 * fmin(1, fmax(0, 3 - order) / 1.5));
 }
 
-goal_error goal_judge(int n, const goal_level *level, double coarse, double noise, bool local) {
-  if (n < 2) return judge_one(level, coarse);
-  const goal_level *last = level + n - 1;
-  double d2 = last[0].value - last[-1].value, ratio = last[-1].size / last[0].size;
-  double d1 = n >= 3 ? last[-1].value - last[-2].value : NAN;
-  goal_error e = {.order = NAN, .why = "there are but two meshes of ten-node tets"};
-
-  /* nothing to be seen beside what the values are known by anyway; of two meshes with ten-node tets
-     four-node ones are the third */
-  double before = n >= 3 ? d1 : last[-1].value - coarse;
-  e.settled = fabs(d2) <= noise && !(n >= 3 && fabs(d1) > noise);
-  if (e.settled) {
-    e.asymptotic = fabs(before) <= noise;
-    e.why = e.asymptotic ? NULL : e.why;
-    e.estimate = d2;
-    e.half = GOAL_SAFETY_UNPROVEN * fabs(d2) + noise;
-    return e;
-  }
-  if (n >= 3) {
-    const double size[3] = {last[-2].size, last[-1].size, last[0].size};
-    e.order = d1 * d2 > 0 ? order_of(size, d1 / d2) : NAN;
-    e.why = doubt(d1, d2, e.order, local);
-    if (!e.why && has_turned(n, level, d2)) e.why = "the values have turned, and may do so again";
-    e.diverging = e.order == 0;
-    e.asymptotic = !e.why;
-  }
-  if (!e.asymptotic) {
-    widen(&e, d1, d2, ratio);
-    return e;
-  }
-  double cautious = fmin(GOAL_CAUTIOUS_FACTOR * e.order, GOAL_CAUTIOUS_ORDER);
-  e.estimate = d2 * remainder_of(ratio, counted(e.order, local));
+/* What the last three meshes say, if they converge. */
+static void extrapolate(goal_error *e, double d1, double d2, double ratio, double noise,
+                        bool local) {
+  double cautious = fmin(GOAL_CAUTIOUS_FACTOR * e->order, GOAL_CAUTIOUS_ORDER);
   double fall = local ? GOAL_CAUTIOUS_FALL_LOCAL : GOAL_CAUTIOUS_FALL;
   double least = fabs(d1) * pow(ratio, -fall);
-  e.half = GOAL_SAFETY * fmax(fmax(fabs(d2), least), noise) * remainder_of(ratio, cautious);
+  e->estimate = d2 * remainder_of(ratio, counted(e->order, local));
+  e->half = GOAL_SAFETY * fmax(fmax(fabs(d2), least), noise) * remainder_of(ratio, cautious);
+}
+
+/* Of three meshes and more, that are not settled. */
+static goal_error judge_three(int n, const goal_level *level, double noise, bool local) {
+  const goal_level *last = level + n - 1;
+  const double size[3] = {last[-2].size, last[-1].size, last[0].size};
+  double d1 = last[-1].value - last[-2].value, d2 = last[0].value - last[-1].value;
+  goal_error e = {.order = d1 * d2 > 0 ? order_of(size, d1 / d2) : NAN};
+  e.why = doubt(d1, d2, e.order, local);
+  if (!e.why && has_turned(n, level, d2)) e.why = "the values have turned, and may do so again";
+  e.diverging = e.order == 0;
+  if (e.why)
+    widen(&e, d1, d2, size[1] / size[2]);
+  else
+    extrapolate(&e, d1, d2, size[1] / size[2], noise, local);
+  e.asymptotic = !e.why;
+  return e;
+}
+
+/* Sizes of locally cut meshes are but numbers: two extrapolations in a row have to agree. */
+static void ask_for_two(int n, const goal_level *level, double noise, goal_error *e) {
+  static const char why[] = "of meshes that are cut locally two extrapolations in a row must agree";
+  goal_error before = {0};
+  if (n >= 4) before = judge_three(n - 1, level, noise, true);
+  double limit = level[n - 1].value + e->estimate;
+  if (before.asymptotic &&
+      fabs(level[n - 2].value + before.estimate - limit) <= GOAL_AGREEMENT * fabs(e->estimate))
+    return;
+  e->asymptotic = false;
+  e->why = why;
+}
+
+/* Nothing is to be seen beside what the values are known by anyway. Of two meshes with ten-node
+   tets four-node ones are the third. */
+static bool is_settled(int n, const goal_level *level, double coarse, double noise, goal_error *e) {
+  double d2 = level[n - 1].value - level[n - 2].value;
+  double before = level[n - 2].value - (n >= 3 ? level[n - 3].value : coarse);
+  if (!(fabs(d2) <= noise) || (n >= 3 && fabs(before) > noise)) return false;
+  *e = (goal_error){.estimate = d2,
+                    .half = GOAL_SAFETY_UNPROVEN * fabs(d2) + noise,
+                    .order = NAN,
+                    .settled = true,
+                    .asymptotic = fabs(before) <= noise};
+  if (!e->asymptotic) e->why = "there are but two meshes of ten-node tets";
+  return true;
+}
+
+goal_error goal_judge(int n, const goal_level *level, double coarse, double noise, bool local) {
+  goal_error e = {.order = NAN, .why = "there are but two meshes of ten-node tets"};
+  if (n < 2) return judge_one(level, coarse);
+  if (is_settled(n, level, coarse, noise, &e)) return e;
+  if (n >= 3) {
+    e = judge_three(n, level, noise, local);
+    if (local && e.asymptotic) ask_for_two(n, level, noise, &e);
+    return e;
+  }
+  widen(&e, NAN, level[1].value - level[0].value, level[0].size / level[1].size);
   return e;
 }

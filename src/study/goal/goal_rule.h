@@ -11,7 +11,8 @@
    Near a re-entrant corner the order that is seen falls from mesh to mesh, to 2 x 0.54 of an L; so
    e counts nine tenths of an order of 1.5 or less, all of one of 3 and more. Where tets are cut
    locally the size is the third root of the number of unknowns, the order that is seen may be
-   anything, and varies from mesh to mesh: e counts three quarters of it, and none above 3.5.
+   anything, and varies from mesh to mesh: e counts three quarters of it, and none above 3.5; and
+   that is called asymptotic where the limits of the last two triples of meshes agree.
 
    For half-widths more is taken away: they count 0.55 of the observed order, and none above 2.5;
    nor that the last difference has fallen faster than at order 3 (4, where tets are cut locally),
@@ -33,6 +34,7 @@
 #define GOAL_CAUTIOUS_FACTOR 0.55
 #define GOAL_CAUTIOUS_FALL 3.0
 #define GOAL_CAUTIOUS_FALL_LOCAL 4.0
+#define GOAL_AGREEMENT 0.5 /* of two limits, in parts of the estimate */
 
 #define GOAL_SAFETY 1.25         /* asymptotic */
 #define GOAL_SAFETY_UNPROVEN 3.0 /* not */
