@@ -13,8 +13,8 @@
      what a later one could add is measured on the first two.
    * algebra: with a hundred times smaller tolerances of all equations.
    * frames: found in every evaluation, without a hierarchy, in all attempts: no part.
-   * the strain measure, which is the user's choice: against green: of equilibria, and
-     where it counts, on the first mesh of ten-node tets, else on four-node ones.
+   * the strain measure, which is the user's choice: against green, on the first mesh of
+     ten-node tets.
 
    DIR/solve.json, and what --json prints:
      {"title", "scenario", "static", "goal": the quantity, "unit", "value", "low", "high": the truth

@@ -68,14 +68,13 @@ void goal_plan_algebra(goal_search *s) {
   s->algebra = attempts_plan(&s->attempts, def);
 }
 
-/* Of an equilibrium, or where it counts, on the first mesh of ten-node tets, as far as the window;
-   else on four-node tets. */
+/* On the first mesh of ten-node tets, as far as the window: four-node ones, which are too stiff,
+   are strained too little to tell. */
 void goal_plan_model(goal_search *s) {
   if (corot_strain_find(s->attempts.scenario->model.strain)->exact) return;
-  bool counts = s->request->still || s->request->exact_model;
-  s->model_of = counts ? s->level[0] : s->coarse;
-  attempt_def def = counts ? base_def(s) : goal_attempt(s, s->coarse)->def;
+  attempt_def def = base_def(s);
   def.green = true;
+  s->model_of = s->level[0];
   s->model = attempts_plan(&s->attempts, def);
 }
 
