@@ -24,7 +24,7 @@ json 'd["met"] and d["goal"] == "corner.ux@end" and d["unit"] == "m" and d["with
 json 'd["low"] < d["value"] < d["high"] and d["high"] - d["low"] <= 2 * 0.03 * d["value"] * (1 + 1e-12)'
 json 'set(d["parts"]) == {"space", "time", "algebra", "frames", "model"} and d["parts"]["model"] == 0'
 json 'abs(sum(d["half"].values()) - (d["high"] - d["low"]) / 2) < 1e-12'
-json 'len(d["levels"]) >= 2 and all(a["status"] == "done" and a["cpu_s"] > 0 for a in d["attempts"])'
+json 'len(d["levels"]) >= 2 and all(a["status"] == "done" and a["cpu_s"] >= 0 for a in d["attempts"])'
 json 'd["levels"][-1]["value"] == d["value"] and abs(d["cpu_s"] - sum(a["cpu_s"] for a in d["attempts"])) < 1e-9'
 cmp -s stdout out/model-static-solve/solve.json || python3 - <<'PY' || complain "solve.json is something else"
 import json
@@ -75,6 +75,13 @@ expect 4 solve model.yaml --static --goal corner.ux@end --within 0.1 -o none --s
 out "the first attempt, order 1"; out "no equilibrium"; out "without --static the motion has an answer"
 expect 3 solve model.yaml --static --goal corner.ux@end --within 0.1 -o loose --set boundary=[]
 out "no support hinders it"
+
+# Passes of local refinement stand in a file; one of somebody else by that name stays.
+grep -q '^# corot solve: ' out/model-static-solve/marks/1.txt || complain "marks"
+mkdir -p theirs/marks; echo mine >theirs/marks/1.txt
+expect 5 solve model.yaml --static --goal corner.ux@end --within 0.03 --set strain=green -o theirs; err "theirs/marks/1.txt"
+[ "$(cat theirs/marks/1.txt)" = mine ] || complain "a file of others was replaced"
+expect 0 solve model.yaml --static --goal corner.ux@end --within 0.03 --set strain=green -o theirs --force
 
 # A folder of another scenario stays as it is.
 expect 3 solve model.yaml --static --goal corner.ux@end --within 0.1 -o short --set title=other; err 'belongs to the study'

@@ -8,8 +8,8 @@
 #include "study/plan/manifest.h"
 
 enum {
-  ATTEMPT_MOST = 64,
-  ATTEMPT_SETTINGS = 12,
+  ATTEMPT_MOST = 96, /* more than a search makes: tolerances and meshes end before */
+  ATTEMPT_SETTINGS = 16,
   ATTEMPT_SETTING_SIZE = 2 * QUANTITY_TEXT + 16,
   ATTEMPT_LABEL_SIZE = 128,
   ATTEMPT_REASON_SIZE = 256,

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "app/folder/folder.h"
+#include "app/folder/folder_owner.h"
 #include "app/folder/states.h"
 #include "app/probe/probe.h"
 #include "app/text/no_memory.h"
@@ -172,8 +173,13 @@ static corot_status choose(const solved *of, const double *indicator, marks *m) 
 
 /* --- The file --- */
 
+#define MARKS_MARK "# corot solve: tets to cut, a line for each pass"
+
 static corot_status copy_passes(const attempts *a, int npass, FILE *out) {
-  if (npass == 0) return COROT_OK;
+  if (npass == 0) {
+    fputs(MARKS_MARK "\n", out);
+    return COROT_OK;
+  }
   char *path = attempts_marks(a, npass), line[4096];
   FILE *in = path ? fopen(path, "r") : NULL;
   free(path);
@@ -195,6 +201,7 @@ static corot_status write_marks(const goal_search *s, const marks *m) {
   for (int i = 0; i < m->n && status == COROT_OK; i++)
     fprintf(out, "%d%c", m->tet[i], i + 1 < m->n ? ' ' : '\n');
   if (text_close(out) != 0 && status == COROT_OK) status = no_memory();
+  if (status == COROT_OK && !a->options.force) status = file_permit(path, MARKS_MARK);
   if (status == COROT_OK) status = file_replace_durably(path, text, size);
   free(text);
   free(folder);

@@ -15,69 +15,81 @@ static bool is_extreme(const quantity *q) {
   return q->operation == QUANTITY_MAX || q->operation == QUANTITY_MIN;
 }
 
-/* The extreme of what comes after the window over that within it, as rows of the tables have them;
-   NaN: not known. */
-static double later_extreme(const goal_search *s, const csv *table) {
-  const quantity *q = s->request->quantity;
-  double *t = NULL, *x = NULL, within = -INFINITY, later = -INFINITY;
-  double sign = q->operation == QUANTITY_MIN ? -1 : 1;
-  int column = csv_find(table, s->attempts.column);
-  if (column >= 0 && csv_column(table, "t", &t) == COROT_OK &&
-      csv_numbers(table, column, &x) == COROT_OK)
-    for (int i = 0; i < table->nrow; i++) {
-      double value = sign * (q->magnitude ? fabs(x[i]) : x[i]);
-      double *of = t[i] <= s->window ? &within : &later;
-      if (t[i] >= q->from && value > *of) *of = value;
-    }
-  free(t);
-  free(x);
-  return within != 0 && isfinite(within) && isfinite(later) ? 1 + (later - within) / fabs(within)
-                                                            : NAN;
+/* What a run's table has of the quantity's column: n rows, its largest value being the extreme that
+   is asked for. */
+typedef struct record {
+  int n;
+  double *t, *x; /* [n] */
+} record;
+
+static void forget(record *r) {
+  free(r->t);
+  free(r->x);
 }
 
-/* Calls `look` with the table of an attempt that has the column; *found: there is one. */
-static corot_status read_table(const goal_search *s, int i,
-                               double (*look)(const goal_search *s, const csv *table),
-                               double *out) {
+static corot_status read_column(const goal_search *s, const csv *table, int column, record *out) {
+  const quantity *q = s->request->quantity;
+  double sign = q->operation == QUANTITY_MIN ? -1 : 1;
+  COROT_TRY(csv_column(table, "t", &out->t));
+  COROT_TRY(csv_numbers(table, column, &out->x));
+  out->n = table->nrow;
+  for (int i = 0; i < out->n; i++) out->x[i] = sign * (q->magnitude ? fabs(out->x[i]) : out->x[i]);
+  return COROT_OK;
+}
+
+/* Of the table that has the column; without rows where none has. The caller's to forget(), on
+   failure, too. */
+static corot_status read_record(const goal_search *s, int i, record *out) {
   static const char *const name[] = {"probes.csv", "energy.csv"};
   const attempt *a = goal_attempt(s, i);
-  *out = NAN;
+  *out = (record){0};
   if (!a->done) return COROT_OK;
   char *folder = store_path(s->attempts.options.dir, &s->attempts.manifest->run[a->at], "");
   corot_status status = folder ? COROT_OK : COROT_ENOMEM;
-  for (int k = 0; k < 2 && status == COROT_OK && isnan(*out); k++) {
+  for (int k = 0; k < 2 && status == COROT_OK && out->n == 0; k++) {
     csv table;
     status = csv_read_if_there(folder, name[k], &table);
     if (status != COROT_OK) break;
-    *out = look(s, &table);
+    int column = csv_find(&table, s->attempts.column);
+    if (column >= 0) status = read_column(s, &table, column, out);
     csv_free(&table);
   }
   free(folder);
   return status;
 }
 
+/* The extreme of what comes after the window over that within it; NaN: not known. */
+static corot_status later_extreme(const goal_search *s, int i, double *out) {
+  record r;
+  corot_status status = read_record(s, i, &r);
+  double within = -INFINITY, later = -INFINITY;
+  for (int k = 0; status == COROT_OK && k < r.n; k++) {
+    double *of = r.t[k] <= s->window ? &within : &later;
+    if (r.t[k] >= s->request->quantity->from && r.x[k] > *of) *of = r.x[k];
+  }
+  bool known = within != 0 && isfinite(within) && isfinite(later);
+  *out = known ? 1 + (later - within) / fabs(within) : NAN;
+  forget(&r);
+  return status;
+}
+
 /* The time of the first extreme that comes close to the largest: later ones like it, of a body that
    swings on, say nothing new. NaN: not known. */
-static double first_extreme(const goal_search *s, const csv *table) {
+static corot_status first_extreme(const goal_search *s, int i, double *when) {
   const quantity *q = s->request->quantity;
-  double *t = NULL, *x = NULL, most = -INFINITY, when = NAN;
-  double sign = q->operation == QUANTITY_MIN ? -1 : 1;
-  int column = csv_find(table, s->attempts.column), first = -1;
-  if (column >= 0 && csv_column(table, "t", &t) == COROT_OK &&
-      csv_numbers(table, column, &x) == COROT_OK) {
-    for (int i = 0; i < table->nrow; i++) {
-      x[i] = sign * (q->magnitude ? fabs(x[i]) : x[i]);
-      if (t[i] >= q->from && t[i] <= fmin(q->to, s->until)) most = fmax(most, x[i]);
-    }
-    double close = GOAL_LIKE * goal_allowed(s->request, most);
-    for (int i = table->nrow - 1; i >= 0; i--)
-      if (t[i] >= q->from && t[i] <= fmin(q->to, s->until) && x[i] >= most - close) first = i;
-    while (first >= 0 && first + 1 < table->nrow && x[first + 1] > x[first]) first++;
-    if (first >= 0) when = t[first];
-  }
-  free(t);
-  free(x);
-  return when;
+  record r;
+  corot_status status = read_record(s, i, &r);
+  double most = -INFINITY, to = fmin(q->to, s->until);
+  int first = -1;
+  for (int k = 0; status == COROT_OK && k < r.n; k++)
+    if (r.t[k] >= q->from && r.t[k] <= to) most = fmax(most, r.x[k]);
+  double close = GOAL_LIKE * goal_allowed(s->request, most);
+  for (int k = r.n - 1; status == COROT_OK && k >= 0; k--)
+    if (r.t[k] >= q->from && r.t[k] <= to && r.x[k] >= most - close) first = k;
+  while (first >= 0 && first + 1 < r.n && r.x[first + 1] > r.x[first]) first++;
+  *when = first >= 0 ? r.t[first] : NAN;
+  forget(&r);
+  return status;
 }
 
 corot_status goal_choose_window(goal_search *s) {
@@ -85,7 +97,7 @@ corot_status goal_choose_window(goal_search *s) {
   s->window = s->until;
   if (s->request->still || !is_extreme(q)) return COROT_OK;
   double when = goal_value(s, s->full);
-  if (!q->when) COROT_TRY(read_table(s, s->full, first_extreme, &when));
+  if (!q->when) COROT_TRY(first_extreme(s, s->full, &when));
   double past = 1.05 * when + 0.02 * s->until;
   if (past <= 0.7 * s->until) s->window = past;
   return COROT_OK;
@@ -97,8 +109,8 @@ corot_status goal_find_tail(goal_search *s) {
   double before, now;
   s->tail = 0;
   if (s->window >= s->until || s->nlevel < 2) return COROT_OK;
-  COROT_TRY(read_table(s, s->coarse, later_extreme, &before));
-  COROT_TRY(read_table(s, s->full, later_extreme, &now));
+  COROT_TRY(later_extreme(s, s->coarse, &before));
+  COROT_TRY(later_extreme(s, s->full, &now));
   double base = goal_value(s, s->level[0]), last = goal_value(s, s->level[s->nlevel - 1]);
   double moved = fabs((last - base) / (base - goal_value(s, s->coarse)));
   double later = now + 2 * fabs(now - before) * fmin(1, moved);
@@ -140,7 +152,11 @@ static bool is_inside(goal_search *s, int i) {
 corot_status goal_refine(goal_search *s, bool *made) {
   *made = false;
   const attempt *last = goal_attempt(s, s->level[s->nlevel - 1]);
-  if (s->nlevel == GOAL_LEVELS) return COROT_OK;
+  if (s->nlevel == GOAL_LEVELS) {
+    snprintf(s->result->obstacle, sizeof s->result->obstacle, "%d meshes were not enough",
+             GOAL_LEVELS);
+    return COROT_OK;
+  }
 
   /* where: everywhere, or where the estimator says */
   goal_marking marking;
