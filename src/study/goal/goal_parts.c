@@ -121,7 +121,8 @@ static void doubt_waves(const goal_search *s, double value, goal_error *mesh) {
   double coarse = fabs(value - goal_value(s, s->coarse));
   double changed = fabs(value - goal_value(s, s->level[0]));
   mesh->half = fmax(mesh->half, coarse / 2);
-  if (changed > 0.05 * fabs(value)) mesh->half = fmax(mesh->half, 2 * (coarse + changed));
+  if (changed > 0.05 * fabs(value))
+    mesh->half = fmax(mesh->half, 2 * (fmin(coarse, 3 * changed) + changed));
 }
 
 static void advise(const goal_search *s, const goal_error *mesh) {
