@@ -113,14 +113,13 @@ static goal_error judge_mesh(const goal_search *s, double noise) {
   return goal_judge(s->nlevel, level, goal_value(s, s->coarse), noise, s->npass > 0);
 }
 
-/* Waves and shocks: two meshes may agree by chance where four-node tets do not, and a peak that is
-   overshot on every mesh does not settle. */
+/* Waves and shocks: a peak that is overshot on every mesh does not settle, however near two meshes
+   are to one another. */
 static void doubt_waves(const goal_search *s, double value, goal_error *mesh) {
   if (s->request->still || s->nlevel != 2 || mesh->settled) return;
   if (goal_attempt(s, s->full)->swing <= GOAL_QUIET) return;
   double coarse = fabs(value - goal_value(s, s->coarse));
   double changed = fabs(value - goal_value(s, s->level[0]));
-  mesh->half = fmax(mesh->half, coarse / 2);
   if (changed > 0.05 * fabs(value))
     mesh->half = fmax(mesh->half, 2 * (fmin(coarse, 3 * changed) + changed));
 }
