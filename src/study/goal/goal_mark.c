@@ -38,12 +38,14 @@ static void forget(solved *of) {
 static corot_status recall(const goal_search *s, solved *of) {
   const attempts *all = &s->attempts;
   const attempt *a = goal_attempt(s, s->level[s->nlevel - 1]);
-  char *set[ATTEMPT_SETTINGS + 64];
-  if (all->nset > 64) return corot_fail(COROT_EINVAL, "too many settings");
+  char **set = malloc((size_t)(all->nset + a->nset + 1) * sizeof *set);
+  if (!set) return no_memory();
   int n = 0;
   for (int i = 0; i < all->nset; i++) set[n++] = (char *)all->set[i];
   for (int i = 0; i < a->nset; i++) set[n++] = (char *)a->set[i];
-  COROT_TRY(scenario_read(all->scenario->path, n, set, &of->scenario));
+  corot_status read = scenario_read(all->scenario->path, n, set, &of->scenario);
+  free(set);
+  COROT_TRY(read);
   COROT_TRY(scenario_build(of->scenario, &of->mesh, NULL, &of->model));
   char *folder = store_path(all->options.dir, &all->manifest->run[a->at], "");
   if (!folder) return COROT_ENOMEM;
