@@ -11,6 +11,9 @@ enum { GOAL_LEVELS = 12 };
 /* A part may take so much of what is allowed; the mesh gets the rest. */
 #define GOAL_TIME_SHARE 0.2
 
+/* The error of time may be so many times what four-node tets show, where nothing else is known. */
+#define GOAL_UNCHECKED 5.0
+
 /* Motion with so much less kinetic than elastic energy is nearly a row of equilibria, whose shapes
    say where a mesh must be finer. */
 #define GOAL_QUIET 0.1

@@ -142,7 +142,7 @@ static double find_time(goal_search *s) {
   double value = goal_value(s, s->level[0]), coarse = s->coarse_off * fabs(value);
   double changed = fabs(value - goal_value(s, s->check));
   bool stages = corot_method_traits(s->method)->stages;
-  if (isnan(changed)) changed = 0;
+  if (isnan(changed)) changed = GOAL_UNCHECKED * coarse; /* the check has failed */
   r->time = fmax(stages ? changed / 10 : changed, coarse);
   r->half_time = 1.25 * fmax(stages ? changed / 2 : changed, coarse);
   return stages ? changed / 2 : changed;
