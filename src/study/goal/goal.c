@@ -60,7 +60,7 @@ static corot_status make_base(goal_search *s) {
   look_at_size(s);
   if (is_over(s)) return COROT_OK;
   COROT_TRY(goal_choose_window(s));
-  goal_plan_window(s);
+  COROT_TRY(goal_look_through_window(s));
   goal_plan_check(s);
   goal_plan_model(s);
   COROT_TRY(attempts_make(&s->attempts));
@@ -108,6 +108,7 @@ static goal_search begin(const goal_request *r, const scenario *s, goal_result *
                        .until = end_of(r, s),
                        .window = end_of(r, s),
                        .coarse = -1,
+                       .better = {-1, -1},
                        .check = -1,
                        .algebra = -1,
                        .model = -1,

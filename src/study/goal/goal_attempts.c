@@ -31,6 +31,10 @@ double attempts_cpu(const attempts *a) {
   return sum;
 }
 
+char *attempts_folder(const attempts *a, int i) {
+  return store_path(a->options.dir, &a->manifest->run[a->all[i].at], "");
+}
+
 char *attempts_marks(const attempts *a, int npass) {
   size_t size = strlen(a->options.dir) + 32;
   char *path = malloc(size);

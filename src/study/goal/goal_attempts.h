@@ -74,6 +74,10 @@ corot_status attempts_make(attempts *a);
 /* CPU time of all that are known [s]. */
 double attempts_cpu(const attempts *a);
 
+/* Where the run of attempt i lies; the caller's to free. NULL: no memory, which corot_error() says.
+ */
+char *attempts_folder(const attempts *a, int i);
+
 /* "DIR/marks/N.txt": the passes of local refinement up to N; the caller's to free. */
 char *attempts_marks(const attempts *a, int npass);
 

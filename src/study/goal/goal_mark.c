@@ -14,7 +14,6 @@
 #include "app/probe/probe.h"
 #include "app/text/no_memory.h"
 #include "app/text/text_stream.h"
-#include "study/execute/store.h"
 
 /* The next mesh has about so many times the tets. */
 #define GROWTH_LEAST 1.8
@@ -47,7 +46,7 @@ static corot_status recall(const goal_search *s, solved *of) {
   free(set);
   COROT_TRY(read);
   COROT_TRY(scenario_build(of->scenario, &of->mesh, NULL, &of->model));
-  char *folder = store_path(all->options.dir, &all->manifest->run[a->at], "");
+  char *folder = attempts_folder(all, s->level[s->nlevel - 1]);
   if (!folder) return COROT_ENOMEM;
   corot_status status = states_read(folder, &of->states);
   free(folder);

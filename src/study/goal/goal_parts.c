@@ -53,7 +53,7 @@ bool goal_is_sensible(goal_search *s, int i) {
 
 /* --- Algebra, and the measure --- */
 
-static attempt_def base_def(const goal_search *s) {
+attempt_def goal_base_def(const goal_search *s) {
   attempt_def def = goal_attempt(s, s->level[0])->def;
   if (s->window < s->until) def.until = s->window;
   return def;
@@ -72,7 +72,7 @@ void goal_plan_algebra(goal_search *s) {
    are strained too little to tell. */
 void goal_plan_model(goal_search *s) {
   if (corot_strain_find(s->attempts.scenario->model.strain)->exact) return;
-  attempt_def def = base_def(s);
+  attempt_def def = goal_base_def(s);
   def.green = true;
   s->model_of = s->level[0];
   s->model = attempts_plan(&s->attempts, def);

@@ -73,7 +73,7 @@ static void extrapolate(goal_error *e, double d1, double d2, double ratio, doubl
   e->half = GOAL_SAFETY * fmax(fmax(fabs(d2), least), noise) * remainder_of(ratio, cautious);
 }
 
-/* Of three meshes and more, that are not settled. */
+/* Of three meshes and more, that are not settled: whether the last three seem to converge. */
 static goal_error judge_three(int n, const goal_level *level, double noise, bool local) {
   const goal_level *last = level + n - 1;
   const double size[3] = {last[-2].size, last[-1].size, last[0].size};
@@ -86,21 +86,30 @@ static goal_error judge_three(int n, const goal_level *level, double noise, bool
     widen(&e, d1, d2, size[1] / size[2]);
   else
     extrapolate(&e, d1, d2, size[1] / size[2], noise, local);
-  e.asymptotic = !e.why;
   return e;
 }
 
-/* Sizes of locally cut meshes are but numbers: two extrapolations in a row have to agree. */
-static void ask_for_two(int n, const goal_level *level, double noise, goal_error *e) {
-  static const char why[] = "of meshes that are cut locally two extrapolations in a row must agree";
-  goal_error before = {0};
-  if (n >= 4) before = judge_three(n - 1, level, noise, true);
-  double limit = level[n - 1].value + e->estimate;
-  if (before.asymptotic &&
-      fabs(level[n - 2].value + before.estimate - limit) <= GOAL_AGREEMENT * fabs(e->estimate))
-    return;
-  e->asymptotic = false;
-  e->why = why;
+/* Richardson's: of an order that is taken as it is seen. */
+static double richardson(const goal_level *last, double order) {
+  return (last[0].value - last[-1].value) * remainder_of(last[-1].size / last[0].size, order);
+}
+
+/* Three meshes always have an order; a fourth has to lead to the same limit: what that has moved by
+   goes on at order two. */
+static void ask_for_two(int n, const goal_level *level, double noise, bool local, goal_error *e) {
+  goal_error before = {.why = ""};
+  if (n >= 4) before = judge_three(n - 1, level, noise, local);
+  double estimate = richardson(level + n - 1, e->order), before_it = NAN;
+  if (!before.why) before_it = richardson(level + n - 2, before.order);
+  double moved = level[n - 1].value + estimate - (level[n - 2].value + before_it);
+  double to_come = fabs(moved) * remainder_of(level[n - 2].size / level[n - 1].size, 2);
+  e->asymptotic = to_come <= GOAL_AGREEMENT * fabs(estimate);
+  if (e->asymptotic)
+    e->estimate = estimate;
+  else
+    e->why =
+        n < 4 ? "three meshes of ten-node tets are no proof, a fourth has to lead to the same limit"
+              : "the last two extrapolations do not lead to the same limit";
 }
 
 /* Nothing is to be seen beside what the values are known by anyway. Of two meshes with ten-node
@@ -124,7 +133,7 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
   if (is_settled(n, level, coarse, noise, &e)) return e;
   if (n >= 3) {
     e = judge_three(n, level, noise, local);
-    if (local && e.asymptotic) ask_for_two(n, level, noise, &e);
+    if (!e.why) ask_for_two(n, level, noise, local, &e);
     return e;
   }
   widen(&e, NAN, level[1].value - level[0].value, level[0].size / level[1].size);

@@ -2,17 +2,19 @@
 
    With an error C h^p, h the size of the elements, three values give p, and what remains: of the
    last difference d the error is e = d / (r^p - 1), r the ratio of the last two sizes (Richardson's
-   extrapolation). That is believed where the values look as if it were true: asymptotic. Then the
-   truth is taken to be within 1.25 |e| of the last value; elsewhere within 3 |d| / (r - 1), of
-   order one, whatever the order may be: the factors of safety of ASME V&V 20-2009, section 2-4 (P.
-   J. Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter
-   5).
-
-   Near a re-entrant corner the order that is seen falls from mesh to mesh, to 2 x 0.54 of an L; so
-   e counts nine tenths of an order of 1.5 or less, all of one of 3 and more. Where tets are cut
+   extrapolation). Where four meshes look as if that were true, the last two triples of them leading
+   to the same limit, the values are called asymptotic, and e is the estimate. (Where tets are cut
    locally the size is the third root of the number of unknowns, the order that is seen may be
-   anything, and varies from mesh to mesh: e counts three quarters of it, and none above 3.5; and
-   that is called asymptotic where the limits of the last two triples of meshes agree.
+   anything, and three meshes prove nothing; near a re-entrant corner it falls from mesh to mesh.)
+
+   The truth is taken to be within 1.25 |e| of the last value where an order is seen; elsewhere
+   within 3 |d| / (r - 1), of order one, whatever the order may be: the factors of safety of ASME
+   V&V 20-2009, section 2-4 (P. J. Roache, Verification and Validation in Computational Science and
+   Engineering, 1998, chapter 5).
+
+   As long as values are not asymptotic, the estimate counts nine tenths of an order of 1.5 or less,
+   all of one of 3 and more, which errs on the safe side where the order falls, to 2 x 0.54 at the
+   corner of an L; where tets are cut locally three quarters, and none above 3.5.
 
    For half-widths more is taken away: they count 0.55 of the observed order, and none above 2.5;
    nor that the last difference has fallen faster than at order 3 (4, where tets are cut locally),
@@ -34,7 +36,7 @@
 #define GOAL_CAUTIOUS_FACTOR 0.55
 #define GOAL_CAUTIOUS_FALL 3.0
 #define GOAL_CAUTIOUS_FALL_LOCAL 4.0
-#define GOAL_AGREEMENT 0.5 /* of two limits, in parts of the estimate */
+#define GOAL_AGREEMENT 0.15 /* the limit may still move by so much, in parts of the estimate */
 
 #define GOAL_SAFETY 1.25         /* asymptotic */
 #define GOAL_SAFETY_UNPROVEN 3.0 /* not */
@@ -55,7 +57,7 @@ typedef struct goal_error {
   const char *why; /* not asymptotic, static; NULL: it is */
 } goal_error;
 
-/* level [n], from coarse to fine, n >= 1; of them the last three count, and that none before has
+/* level [n], from coarse to fine, n >= 1; of them the last four count, and that none before has
    changed the other way. `coarse`: the value of four-node tets on the mesh of the first level, NaN:
    not known; it counts where there is but one.
    `noise`: what each value is known by. `local`: the last mesh is one whose tets are cut where they

@@ -31,14 +31,18 @@ typedef struct goal_search {
   /* time, of motion; of an equilibrium the part of time is zero */
   const char *method;
   double rtol;
-  double until;      /* what the quantity needs to be seen [s] */
-  double window;     /* finer meshes are integrated so far: `until`, or past the extreme */
-  double coarse_off; /* half-width of time on four-node tets, over the value */
+  double until;  /* what the quantity needs to be seen [s] */
+  double window; /* finer meshes are integrated so far: `until`, or past the extreme */
+  double
+      coarse_off; /* half-width of time on four-node tets, over the value; it is that of `coarse` */
+  int better[2];  /* from these, attempts of a better method at its tolerance and at a tenth of it;
+                     -1: none */
 
   int coarse;              /* attempt of four-node tets as given, by that method */
   int nlevel;              /* of meshes */
   int level[GOAL_LEVELS];  /* attempts */
   int full;                /* an attempt of the first level that goes to `until` */
+  attempt whole;           /* the same with its own value, where it has that within the window */
   int refine, npass;       /* of the last */
   int check;               /* the first level, by what its error of time is judged; -1: none */
   int algebra, algebra_of; /* an attempt with tight algebra, and the same without; -1: none */
@@ -68,16 +72,24 @@ corot_status goal_choose_time(goal_search *s);
 /* The first mesh of ten-node tets; by what its error of time is judged, as far as the window; and
    better methods and tolerances, once both are there, until that error is small. */
 void goal_plan_base(goal_search *s);
-void goal_plan_window(goal_search *s); /* the same as far as the window, where that matters */
 void goal_plan_check(goal_search *s);
 corot_status goal_settle_time(goal_search *s);
 
 /* Where the extreme is early enough: s->window. */
 corot_status goal_choose_window(goal_search *s);
+
+/* The first mesh's value within it, whose run went further. */
+corot_status goal_look_through_window(goal_search *s);
 corot_status goal_find_tail(goal_search *s);
+
+/* Whether attempt i has its extreme inside of the window; else the window is given up. */
+bool goal_keeps_window(goal_search *s, int i);
 
 /* The next mesh: *made: there is one. */
 corot_status goal_refine(goal_search *s, bool *made);
+
+/* The first level's run, as far as the window. */
+attempt_def goal_base_def(const goal_search *s);
 
 /* What algebra and strain measure do, on a mesh where that is cheap. */
 void goal_plan_algebra(goal_search *s);

@@ -19,7 +19,7 @@ static const char *own_method(const scenario *s) {
 }
 
 static trial begin(const scenario *s) {
-  trial t = {.method = {own_method(s), "arkode"}};
+  trial t = {.method = {own_method(s), "arkode"}, .at = {{-1, -1}, {-1, -1}}};
   if (strcmp(t.method[0], t.method[1]) == 0) t.method[1] = "cvode";
   for (int i = 0; i < 2; i++) t.stages[i] = corot_method_traits(t.method[i])->stages;
   return t;
@@ -34,10 +34,27 @@ static int plan(goal_search *s, const char *method, double rtol) {
   return attempts_plan(&s->attempts, def);
 }
 
-/* What the two methods at a tenth of the tolerance say of those at the whole. A Runge-Kutta method
-   is the better reference: its error is in proportion to the tolerance. */
+/* The method that is the better reference: a Runge-Kutta method, whose error is in proportion to
+   the tolerance. */
+static int better_of(const trial *t) { return t->stages[0] ? 0 : 1; }
+
+/* Both at the tolerance, the better one at a tenth of it. */
+static void plan_most(goal_search *s, trial *t, double rtol) {
+  int better = better_of(t);
+  for (int i = 0; i < 2; i++) t->at[i][0] = plan(s, t->method[i], rtol);
+  t->at[better][1] = plan(s, t->method[better], rtol / 10);
+  t->at[!better][1] = -1;
+}
+
+/* The other one at a tenth, too, with which more is known. */
+static void plan_last(goal_search *s, trial *t, double rtol) {
+  int other = !better_of(t);
+  t->at[other][1] = plan(s, t->method[other], rtol / 10);
+}
+
+/* What the two methods at a tenth of the tolerance say of those at the whole. */
 static void judge(const goal_search *s, const trial *t, double off[2]) {
-  int better = t->stages[0] ? 0 : 1;
+  int better = better_of(t);
   double reference = goal_value(s, t->at[better][1]), other = goal_value(s, t->at[!better][1]);
   double loose = goal_value(s, t->at[better][0]);
   if (isnan(reference)) reference = other;
@@ -49,6 +66,7 @@ static void judge(const goal_search *s, const trial *t, double off[2]) {
 static bool accept(goal_search *s, const trial *t, double rtol) {
   double off[2], least = INFINITY;
   judge(s, t, off);
+  for (int k = 0; k < 2; k++) s->better[k] = t->at[better_of(t)][k];
   for (int i = 0; i < 2; i++) {
     const attempt *a = goal_attempt(s, t->at[i][0]);
     if (!(off[i] <= GOAL_TIME_SHARE * goal_allowed(s->request, a->value))) continue;
@@ -88,8 +106,10 @@ corot_status goal_choose_time(goal_search *s) {
   bool go_on;
   COROT_TRY(make_first(s, &t, rtol, &go_on));
   while (go_on) {
-    for (int i = 0; i < 2; i++)
-      for (int k = 0; k < 2; k++) t.at[i][k] = plan(s, t.method[i], k ? rtol / 10 : rtol);
+    plan_most(s, &t, rtol);
+    COROT_TRY(attempts_make(&s->attempts));
+    if (s->attempts.signal_number || accept(s, &t, rtol)) return COROT_OK;
+    plan_last(s, &t, rtol);
     COROT_TRY(attempts_make(&s->attempts));
     if (s->attempts.signal_number || accept(s, &t, rtol)) return COROT_OK;
     double last = goal_attempt(s, t.at[0][1])->cpu + goal_attempt(s, t.at[1][1])->cpu;
@@ -116,21 +136,13 @@ void goal_plan_base(goal_search *s) {
   s->nlevel = 1;
 }
 
-void goal_plan_window(goal_search *s) {
-  const attempt *full = goal_attempt(s, s->full);
-  const quantity *q = s->request->quantity;
-  if (s->request->still || s->window >= s->until) return;
-  double when = q->when ? full->value : full->when;
-  if (!(when < s->window)) s->level[0] = plan_base(s, s->rtol, s->window);
-}
-
 /* By what the error of time is judged there: a Runge-Kutta method's falls with the tolerance, and
    shows in ten times as much; that of a multistep method may rise and fall, and shows beside a
    Runge-Kutta method. */
 void goal_plan_check(goal_search *s) {
   if (s->request->still) return;
   bool stages = corot_method_traits(s->method)->stages;
-  attempt_def def = goal_attempt(s, s->level[0])->def;
+  attempt_def def = goal_base_def(s);
   def.method = stages ? s->method : "arkode";
   if (stages) def.rtol = fmin(10 * s->rtol, 0.1);
   s->check = attempts_plan(&s->attempts, def);
