@@ -11,6 +11,7 @@
 
 #include "app/command/cli.h"
 #include "report/command/commands.h"
+#include "solve/linsol/blas_core.h"
 #include "study/command/command_study.h"
 #include "study/execute/template.h"
 
@@ -70,13 +71,24 @@ static bool is_limited(void) {
 
 /* Where address space is limited, each thread takes a large part of it; OpenBLAS waits for ever for
    those it cannot start, and OpenMP, of which CHOLMOD asks for four, ends the program with exit
-   code
-   1. Both read how many they may have before main. */
-static void keep_to_one_thread(char **argv) {
-  if (!is_limited() || (getenv("OPENBLAS_NUM_THREADS") && getenv("OMP_THREAD_LIMIT"))) return;
+   code 1. */
+static bool keep_to_one_thread(void) {
+  if (!is_limited() || (getenv("OPENBLAS_NUM_THREADS") && getenv("OMP_THREAD_LIMIT"))) return false;
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
   setenv("OMP_THREAD_LIMIT", "1", 0);
-  execv("/proc/self/exe", argv); /* where that fails, it goes on as it is */
+  return true;
+}
+
+static bool ask_for_better_kernels(void) {
+  const char *core = corot_blas_better_core();
+  return core && setenv("OPENBLAS_CORETYPE", core, 0) == 0;
+}
+
+/* These libraries read their environment before main: what they are told here they see only when
+   the program begins once more. Where that fails, it goes on as it is. */
+static void tell_libraries(char **argv) {
+  bool threads = keep_to_one_thread(), kernels = ask_for_better_kernels();
+  if (threads || kernels) execv("/proc/self/exe", argv);
 }
 
 /* OpenBLAS may wait for ever in its exit handler for threads that had no room to start. */
@@ -97,7 +109,7 @@ int main(int argc, char **argv) {
       {"--version", print_version}, {0},
   };
   hold_standard_streams();
-  keep_to_one_thread(argv);
+  tell_libraries(argv);
   crash_watch();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
   signal(SIGXFSZ, SIG_IGN); /* so is a file that may not grow further */

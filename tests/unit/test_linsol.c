@@ -350,13 +350,13 @@ static void auto_goes_by_shape_size_and_role(void **state) {
   } cases[] = {
       {{1, 1, 8}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
       {{1, 1, 300}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
-      {{6, 6, 6}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
-      {{5, 5, 30}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
-      {{8, 8, 8}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
+      {{4, 4, 4}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
+      {{3, 3, 30}, COROT_ROLE_DYNAMIC, "cholmod simplicial", "klu"},
+      {{7, 7, 7}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
       {{6, 6, 36}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "klu"},
       {{14, 14, 14}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "pcg"},
       {{1, 1, 8}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
-      {{5, 5, 30}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
+      {{3, 3, 30}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
       {{20, 20, 20}, COROT_ROLE_STATIC, "cholmod supernodal", "pcg"},
   };
   bool cholmod = built("cholmod");

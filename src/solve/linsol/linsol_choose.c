@@ -130,7 +130,7 @@ static const double operation_ns = HAVE_CHOLMOD ? 0.018 : 0.65, made_ns = HAVE_C
                     solved_ns = 1.5, iterated_ns = 1.2;
 
 /* From so many operations an entry on, dense blocks pay on one core (with more of them, sooner). */
-static const double dense = 130;
+static const double dense = 80;
 
 /* As many steps go by between two factorisations, and so many solutions does a step take. */
 static const double steps = 20, solutions = 1.1;
