@@ -79,15 +79,19 @@ static bool keep_to_one_thread(void) {
   return true;
 }
 
-static bool ask_for_better_kernels(void) {
-  const char *core = corot_blas_better_core();
+/* Of commands that make many runs: to begin once more costs as much as a small one. */
+static bool ask_for_better_kernels(const char *name) {
+  static const char *const many[] = {"study", "budget", "solve", "find-limit"};
+  bool wanted = false;
+  for (size_t i = 0; i < sizeof many / sizeof *many; i++) wanted |= strcmp(name, many[i]) == 0;
+  const char *core = wanted ? corot_blas_better_core() : NULL;
   return core && setenv("OPENBLAS_CORETYPE", core, 0) == 0;
 }
 
 /* These libraries read their environment before main: what they are told here they see only when
    the program begins once more. Where that fails, it goes on as it is. */
-static void tell_libraries(char **argv) {
-  bool threads = keep_to_one_thread(), kernels = ask_for_better_kernels();
+static void tell_libraries(int argc, char **argv) {
+  bool threads = keep_to_one_thread(), kernels = ask_for_better_kernels(argc > 1 ? argv[1] : "");
   if (threads || kernels) execv("/proc/self/exe", argv);
 }
 
@@ -109,7 +113,7 @@ int main(int argc, char **argv) {
       {"--version", print_version}, {0},
   };
   hold_standard_streams();
-  tell_libraries(argv);
+  tell_libraries(argc, argv);
   crash_watch();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
   signal(SIGXFSZ, SIG_IGN); /* so is a file that may not grow further */

@@ -108,7 +108,6 @@ static goal_search begin(const goal_request *r, const scenario *s, goal_result *
                        .until = end_of(r, s),
                        .window = end_of(r, s),
                        .coarse = -1,
-                       .better = {-1, -1},
                        .check = -1,
                        .algebra = -1,
                        .model = -1,

@@ -21,13 +21,16 @@ static double order_of(const double size[3], double ratio) {
 /* What remains of the last difference at order p. */
 static double remainder_of(double ratio, double p) { return 1 / (pow(ratio, p) - 1); }
 
+static double highest_order(bool local) {
+  return local ? GOAL_HIGHEST_ORDER_LOCAL : GOAL_HIGHEST_ORDER;
+}
+
 static const char *doubt(double d1, double d2, double order, bool local) {
   if (!isfinite(d1) || !isfinite(d2)) return "a mesh has no value";
   if (d1 * d2 < 0) return "the values alternate from mesh to mesh";
   if (order == 0) return "the values do not settle as the mesh is refined";
   if (!(order >= GOAL_LOWEST_ORDER)) return "the values hardly settle as the mesh is refined";
-  if (order > (local ? GOAL_HIGHEST_ORDER_LOCAL : GOAL_HIGHEST_ORDER))
-    return "the values settle faster than ten-node tets can";
+  if (order > highest_order(local)) return "the values settle faster than ten-node tets can";
   return NULL;
 }
 
@@ -73,12 +76,20 @@ static void extrapolate(goal_error *e, double d1, double d2, double ratio, doubl
   e->half = GOAL_SAFETY * fmax(fmax(fabs(d2), least), noise) * remainder_of(ratio, cautious);
 }
 
+/* A last difference that seems too small may be larger by what the values are known by. */
+static double seen_order(const double size[3], double d1, double d2, double noise, bool local) {
+  if (!(d1 * d2 > 0)) return NAN;
+  double order = order_of(size, d1 / d2);
+  if (order <= highest_order(local)) return order;
+  return order_of(size, fabs(d1) / (fabs(d2) + noise));
+}
+
 /* Of three meshes and more, that are not settled: whether the last three seem to converge. */
 static goal_error judge_three(int n, const goal_level *level, double noise, bool local) {
   const goal_level *last = level + n - 1;
   const double size[3] = {last[-2].size, last[-1].size, last[0].size};
   double d1 = last[-1].value - last[-2].value, d2 = last[0].value - last[-1].value;
-  goal_error e = {.order = d1 * d2 > 0 ? order_of(size, d1 / d2) : NAN};
+  goal_error e = {.order = seen_order(size, d1, d2, noise, local)};
   e.why = doubt(d1, d2, e.order, local);
   if (!e.why && has_turned(n, level, d2)) e.why = "the values have turned, and may do so again";
   e.diverging = e.order == 0;
@@ -89,27 +100,44 @@ static goal_error judge_three(int n, const goal_level *level, double noise, bool
   return e;
 }
 
-/* Richardson's: of an order that is taken as it is seen. */
-static double richardson(const goal_level *last, double order) {
-  return (last[0].value - last[-1].value) * remainder_of(last[-1].size / last[0].size, order);
+/* Of the levels, from fine to coarse, those that are each coarser than the one before by a factor
+   that lets an order be seen: pick [4]. Returns their number. */
+static int pick_strides(int n, const goal_level *level, goal_level pick[4]) {
+  int count = 0;
+  for (int i = n - 1; i >= 0 && count < 4; i--)
+    if (count == 0 || level[i].size >= GOAL_STRIDE * pick[count - 1].size) pick[count++] = level[i];
+  return count;
+}
+
+/* Richardson's extrapolation of three, from fine to coarse, of an order that is taken as it is
+   seen: what remains. NaN: they do not converge. */
+static double richardson(const goal_level *fine, bool local, double *order) {
+  const double size[3] = {fine[2].size, fine[1].size, fine[0].size};
+  double d1 = fine[1].value - fine[2].value, d2 = fine[0].value - fine[1].value;
+  *order = d1 * d2 > 0 ? order_of(size, d1 / d2) : NAN;
+  if (!(*order >= GOAL_LOWEST_ORDER && *order <= highest_order(local))) return NAN;
+  return d2 * remainder_of(size[1] / size[2], *order);
 }
 
 /* Three meshes always have an order; a fourth has to lead to the same limit: what that has moved by
    goes on at order two. */
-static void ask_for_two(int n, const goal_level *level, double noise, bool local, goal_error *e) {
-  goal_error before = {.why = ""};
-  if (n >= 4) before = judge_three(n - 1, level, noise, local);
-  double estimate = richardson(level + n - 1, e->order), before_it = NAN;
-  if (!before.why) before_it = richardson(level + n - 2, before.order);
-  double moved = level[n - 1].value + estimate - (level[n - 2].value + before_it);
-  double to_come = fabs(moved) * remainder_of(level[n - 2].size / level[n - 1].size, 2);
-  e->asymptotic = to_come <= GOAL_AGREEMENT * fabs(estimate);
-  if (e->asymptotic)
-    e->estimate = estimate;
-  else
-    e->why =
-        n < 4 ? "three meshes of ten-node tets are no proof, a fourth has to lead to the same limit"
-              : "the last two extrapolations do not lead to the same limit";
+static void ask_for_four(int n, const goal_level *level, bool local, goal_error *e) {
+  goal_level pick[4];
+  double order, before;
+  int count = pick_strides(n, level, pick);
+  e->why = "three meshes of ten-node tets are no proof, a fourth has to lead to the same limit";
+  if (count < 4) return;
+  double estimate = richardson(pick, local, &order);
+  double limit = pick[1].value + richardson(pick + 1, local, &before);
+  double to_come =
+      fabs(pick[0].value + estimate - limit) * remainder_of(pick[1].size / pick[0].size, 2);
+  e->why = "the last two extrapolations do not lead to the same limit";
+  if (!(to_come <= GOAL_AGREEMENT * fabs(estimate))) return;
+  e->why = NULL;
+  e->asymptotic = true;
+  e->order = order;
+  e->estimate = estimate;
+  e->half = fmax(e->half, GOAL_SAFETY * fabs(estimate));
 }
 
 /* Nothing is to be seen beside what the values are known by anyway. Of two meshes with ten-node
@@ -133,7 +161,7 @@ goal_error goal_judge(int n, const goal_level *level, double coarse, double nois
   if (is_settled(n, level, coarse, noise, &e)) return e;
   if (n >= 3) {
     e = judge_three(n, level, noise, local);
-    if (!e.why) ask_for_two(n, level, noise, local, &e);
+    if (!e.why) ask_for_four(n, level, local, &e);
     return e;
   }
   widen(&e, NAN, level[1].value - level[0].value, level[0].size / level[1].size);

@@ -2,10 +2,11 @@
 
    With an error C h^p, h the size of the elements, three values give p, and what remains: of the
    last difference d the error is e = d / (r^p - 1), r the ratio of the last two sizes (Richardson's
-   extrapolation). Where four meshes look as if that were true, the last two triples of them leading
-   to the same limit, the values are called asymptotic, and e is the estimate. (Where tets are cut
-   locally the size is the third root of the number of unknowns, the order that is seen may be
-   anything, and three meshes prove nothing; near a re-entrant corner it falls from mesh to mesh.)
+   extrapolation). Where four meshes, each some 1.4 times as fine as the one before, look as if that
+   were true, both triples of them leading to the same limit, the values are called asymptotic, and
+   e is the estimate. (Where tets are cut locally the size is the third root of the number of
+   unknowns, the order that is seen may be anything, and three meshes prove nothing; near a
+   re-entrant corner it falls from mesh to mesh.)
 
    The truth is taken to be within 1.25 |e| of the last value where an order is seen; elsewhere
    within 3 |d| / (r - 1), of order one, whatever the order may be: the factors of safety of ASME
@@ -36,7 +37,8 @@
 #define GOAL_CAUTIOUS_FACTOR 0.55
 #define GOAL_CAUTIOUS_FALL 3.0
 #define GOAL_CAUTIOUS_FALL_LOCAL 4.0
-#define GOAL_AGREEMENT 0.15 /* the limit may still move by so much, in parts of the estimate */
+#define GOAL_STRIDE 1.39   /* the ratio of sizes of which orders are seen to be the same */
+#define GOAL_AGREEMENT 0.1 /* the limit may still move by so much, in parts of the estimate */
 
 #define GOAL_SAFETY 1.25         /* asymptotic */
 #define GOAL_SAFETY_UNPROVEN 3.0 /* not */
@@ -57,11 +59,11 @@ typedef struct goal_error {
   const char *why; /* not asymptotic, static; NULL: it is */
 } goal_error;
 
-/* level [n], from coarse to fine, n >= 1; of them the last four count, and that none before has
-   changed the other way. `coarse`: the value of four-node tets on the mesh of the first level, NaN:
-   not known; it counts where there is but one.
-   `noise`: what each value is known by. `local`: the last mesh is one whose tets are cut where they
-   are marked. */
+/* level [n], from coarse to fine, n >= 1; of them the last three count, and that none before has
+   changed the other way; for what is asymptotic four that are far enough apart. `coarse`: the value
+   of four-node tets on the mesh of the first level, NaN: not known; it counts where there is but
+   one. `noise`: what each value is known by. `local`: the last mesh is one whose tets are cut where
+   they are marked. */
 goal_error goal_judge(int n, const goal_level *level, double coarse, double noise, bool local);
 
 #endif

@@ -21,6 +21,11 @@ enum { GOAL_LEVELS = 12 };
 /* Extremes that differ by so much of what is allowed are alike. */
 #define GOAL_LIKE 0.2
 
+/* What is read out of a run's steps may differ by so much of what is allowed from what the run
+ * found.
+ */
+#define GOAL_RESOLVED 0.01
+
 /* Errors of time and algebra are much the same on all meshes: so much of them is not. */
 #define GOAL_NOISE 0.2
 
@@ -31,12 +36,9 @@ typedef struct goal_search {
   /* time, of motion; of an equilibrium the part of time is zero */
   const char *method;
   double rtol;
-  double until;  /* what the quantity needs to be seen [s] */
-  double window; /* finer meshes are integrated so far: `until`, or past the extreme */
-  double
-      coarse_off; /* half-width of time on four-node tets, over the value; it is that of `coarse` */
-  int better[2];  /* from these, attempts of a better method at its tolerance and at a tenth of it;
-                     -1: none */
+  double until;      /* what the quantity needs to be seen [s] */
+  double window;     /* finer meshes are integrated so far: `until`, or past the extreme */
+  double coarse_off; /* half-width of time on four-node tets, over the value */
 
   int coarse;              /* attempt of four-node tets as given, by that method */
   int nlevel;              /* of meshes */
@@ -78,7 +80,7 @@ corot_status goal_settle_time(goal_search *s);
 /* Where the extreme is early enough: s->window. */
 corot_status goal_choose_window(goal_search *s);
 
-/* The first mesh's value within it, whose run went further. */
+/* The first mesh's value within it: out of the run that went further, else by one to be made. */
 corot_status goal_look_through_window(goal_search *s);
 corot_status goal_find_tail(goal_search *s);
 

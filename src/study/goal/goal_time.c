@@ -66,7 +66,6 @@ static void judge(const goal_search *s, const trial *t, double off[2]) {
 static bool accept(goal_search *s, const trial *t, double rtol) {
   double off[2], least = INFINITY;
   judge(s, t, off);
-  for (int k = 0; k < 2; k++) s->better[k] = t->at[better_of(t)][k];
   for (int i = 0; i < 2; i++) {
     const attempt *a = goal_attempt(s, t->at[i][0]);
     if (!(off[i] <= GOAL_TIME_SHARE * goal_allowed(s->request, a->value))) continue;

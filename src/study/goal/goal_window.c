@@ -87,7 +87,7 @@ static corot_status first_extreme(const goal_search *s, int i, double *when) {
   return status;
 }
 
-/* --- Seen again within the window --- */
+/* --- Seen again, as far as a time --- */
 
 /* A piece of the column's curve ends where a step ended for an event, such as a kink of a load. */
 static corot_status break_between(const csv *steps, double from, double to, meter *m) {
@@ -101,10 +101,10 @@ static corot_status break_between(const csv *steps, double from, double to, mete
 }
 
 /* t, x [n]: the column at the ends of the steps. */
-static corot_status meter_window(const goal_search *s, int n, const double *t, const double *x,
-                                 const csv *steps, quantity_value *out) {
+static corot_status meter_window(const goal_search *s, double to, const csv *steps, int n,
+                                 const double *t, const double *x, quantity_value *out) {
   quantity q = *s->request->quantity;
-  q.to = s->window;
+  q.to = to;
   q.column = 0;
   meter *m = NULL;
   COROT_TRY(meter_create(1, &q, s->until, &m));
@@ -119,22 +119,21 @@ static corot_status meter_window(const goal_search *s, int n, const double *t, c
   return status;
 }
 
-static corot_status meter_history(const goal_search *s, const csv *history, const csv *steps,
-                                  quantity_value *out) {
+static corot_status meter_history(const goal_search *s, double to, const csv *history,
+                                  const csv *steps, quantity_value *out) {
   int column = csv_find(history, s->attempts.column);
   if (column < 0) return COROT_OK;
   double *t, *x = NULL;
   COROT_TRY(csv_column(history, "t", &t));
   corot_status status = csv_numbers(history, column, &x);
-  if (status == COROT_OK) status = meter_window(s, history->nrow, t, x, steps, out);
+  if (status == COROT_OK) status = meter_window(s, to, steps, history->nrow, t, x, out);
   free(t);
   free(x);
   return status;
 }
 
-/* What attempt i, which went further, has of the quantity within the window; unknown where its
-   folder does not tell. */
-static corot_status see_again(const goal_search *s, int i, quantity_value *out) {
+/* What attempt i has of the quantity up to a time; unknown where its folder does not tell. */
+static corot_status see_again(const goal_search *s, int i, double to, quantity_value *out) {
   csv history = {0}, steps = {0};
   *out = (quantity_value){.known = false};
   if (!goal_attempt(s, i)->done) return COROT_OK;
@@ -143,7 +142,7 @@ static corot_status see_again(const goal_search *s, int i, quantity_value *out) 
   corot_status status = csv_read_if_there(folder, "history.csv", &history);
   if (status == COROT_OK) status = csv_read_if_there(folder, "steps.csv", &steps);
   if (status == COROT_OK && history.ncolumn > 0 && steps.ncolumn > 0)
-    status = meter_history(s, &history, &steps, out);
+    status = meter_history(s, to, &history, &steps, out);
   csv_free(&history);
   csv_free(&steps);
   free(folder);
@@ -163,42 +162,42 @@ corot_status goal_choose_window(goal_search *s) {
   return COROT_OK;
 }
 
+/* What comes of a run's steps beside what it found itself, which has slopes to go by: steps that
+   are short enough for the whole are so for the window. */
+static corot_status is_resolved(const goal_search *s, const attempt *full, bool *out) {
+  quantity_value whole;
+  COROT_TRY(see_again(s, s->full, s->until, &whole));
+  double off = fabs(whole.value - full->value);
+  double resolved = s->request->quantity->when
+                        ? 1e-6 * s->until
+                        : GOAL_RESOLVED * goal_allowed(s->request, full->value);
+  *out = whole.known && off <= resolved;
+  return COROT_OK;
+}
+
 /* The first mesh's run goes further: its value is that within the window, as of those to come. */
-static corot_status look_through(goal_search *s) {
+static corot_status look_through(goal_search *s, bool *known) {
   attempt *full = goal_attempt(s, s->full);
   quantity_value seen;
-  COROT_TRY(see_again(s, s->full, &seen));
-  if (!seen.known) {
-    s->window = s->until;
-    return COROT_OK;
-  }
+  COROT_TRY(is_resolved(s, full, known));
+  if (!*known) return COROT_OK;
+  COROT_TRY(see_again(s, s->full, s->window, &seen));
+  *known = seen.known;
+  if (!*known) return COROT_OK;
   s->whole = *full;
   full->value = seen.value;
   full->when = seen.t;
   return COROT_OK;
 }
 
-/* So do the runs on four-node tets, whose errors of time grow with the time: those of an extreme
-   that comes later say nothing of the first. */
-static corot_status judge_time_again(goal_search *s) {
-  quantity_value coarse, loose, tight;
-  if (s->better[0] < 0 || s->better[1] < 0) return COROT_OK;
-  COROT_TRY(see_again(s, s->coarse, &coarse));
-  COROT_TRY(see_again(s, s->better[0], &loose));
-  COROT_TRY(see_again(s, s->better[1], &tight));
-  if (!coarse.known || !loose.known || !tight.known || coarse.value == 0) return COROT_OK;
-  double off = fabs(coarse.value - tight.value) + fabs(loose.value - tight.value);
-  s->coarse_off = off / fabs(coarse.value);
-  return COROT_OK;
-}
-
 corot_status goal_look_through_window(goal_search *s) {
-  const quantity *q = s->request->quantity;
   const attempt *full = goal_attempt(s, s->full);
-  double when = q->when ? full->value : full->when;
-  if (s->request->still || s->window >= s->until) return COROT_OK;
-  if (when >= s->window) COROT_TRY(look_through(s));
-  return s->window < s->until ? judge_time_again(s) : COROT_OK;
+  double when = s->request->quantity->when ? full->value : full->when;
+  bool known;
+  if (s->request->still || s->window >= s->until || when < s->window) return COROT_OK;
+  COROT_TRY(look_through(s, &known));
+  if (!known) s->level[0] = attempts_plan(&s->attempts, goal_base_def(s));
+  return COROT_OK;
 }
 
 bool goal_keeps_window(goal_search *s, int i) {
