@@ -12,7 +12,20 @@
 extern "C" {
 #endif
 
+/* The version of these headers, as numbers for #if and as "MAJOR.MINOR.PATCH". While MAJOR is 0 a
+   higher MINOR may change anything; else a library of the same MAJOR, and no lower MINOR, will do. */
+#define COROT_VERSION_MAJOR 0
+#define COROT_VERSION_MINOR 1
+#define COROT_VERSION_PATCH 0
 #define COROT_VERSION "0.1.0"
+
+/* Stands before each function that a host may call: these, and no others, a shared library exports.
+   Nothing has to be defined by a host. */
+#if defined(COROT_EXPORTS) && defined(__GNUC__)
+#define COROT_API __attribute__((visibility("default")))
+#else
+#define COROT_API
+#endif
 
 /* Status of a call: 0 ok, >0 recoverable (retry with a smaller step), <0 fatal.
    The signs are those of a SUNDIALS callback, so a status can be returned by one as is; but not by
@@ -31,12 +44,12 @@ typedef enum corot_status {
 
 /* Message of the last failure on this thread; never NULL, "" before the first failure.
    A later success does not clear it: read it only after a call that returned non-zero. */
-const char *corot_error(void);
+COROT_API const char *corot_error(void);
 
 /* Sets this thread's message (printf rules, cut at 1023 characters) and returns `status`, so that
    a failure is one statement: `return corot_fail(COROT_EINVAL, "tet %d: ...", e);`
    The old message may be among the arguments: `corot_fail(s, "%s: %s", path, corot_error())`. */
-corot_status corot_fail(corot_status status, const char *format, ...)
+COROT_API corot_status corot_fail(corot_status status, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))
 #endif
@@ -50,7 +63,7 @@ corot_status corot_fail(corot_status status, const char *format, ...)
   } while (0)
 
 /* The version of the library that was linked, "MAJOR.MINOR.PATCH". */
-const char *corot_version(void);
+COROT_API const char *corot_version(void);
 
 #ifdef __cplusplus
 }

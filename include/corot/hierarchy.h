@@ -22,17 +22,17 @@ extern "C" {
 
 /* v = T v: from hierarchical to nodal values. With all differences zero, v becomes the linear
    interpolation of the values on level 0. */
-void corot_hierarchy_apply(const corot_refinement *refinement, double (*v)[3]);
+COROT_API void corot_hierarchy_apply(const corot_refinement *refinement, double (*v)[3]);
 
 /* v = T^-1 v: from nodal to hierarchical values. */
-void corot_hierarchy_solve(const corot_refinement *refinement, double (*v)[3]);
+COROT_API void corot_hierarchy_solve(const corot_refinement *refinement, double (*v)[3]);
 
 /* v = T' v: forces on nodal values become forces on hierarchical ones; on level 0 these are what
    the coarse mesh feels. */
-void corot_hierarchy_apply_transposed(const corot_refinement *refinement, double (*v)[3]);
+COROT_API void corot_hierarchy_apply_transposed(const corot_refinement *refinement, double (*v)[3]);
 
 /* v = T'^-1 v. */
-void corot_hierarchy_solve_transposed(const corot_refinement *refinement, double (*v)[3]);
+COROT_API void corot_hierarchy_solve_transposed(const corot_refinement *refinement, double (*v)[3]);
 
 #ifdef __cplusplus
 }

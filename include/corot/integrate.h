@@ -33,10 +33,10 @@ typedef struct corot_method_kind {
 } corot_method_kind;
 
 /* The methods, i = 0, 1, ...; NULL beyond the last. */
-const corot_method_kind *corot_method_at(int i);
+COROT_API const corot_method_kind *corot_method_at(int i);
 
 /* The one of this name; NULL: there is none. */
-const corot_method_kind *corot_method_traits(const char *name);
+COROT_API const corot_method_kind *corot_method_traits(const char *name);
 
 /* How to integrate. Zero means "choose" wherever the comment says so. Methods:
      cvode              BDF of order 1 to 5, steps and order chosen by error control
@@ -76,10 +76,10 @@ typedef struct corot_integrator_def {
 
 /* cvode, rtol 1e-4, everything that can be chosen left to choose; Newton of the methods of constant
    step to 1e-9 in 50 iterations, spectral radius 0.8. */
-corot_integrator_def corot_integrator_defaults(void);
+COROT_API corot_integrator_def corot_integrator_defaults(void);
 
 /* Whether the method of that name controls its error (and so chooses its own steps). */
-bool corot_integrator_controls_error(const char *method);
+COROT_API bool corot_integrator_controls_error(const char *method);
 
 typedef struct corot_integrator corot_integrator;
 
@@ -88,12 +88,13 @@ typedef struct corot_integrator corot_integrator;
    finite, or as for corot_pencil_create. COROT_ENOMEM. COROT_EINTEGRATE: SUNDIALS refuses a setting.
    COROT_RETRY: newmark, hht and generalized-alpha, which need the acceleration at the start, find a
    tet inverted. */
-corot_status corot_integrator_create(const corot_integrator_def *def, const corot_model *model,
-                                     corot_state *state, double t, const double *u, const double *v,
-                                     corot_integrator **integrator);
+COROT_API corot_status corot_integrator_create(const corot_integrator_def *def,
+                                               const corot_model *model, corot_state *state,
+                                               double t, const double *u, const double *v,
+                                               corot_integrator **integrator);
 
 /* Takes NULL. */
-void corot_integrator_destroy(corot_integrator *integrator);
+COROT_API void corot_integrator_destroy(corot_integrator *integrator);
 
 /* One internal step. */
 typedef struct corot_step {
@@ -110,7 +111,8 @@ typedef struct corot_step {
    COROT_EINTEGRATE: the integrator gave up, or has taken max_steps; the message names its reason and
    the element, if one was inverted. COROT_EINVAL: t_stop is not after the time reached. COROT_ENOMEM.
    Whatever the failure, the state last reached remains readable. */
-corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, corot_step *step);
+COROT_API corot_status corot_integrator_step(corot_integrator *integrator, double t_stop,
+                                             corot_step *step);
 
 /* u and v [n] at any t within the last step; NULL skips one. After a restart only the end of that
    step is left. cvode and ida: the method's own interpolant. arkode and erk: Hermite's polynomial of
@@ -119,7 +121,8 @@ corot_status corot_integrator_step(corot_integrator *integrator, double t_stop, 
    polynomial through the displacements of the stages, so that it is right for stiff bodies, too.
    COROT_EINVAL: t is not within the last step. COROT_EINTEGRATE: r cannot be evaluated inside the
    step, or SUNDIALS refuses. COROT_ENOMEM. */
-corot_status corot_integrator_at(corot_integrator *integrator, double t, double *u, double *v);
+COROT_API corot_status corot_integrator_at(corot_integrator *integrator, double t, double *u,
+                                           double *v);
 
 /* Work integrals from the start to t, t within the last step: dissipated and external work [J].
    cvode and ida: of the loads by Lobatto's rule along the interpolant; what dissipates from the
@@ -128,15 +131,15 @@ corot_status corot_integrator_at(corot_integrator *integrator, double t, double 
    own sum over the stages. Where all supports turn or translate as one, their work is what changes
    in the momentum they carry (corot_energies.carried), which no force at their nodes blurs. Failures
    as of corot_integrator_at. */
-corot_status corot_integrator_work(corot_integrator *integrator, double t, double *dissipated,
-                                   double *external);
+COROT_API corot_status corot_integrator_work(corot_integrator *integrator, double t,
+                                             double *dissipated, double *external);
 
 /* Energies and powers at the end of the last step, with the frames of that step if it is asked
    before they are updated; `u` and `v` [n] are those of corot_integrator_at there. cvode, ida and the
    methods of constant step have them from the step; with the others it is one corot_energy, with its
    failure, COROT_RETRY. */
-corot_status corot_integrator_energy(corot_integrator *integrator, const double *u, const double *v,
-                                     corot_energies *energies);
+COROT_API corot_status corot_integrator_energy(corot_integrator *integrator, const double *u,
+                                               const double *v, corot_energies *energies);
 
 /* What to do with the history of the solution when r has jumped between steps. */
 typedef enum corot_history {
@@ -147,7 +150,8 @@ typedef enum corot_history {
 
 /* Call this after a change of the held frames, at the end of a step. COROT_EINTEGRATE: r cannot be
    evaluated after the change, or SUNDIALS refuses to begin again. COROT_ENOMEM. */
-corot_status corot_integrator_changed(corot_integrator *integrator, corot_history history);
+COROT_API corot_status corot_integrator_changed(corot_integrator *integrator,
+                                                corot_history history);
 
 /* Call this at a kink of a load or motion (corot_model_kinks), at the end of the step that stops
    there and after corot_state_enter: COROT_HISTORY_AUTO, with the matrices kept, which know of
@@ -155,7 +159,7 @@ corot_status corot_integrator_changed(corot_integrator *integrator, corot_histor
    Runge-Kutta method takes the new r, and a shorter step where the kink excites vibrations above
    the tolerance which that step would not resolve. A method of constant step has nothing to do.
    Failures as of corot_integrator_changed. */
-corot_status corot_integrator_kink(corot_integrator *integrator);
+COROT_API corot_status corot_integrator_kink(corot_integrator *integrator);
 
 /* --- Frames that follow the body between steps ------------------------------------------------ */
 
@@ -176,7 +180,7 @@ typedef struct corot_frame_policy {
 } corot_frame_policy;
 
 /* Exact frames; history auto. */
-corot_frame_policy corot_frame_policy_defaults(void);
+COROT_API corot_frame_policy corot_frame_policy_defaults(void);
 
 /* Extrapolated frames are never turned further than this from where they were found, but for the
    rest of a constant step: an update is forced there [rad]. */
@@ -204,20 +208,23 @@ typedef struct corot_frame_clock corot_frame_clock;
    state and integrator must outlive the clock. COROT_EINVAL: an interval or angle is negative, or
    held frames have no condition to be updated by. COROT_RETRY when a tet is inverted at the start.
    COROT_ENOMEM. */
-corot_status corot_frame_clock_create(const corot_frame_policy *policy, const corot_model *model,
-                                      corot_state *state, corot_integrator *integrator, double t,
-                                      const double *u, const double *v, corot_frame_clock **clock);
+COROT_API corot_status corot_frame_clock_create(const corot_frame_policy *policy,
+                                                const corot_model *model, corot_state *state,
+                                                corot_integrator *integrator, double t,
+                                                const double *u, const double *v,
+                                                corot_frame_clock **clock);
 
 /* Takes NULL. */
-void corot_frame_clock_destroy(corot_frame_clock *clock);
+COROT_API void corot_frame_clock_destroy(corot_frame_clock *clock);
 
 /* The next time the integrator must stop for an update; INFINITY: none is fixed. */
-double corot_frame_clock_stop(const corot_frame_clock *clock);
+COROT_API double corot_frame_clock_stop(const corot_frame_clock *clock);
 
 /* Call this at the end of each step, at t: it updates the frames if it is time, and tells the
    integrator. COROT_RETRY when a tet is inverted, with the frames as they were; else failures as of
    corot_integrator_at and corot_integrator_changed. */
-corot_status corot_frame_clock_tick(corot_frame_clock *clock, double t, corot_frame_event *event);
+COROT_API corot_status corot_frame_clock_tick(corot_frame_clock *clock, double t,
+                                              corot_frame_event *event);
 
 /* --- Statistics ------------------------------------------------------------------------------- */
 
@@ -242,7 +249,7 @@ typedef struct corot_statistics {
   double force_s, assembly_s, combine_s, factor_s, solve_s, work_s, integrator_s;
 } corot_statistics;
 
-corot_statistics corot_integrator_statistics(const corot_integrator *integrator);
+COROT_API corot_statistics corot_integrator_statistics(const corot_integrator *integrator);
 
 /* What was chosen where the definition left it open; zero where the method has no such thing. */
 typedef struct corot_integrator_choice {
@@ -256,7 +263,7 @@ typedef struct corot_integrator_choice {
   double gamma_change, convergence;
 } corot_integrator_choice;
 
-corot_integrator_choice corot_integrator_chosen(const corot_integrator *integrator);
+COROT_API corot_integrator_choice corot_integrator_chosen(const corot_integrator *integrator);
 
 #ifdef __cplusplus
 }

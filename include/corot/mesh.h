@@ -49,16 +49,16 @@ typedef struct corot_mesh {
 
 /* Copies `x` [nnode] and `tet` [ntet] into a new mesh without groups.
    COROT_EINVAL names the first node or tet that is not sound. COROT_ENOMEM. */
-corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const int (*tet)[4],
-                               corot_mesh **mesh);
+COROT_API corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet,
+                                         const int (*tet)[4], corot_mesh **mesh);
 
 /* The same of order 2: a tet has its corners, then the nodes on its edges 01 12 02 03 13 23, as in
    VTK and Abaqus; gmsh's last two are the other way round. COROT_EINVAL and COROT_ENOMEM as above. */
-corot_status corot_mesh_create_order_2(int nnode, const double (*x)[3], int ntet,
-                                       const int (*tet)[10], corot_mesh **mesh);
+COROT_API corot_status corot_mesh_create_order_2(int nnode, const double (*x)[3], int ntet,
+                                                 const int (*tet)[10], corot_mesh **mesh);
 
 /* 1: four-node tets; 2: ten-node tets. */
-int corot_mesh_order(const corot_mesh *mesh);
+COROT_API int corot_mesh_order(const corot_mesh *mesh);
 
 /* A copy of that order, with the same tets in all groups.
 
@@ -68,13 +68,13 @@ int corot_mesh_order(const corot_mesh *mesh);
    straight; a group that had no others is dropped. The one undoes the other.
 
    COROT_EINVAL: `order` is neither 1 nor 2, or the mesh is too large for order 2. COROT_ENOMEM. */
-corot_status corot_mesh_change_order(const corot_mesh *mesh, int order, corot_mesh **out);
+COROT_API corot_status corot_mesh_change_order(const corot_mesh *mesh, int order, corot_mesh **out);
 
 /* A copy with all groups. COROT_ENOMEM. */
-corot_status corot_mesh_copy(const corot_mesh *mesh, corot_mesh **copy);
+COROT_API corot_status corot_mesh_copy(const corot_mesh *mesh, corot_mesh **copy);
 
 /* Takes NULL. */
-void corot_mesh_destroy(corot_mesh *mesh);
+COROT_API void corot_mesh_destroy(corot_mesh *mesh);
 
 /* Reads a mesh file. The format is found from the content and, for TetGen, from the suffix:
      gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order;
@@ -101,7 +101,7 @@ void corot_mesh_destroy(corot_mesh *mesh);
    Fails with COROT_EIO (cannot be read), COROT_EFORMAT with "FILE:LINE: ..." (text) or
    "FILE: byte N: ..." (binary); an unsound element is named by its number in the file.
    COROT_ENOMEM. */
-corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
+COROT_API corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
 
 /* How the cells of a box are cut into tets. A bent box of KUHN's cells, whose diagonals all point the
    same way, drifts sideways by up to a third of its deflection. */
@@ -127,7 +127,7 @@ typedef struct corot_box {
 
 /* Split SYMMETRIC, which is recommended, origin 0; size and cells, which are to be set, 0. A box
    that is zero elsewhere is split as KUHN, node for node as before there was a choice. */
-corot_box corot_box_defaults(void);
+COROT_API corot_box corot_box_defaults(void);
 
 /* Neighbouring cells match. Node (i,j,k) has the number i + (nx+1)(j + (ny+1)k), where a count that
    SYMMETRIC has made even is one larger than in `cells`. Octasection along the consistent diagonal
@@ -135,16 +135,16 @@ corot_box corot_box_defaults(void);
    xmin xmax ymin ymax zmin zmax. COROT_EINVAL: a size or a count is not positive, the origin is not
    finite, there is no such split, there would be too many tets, or cells so thin that rounding makes
    them flat. COROT_ENOMEM. */
-corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
+COROT_API corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
 
 /* Writes gmsh 2.2 ASCII, with all groups as physical groups of points, triangles and tets, of 6 and
    10 nodes at order 2: reading
    it gives the same mesh to the last bit. Written beside `path` first, so that a failed write
    (COROT_EIO, COROT_ENOMEM) leaves what was there. */
-corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
+COROT_API corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
 
 /* NULL where there is none of that name. */
-const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *name);
+COROT_API const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *name);
 
 /* Add a group by its nodes. The boundary faces and the tets whose corners are all in the group
    belong to it. At order 2 the nodes on edges that octasection would add (below) belong to it, too,
@@ -152,31 +152,32 @@ const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *nam
    join parts of a surface. COROT_EINVAL: the name is taken, empty, longer than 127 bytes or has quotes or
    control characters; a node is out of range; no node is selected. COROT_ENOMEM. The mesh is as it
    was then; this holds for the next two, too. */
-corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnode, const int *node);
+COROT_API corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnode,
+                                              const int *node);
 
 /* The nodes with |x[axis] - at| <= tol, at order 2 the corners, and nodes on edges as above; tol = 0 stands for 1e-6 of the mesh's diagonal.
    COROT_EINVAL, COROT_ENOMEM as above; COROT_EINVAL, too, if axis is not 0, 1 or 2, if `at` is not a
    number, or if tol is negative or none. */
-corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name, int axis, double at,
-                                    double tol);
+COROT_API corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name, int axis,
+                                              double at, double tol);
 
 /* The nodes with min - tol <= x <= max + tol in each coordinate; tol and failures as above, and
    COROT_EINVAL if min is not at most max. */
-corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
-                                  const double max[3], double tol);
+COROT_API corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
+                                            const double max[3], double tol);
 
 /* The faces that belong to one tet only, winding outward. *tri [*ntri] is the caller's to free.
    COROT_ENOMEM. */
-corot_status corot_mesh_boundary(const corot_mesh *mesh, int *ntri, int (**tri)[3]);
+COROT_API corot_status corot_mesh_boundary(const corot_mesh *mesh, int *ntri, int (**tri)[3]);
 
 /* Of a mesh of order 2 all nodes of triangles that are faces of its tets: the corners, then the nodes
    on the edges 01 12 20. *node [ntri] is the caller's to free. COROT_EINVAL: the mesh is of order 1.
    COROT_ENOMEM. */
-corot_status corot_mesh_face_nodes(const corot_mesh *mesh, int ntri, const int (*tri)[3],
-                                   int (**node)[6]);
+COROT_API corot_status corot_mesh_face_nodes(const corot_mesh *mesh, int ntri, const int (*tri)[3],
+                                             int (**node)[6]);
 
 /* The node nearest to a point; the lower number wins a tie. */
-int corot_mesh_nearest(const corot_mesh *mesh, const double point[3]);
+COROT_API int corot_mesh_nearest(const corot_mesh *mesh, const double point[3]);
 
 /* A place in the body at rest: a tet, and what its shape functions are there. A nodal field f has the
    value sum_k weight[k] f[node[k]]. */
@@ -193,11 +194,11 @@ typedef struct corot_location {
 /* Where a point is; a node, if one is within 1e-9 of the mesh's diagonal. Of a point outside the
    body, the nearest of its surface (at a node or on an edge to 1e-8 of a face's size). In a curved
    tet by Newton's method. COROT_EINVAL: the point is not finite. COROT_ENOMEM. */
-corot_status corot_mesh_locate(const corot_mesh *mesh, const double point[3],
-                               corot_location *location);
+COROT_API corot_status corot_mesh_locate(const corot_mesh *mesh, const double point[3],
+                                         corot_location *location);
 
 /* That of a node, 0 <= node < nnode, in the first tet that has it. */
-corot_location corot_mesh_locate_node(const corot_mesh *mesh, int node);
+COROT_API corot_location corot_mesh_locate_node(const corot_mesh *mesh, int node);
 
 /* Size and shape of a mesh. */
 typedef struct corot_mesh_quality {
@@ -210,7 +211,7 @@ typedef struct corot_mesh_quality {
   int shape_worst;                /* the tet with shape_min */
 } corot_mesh_quality;
 
-corot_mesh_quality corot_mesh_measure(const corot_mesh *mesh);
+COROT_API corot_mesh_quality corot_mesh_measure(const corot_mesh *mesh);
 
 /* Octasection: every tet is cut into eight, of equal volume unless it is curved. The middles of its edges cut off four
    corners; what remains is an octahedron, cut into four along one of its three diagonals. */
@@ -260,8 +261,9 @@ typedef struct corot_refinement {
    `refinement` may be NULL. COROT_EINVAL: nlevel is negative, there is no such diagonal, there would
    be too many tets, or ones so flat, or so strongly curved, that they are none. COROT_ENOMEM. It needs
    up to 50 bytes a tet of the result while it works, 250 at order 2. */
-corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel, corot_diagonal diagonal,
-                               corot_mesh **fine, corot_refinement **refinement);
+COROT_API corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel,
+                                         corot_diagonal diagonal, corot_mesh **fine,
+                                         corot_refinement **refinement);
 
 /* Local refinement: every tet of `mark` [nmark] is cut into at least eight, none of more than an eighth
    of its volume, and its neighbours as far as their faces have to match. A number may occur twice;
@@ -288,15 +290,16 @@ corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel, corot_diagona
    COROT_EINVAL: there is no such tet, there would be too many, or ones so flat, or so strongly curved,
    that they are none. COROT_ENOMEM. It needs up to 350 bytes a tet of the result while it works, 500 at
    order 2. */
-corot_status corot_mesh_refine_marked(const corot_mesh *mesh, int nmark, const int *mark,
-                                      corot_mesh **fine, int **parent);
+COROT_API corot_status corot_mesh_refine_marked(const corot_mesh *mesh, int nmark, const int *mark,
+                                                corot_mesh **fine, int **parent);
 
 /* Adds a level: that the finest mesh has become `raised`, by corot_mesh_change_order to order 2. The
    nodes on its edges are the nodes of the new level, with the ends of the edges as parents; as there
    are no more tets, ntet[nlevel] = ntet[nlevel - 1]. The mean of the parents is how linear functions
    on the tets enter the ten-node ones: a multigrid method or a hierarchical basis needs no more.
    COROT_EINVAL: `raised` is not that. COROT_ENOMEM. The refinement is as it was then. */
-corot_status corot_refinement_raise(corot_refinement *refinement, const corot_mesh *raised);
+COROT_API corot_status corot_refinement_raise(corot_refinement *refinement,
+                                              const corot_mesh *raised);
 
 /* Adds a level below: that of the corners of level 0, `mesh`, which is of order 2. They are the nodes
    of the new level 0, in ascending order, and the nodes on its edges those of the next, with the ends
@@ -304,10 +307,10 @@ corot_status corot_refinement_raise(corot_refinement *refinement, const corot_me
    the levels: `node` has the mesh's numbers. A refinement that has that list already cannot be lowered,
    nor be a hierarchy's (corot/model.h). COROT_EINVAL: `mesh` is not that. COROT_ENOMEM. The refinement is as
    it was then. */
-corot_status corot_refinement_lower(corot_refinement *refinement, const corot_mesh *mesh);
+COROT_API corot_status corot_refinement_lower(corot_refinement *refinement, const corot_mesh *mesh);
 
 /* Takes NULL. */
-void corot_refinement_destroy(corot_refinement *refinement);
+COROT_API void corot_refinement_destroy(corot_refinement *refinement);
 
 #ifdef __cplusplus
 }

@@ -230,7 +230,7 @@ typedef struct corot_hierarchy_def {
 
 /* As in the paper, coarse strain green and frame level 0; conservative, coupling MEAN; no
    refinement. */
-corot_hierarchy_def corot_hierarchy_defaults(void);
+COROT_API corot_hierarchy_def corot_hierarchy_defaults(void);
 
 /* What a model is made of; everything in it is copied. */
 typedef struct corot_model_def {
@@ -258,7 +258,7 @@ typedef struct corot_model_def {
 } corot_model_def;
 
 /* Strain polar, viscosity and mass AUTO, dilatation local (if nodal, with one mu left), nothing else. */
-corot_model_def corot_model_defaults(void);
+COROT_API corot_model_def corot_model_defaults(void);
 
 /* What a strain measure is like. */
 typedef struct corot_strain_kind {
@@ -271,10 +271,10 @@ typedef struct corot_strain_kind {
 } corot_strain_kind;
 
 /* The strain measures, i = 0, 1, ...; NULL beyond the last. */
-const corot_strain_kind *corot_strain_traits(int i);
+COROT_API const corot_strain_kind *corot_strain_traits(int i);
 
 /* The one of this name; NULL: there is none. */
-const corot_strain_kind *corot_strain_find(const char *name);
+COROT_API const corot_strain_kind *corot_strain_find(const char *name);
 
 typedef struct corot_model corot_model;
 
@@ -282,62 +282,63 @@ typedef struct corot_model corot_model;
    positive"): an unknown group or strain, a coefficient out of range, a tet without material, a
    traction on a group without triangles, a support on a group without nodes.
    COROT_ENOMEM. */
-corot_status corot_model_create(const corot_model_def *def, corot_model **model);
+COROT_API corot_status corot_model_create(const corot_model_def *def, corot_model **model);
 
 /* Takes NULL. */
-void corot_model_destroy(corot_model *model);
+COROT_API void corot_model_destroy(corot_model *model);
 
 /* The model's copy of the mesh. */
-const corot_mesh *corot_model_mesh(const corot_model *model);
+COROT_API const corot_mesh *corot_model_mesh(const corot_model *model);
 
 /* The name of the strain measure; with a hierarchy both, as "green+polar". */
-const char *corot_model_strain(const corot_model *model);
+COROT_API const char *corot_model_strain(const corot_model *model);
 
 /* The viscous law in use: COROTATED or OBJECTIVE. */
-corot_viscosity corot_model_viscosity(const corot_model *model);
+COROT_API corot_viscosity corot_model_viscosity(const corot_model *model);
 
 /* Whether the stiffness and damping matrices depend on the frames alone, and stay while these are
    held: with polar, warp and cauchy, unless there is damping by the objective law; and under a hierarchy with coupling MEAN of these on the finest
    level, whatever the coarse measure. */
-bool corot_model_matrices_by_frames(const corot_model *model);
+COROT_API bool corot_model_matrices_by_frames(const corot_model *model);
 
 /* Number n of free degrees of freedom: the length of u, v and r everywhere. */
-int corot_model_ndof(const corot_model *model);
+COROT_API int corot_model_ndof(const corot_model *model);
 
 /* [nnode][3] the degree of freedom of each node's components; -1: held. */
-const int (*corot_model_dof(const corot_model *model))[3];
+COROT_API const int (*corot_model_dof(const corot_model *model))[3];
 
 /* [n] lumped mass (row sums) of each degree of freedom [kg], whichever mass is in use; positive.
    With COROT_COUPLING_ONE_WAY on nodes of level 0 that of level 0. */
-const double *corot_model_mass(const corot_model *model);
+COROT_API const double *corot_model_mass(const corot_model *model);
 
-corot_mass corot_model_mass_kind(const corot_model *model);
+COROT_API corot_mass corot_model_mass_kind(const corot_model *model);
 
 /* The times strictly between t0 and t1 where a load or a motion has a kink or a load jumps, ascending,
    each once; at most `max` are written to `time` (which may be NULL if max is 0). Returns how many
    there are. Sines and splines have none, but for the ends of a spline by which a support drags a
    consistent mass: its acceleration jumps there. */
-int corot_model_kinks(const corot_model *model, double t0, double t1, int max, double *time);
+COROT_API int corot_model_kinks(const corot_model *model, double t0, double t1, int max,
+                                double *time);
 
 /* The latest time to which one step from t should go, so as not to pass over what a smooth amplitude
    does meanwhile: error control sees only what a step has met. It is a quarter of a sine's period
    away; half of the way that a spline takes from one extreme to the next, and where the spline
    rests, the time at which it sets out. INFINITY: as far as any amplitude is concerned. Later than
    t. The integrators of corot/integrate.h that control their error keep to it by themselves. */
-double corot_model_horizon(const corot_model *model, double t);
+COROT_API double corot_model_horizon(const corot_model *model, double t);
 
 /* Scales for tolerances, the same however the body is turned: its length, twice the largest
    distance from its centroid [m]; the smallest shear wave speed sqrt(mu/density) over it [1/s]; and
    the smallest ratio of damping to stiffness over all materials and both coefficients [s]. */
-double corot_model_length(const corot_model *model);
-double corot_model_frequency(const corot_model *model);
-double corot_model_damping_time(const corot_model *model);
+COROT_API double corot_model_length(const corot_model *model);
+COROT_API double corot_model_frequency(const corot_model *model);
+COROT_API double corot_model_damping_time(const corot_model *model);
 
 /* Whether supports move. */
-bool corot_model_moves(const corot_model *model);
+COROT_API bool corot_model_moves(const corot_model *model);
 
 /* Bytes held by the model. */
-size_t corot_model_bytes(const corot_model *model);
+COROT_API size_t corot_model_bytes(const corot_model *model);
 
 #ifdef __cplusplus
 }

@@ -36,10 +36,10 @@ typedef struct corot_modes_def {
 } corot_modes_def;
 
 /* Ten modes, the linear solver "auto", tolerance 1e-12, 300 restarts. */
-corot_modes_def corot_modes_defaults(void);
+COROT_API corot_modes_def corot_modes_defaults(void);
 
 /* Whether this build has ARPACK. */
-bool corot_modes_available(void);
+COROT_API bool corot_modes_available(void);
 
 typedef struct corot_mode {
   double eigenvalue; /* w^2 [1/s^2]; 0: a rigid motion, or nothing but rounding; < 0: unstable */
@@ -67,20 +67,20 @@ typedef struct corot_modes corot_modes;
    a hierarchy, or of warp, away from rest; with COROT_COUPLING_ONE_WAY anywhere), or as for
    corot_pencil_create. COROT_RETRY: a tet is inverted. COROT_ESINGULAR: no shift was found.
    COROT_EINTEGRATE: ARPACK did not converge within max_restarts, or was stopped. COROT_ENOMEM. */
-corot_status corot_modes_find(const corot_modes_def *def, const corot_model *model, double t,
-                              const double *u, corot_modes **modes);
+COROT_API corot_status corot_modes_find(const corot_modes_def *def, const corot_model *model,
+                                        double t, const double *u, corot_modes **modes);
 
 /* What corot_modes_find refuses without a look at u: COROT_EINVAL, but for what u or the supports are
    at fault for. For who has an equilibrium to find first. */
-corot_status corot_modes_check(const corot_modes_def *def, const corot_model *model, double t,
-                               bool at_rest);
+COROT_API corot_status corot_modes_check(const corot_modes_def *def, const corot_model *model,
+                                         double t, bool at_rest);
 
 /* Takes NULL. */
-void corot_modes_destroy(corot_modes *modes);
+COROT_API void corot_modes_destroy(corot_modes *modes);
 
 /* Mode i = 0, 1, ... below corot_modes_count, by ascending w^2; its shape belongs to `modes`. */
-corot_mode corot_modes_at(const corot_modes *modes, int i);
-int corot_modes_count(const corot_modes *modes);
+COROT_API corot_mode corot_modes_at(const corot_modes *modes, int i);
+COROT_API int corot_modes_count(const corot_modes *modes);
 
 /* About all of them. */
 typedef struct corot_modes_facts {
@@ -95,7 +95,7 @@ typedef struct corot_modes_facts {
   double assembly_s, factor_s, solve_s, other_s; /* wall time [s] */
 } corot_modes_facts;
 
-corot_modes_facts corot_modes_known(const corot_modes *modes);
+COROT_API corot_modes_facts corot_modes_known(const corot_modes *modes);
 
 #ifdef __cplusplus
 }

@@ -55,47 +55,47 @@ typedef enum corot_frames {
 typedef struct corot_state corot_state;
 
 /* Frames exact; the held frames are those of u = 0. The model must outlive the state. COROT_ENOMEM. */
-corot_status corot_state_create(const corot_model *model, corot_state **state);
+COROT_API corot_status corot_state_create(const corot_model *model, corot_state **state);
 
 /* Takes NULL. */
-void corot_state_destroy(corot_state *state);
+COROT_API void corot_state_destroy(corot_state *state);
 
 /* Bytes held by the state. */
-size_t corot_state_bytes(const corot_state *state);
+COROT_API size_t corot_state_bytes(const corot_state *state);
 
-void corot_state_use(corot_state *state, corot_frames frames);
-corot_frames corot_state_frames(const corot_state *state);
+COROT_API void corot_state_use(corot_state *state, corot_frames frames);
+COROT_API corot_frames corot_state_frames(const corot_state *state);
 
 /* From now on, evaluations belong to the time after t and before the next kink of a load or a motion:
    at a kink itself the velocity of a support, and at a jump a load, has two values, and this says
    which is meant; beyond it the law goes on as it was, so that r is smooth for a step that ends
    there. Call this at each kink (corot_model_kinks) where a step ends; until the first call, and
    after t = NaN, which lets a step cross a kink, each time has its own law, at a kink the later. */
-void corot_state_enter(corot_state *state, double t);
+COROT_API void corot_state_enter(corot_state *state, double t);
 
 /* From now on evaluations are for statics: the loads are `factor` times those of time t; the time
    of an evaluation says where the supports are, and they have no velocity there, nor has v any
    effect on r. */
-void corot_state_stand_still(corot_state *state, double t, double factor);
+COROT_API void corot_state_stand_still(corot_state *state, double t, double factor);
 
 /* r(t, u, v) [N]. COROT_RETRY when a tet is inverted (det F <= 0 or not a number; not asked of
    cauchy, which is linear): the message and corot_state_inverted() name it. COROT_EINVAL when that
    comes from a component of u or v that is not a number, which the message names. */
-corot_status corot_residual(const corot_model *model, corot_state *state, double t, const double *u,
-                            const double *v, double *r);
+COROT_API corot_status corot_residual(const corot_model *model, corot_state *state, double t,
+                                      const double *u, const double *v, double *r);
 
 /* The same as a first-order system for y = (u, v) [2n]: ydot = (v, M^-1 r). y and ydot may not
    overlap. COROT_RETRY as for corot_residual. COROT_EINVAL with consistent mass, which takes a factor
    of M: see corot/solve.h; and when a component of y is not a number. */
-corot_status corot_rhs(const corot_model *model, corot_state *state, double t, const double *y,
-                       double *ydot);
+COROT_API corot_status corot_rhs(const corot_model *model, corot_state *state, double t,
+                                 const double *y, double *ydot);
 
 /* y = M x [n]; they may not overlap. */
-void corot_mass_multiply(const corot_model *model, const double *x, double *y);
+COROT_API void corot_mass_multiply(const corot_model *model, const double *x, double *y);
 
 /* The tet (number in the mesh) whose inversion made the last evaluation fail; -1: none did. With a
    hierarchy, for a tet of a coarser level its first descendant. */
-int corot_state_inverted(const corot_state *state);
+COROT_API int corot_state_inverted(const corot_state *state);
 
 /* How the frames enter the derivative of the elastic force. */
 typedef enum corot_tangent {
@@ -115,25 +115,26 @@ typedef enum corot_tangent {
    `tangent` is for level 0, which couples its nodes; by means, which couple all nodes on the faces
    of a tet, level 0 is left out; one way, so is its effect on finer nodes. corot_jvp has them.
    COROT_RETRY when a tet is inverted; K and D are without meaning then. */
-corot_status corot_jacobian(const corot_model *model, corot_state *state, double t, const double *u,
-                            const double *v, corot_tangent tangent, double (*K)[9], double (*D)[9]);
+COROT_API corot_status corot_jacobian(const corot_model *model, corot_state *state, double t,
+                                      const double *u, const double *v, corot_tangent tangent,
+                                      double (*K)[9], double (*D)[9]);
 
 /* K [corot_model_nblock()] += the loads' own part of -dr/du, by which a pressure turns and grows with
    the surface it acts on: its symmetric part, K of corot_jacobian being symmetric. Where the pressed
    surface is closed, or its edge is held, there is no other (Hibbitt 1979). It cannot fail. */
-void corot_load_stiffness(const corot_model *model, corot_state *state, double t, const double *u,
-                          double (*K)[9]);
+COROT_API void corot_load_stiffness(const corot_model *model, corot_state *state, double t,
+                                    const double *u, double (*K)[9]);
 
 /* Whether K leaves out so much that it does not tell whether an equilibrium is stable: that of a
    hierarchy does. */
-bool corot_model_approximate_stiffness(const corot_model *model);
+COROT_API bool corot_model_approximate_stiffness(const corot_model *model);
 
 /* The derivative of r in the direction (du, dv): jv = dr/du du + dr/dv dv [N], nothing left out.
    With COROT_TANGENT_HELD the frames are constant, with EXACT and with CLAMPED, which is for
    matrices, they follow F. COROT_RETRY when a tet is inverted. */
-corot_status corot_jvp(const corot_model *model, corot_state *state, double t, const double *u,
-                       const double *v, corot_tangent tangent, const double *du, const double *dv,
-                       double *jv);
+COROT_API corot_status corot_jvp(const corot_model *model, corot_state *state, double t,
+                                 const double *u, const double *v, corot_tangent tangent,
+                                 const double *du, const double *dv, double *jv);
 
 /* What an update of the held frames did, or would do. */
 typedef struct corot_frames_change {
@@ -145,19 +146,19 @@ typedef struct corot_frames_change {
 
 /* Sets the held frames to those of u. `change` may be NULL. COROT_RETRY when a tet is inverted;
    nothing is changed then. */
-corot_status corot_frames_update(const corot_model *model, corot_state *state, double t,
-                                 const double *u, corot_frames_change *change);
+COROT_API corot_status corot_frames_update(const corot_model *model, corot_state *state, double t,
+                                           const double *u, corot_frames_change *change);
 
 /* The same change, from the frames in use at t to those of u, without making it. COROT_RETRY when a
    tet is inverted. */
-corot_status corot_frames_drift(const corot_model *model, corot_state *state, double t,
-                                const double *u, corot_frames_change *drift);
+COROT_API corot_status corot_frames_drift(const corot_model *model, corot_state *state, double t,
+                                          const double *u, corot_frames_change *drift);
 
 /* After an update: the spin at which the frames turn on where they are extrapolated, from v; zero
    until this is called. *spin_max (or NULL): the largest [rad/s]. COROT_RETRY when a tet is
    inverted. */
-corot_status corot_frames_spin(const corot_model *model, corot_state *state, double t,
-                               const double *u, const double *v, double *spin_max);
+COROT_API corot_status corot_frames_spin(const corot_model *model, corot_state *state, double t,
+                                         const double *u, const double *v, double *spin_max);
 
 /* Energies and powers of one instant; with COROT_COUPLING_ONE_WAY those of level 0. Of the kinetic
    energy and the momenta, the part of the free degrees of freedom; the work of a moving support is
@@ -179,13 +180,13 @@ typedef struct corot_energies {
 } corot_energies;
 
 /* Energies and powers of (u, v) at t. COROT_RETRY when a tet is inverted. */
-corot_status corot_energy(const corot_model *model, corot_state *state, double t, const double *u,
-                          const double *v, corot_energies *energies);
+COROT_API corot_status corot_energy(const corot_model *model, corot_state *state, double t,
+                                    const double *u, const double *v, corot_energies *energies);
 
 /* Displacement and velocity of all nodes, held components included [nnode][3]; either output may
    be NULL. */
-void corot_nodal(const corot_model *model, double t, const double *u, const double *v,
-                 double (*displacement)[3], double (*velocity)[3]);
+COROT_API void corot_nodal(const corot_model *model, double t, const double *u, const double *v,
+                           double (*displacement)[3], double (*velocity)[3]);
 
 /* Fields of the tets, in the mesh's order [ntet]; any may be NULL. With a hierarchy, frames are
    those handed down, strain and stress those of the finest level alone. Symmetric tensors are
@@ -213,19 +214,19 @@ typedef struct corot_element_fields {
 
 /* COROT_RETRY if a tet is inverted; the fields are set all the same, its own without meaning (and
    with COROT_DILATATION_NODAL its neighbours' von Mises stress). */
-corot_status corot_elements(const corot_model *model, corot_state *state, double t, const double *u,
-                            const corot_element_fields *fields);
+COROT_API corot_status corot_elements(const corot_model *model, corot_state *state, double t,
+                                      const double *u, const corot_element_fields *fields);
 
 /* Places in the body at which such fields are looked at one by one. */
 typedef struct corot_points corot_points;
 
 /* tet [n], at [n]: tets and volume coordinates in them, as in corot_location. The model must outlive
    the points. COROT_EINVAL: there is no such tet. COROT_ENOMEM. */
-corot_status corot_points_create(const corot_model *model, int n, const int *tet,
-                                 const double (*at)[4], corot_points **points);
+COROT_API corot_status corot_points_create(const corot_model *model, int n, const int *tet,
+                                           const double (*at)[4], corot_points **points);
 
 /* Takes NULL. */
-void corot_points_destroy(corot_points *points);
+COROT_API void corot_points_destroy(corot_points *points);
 
 /* As of the tets, each [n]; any may be NULL. F and with it strain and stress are those of the shape
    functions at the point. A frame that is given (held, extrapolated, handed down) and an averaged
@@ -237,8 +238,9 @@ typedef struct corot_point_fields {
 } corot_point_fields;
 
 /* COROT_RETRY if the body is inverted at one of the points (the fields are set all the same). */
-corot_status corot_points_evaluate(const corot_points *points, corot_state *state, double t,
-                                   const double *u, const corot_point_fields *fields);
+COROT_API corot_status corot_points_evaluate(const corot_points *points, corot_state *state,
+                                             double t, const double *u,
+                                             const corot_point_fields *fields);
 
 /* How far a displacement is from small strains and turns. What is below the limits is not counted,
    so that a body hardly deformed costs little. */
@@ -255,9 +257,9 @@ typedef struct corot_deformation {
 
 /* Of the displacement at t alone, whatever the strain measure; with a hierarchy, of the finest
    level. strain_limit: 0 to 1; turn_limit [rad]: INFINITY, if turns do not matter. */
-void corot_deformation_measure(const corot_model *model, corot_state *state, double t,
-                               const double *u, double strain_limit, double turn_limit,
-                               corot_deformation *deformation);
+COROT_API void corot_deformation_measure(const corot_model *model, corot_state *state, double t,
+                                         const double *u, double strain_limit, double turn_limit,
+                                         corot_deformation *deformation);
 
 /* How much the stress, which is constant in each tet, jumps between tets: an indicator of what the
    mesh leaves out. With the stress S in material axes, and S* its continuous recovery, linear between
@@ -268,20 +270,20 @@ void corot_deformation_measure(const corot_model *model, corot_state *state, dou
    in the norm of the strain energy (Zienkiewicz & Zhu 1987, whose estimator of the relative error
    this is). Where dilatations are averaged, of the deviator alone. 0 for a body without stress but
    what rounding leaves. COROT_ENOMEM. */
-corot_status corot_stress_jumps(const corot_model *model, corot_state *state, double t,
-                                const double *u, double *share);
+COROT_API corot_status corot_stress_jumps(const corot_model *model, corot_state *state, double t,
+                                          const double *u, double *share);
 
 /* Elastic force of the model on all nodes [nnode][3] [N], held ones included, with exact frames.
    COROT_RETRY as for corot_residual. */
-corot_status corot_elastic_force(const corot_model *model, corot_state *state, double t,
-                                 const double *u, double (*f)[3]);
+COROT_API corot_status corot_elastic_force(const corot_model *model, corot_state *state, double t,
+                                           const double *u, double (*f)[3]);
 
 /* The same of any one strain measure on the model's mesh, whatever the model's is:
    f = lambda_part * (lambda term) + mu_part * (mu term). Dilatations are averaged if the model's
    are. COROT_RETRY as for corot_residual. COROT_EINVAL: there is no measure of that name. */
-corot_status corot_internal_force(const corot_model *model, corot_state *state, double t,
-                                  const double *u, const char *strain, double lambda_part,
-                                  double mu_part, double (*f)[3]);
+COROT_API corot_status corot_internal_force(const corot_model *model, corot_state *state, double t,
+                                            const double *u, const char *strain, double lambda_part,
+                                            double mu_part, double (*f)[3]);
 
 /* The parts of the balance of forces at all nodes [nnode][3] [N], held components included; any may
    be NULL. In the frames and by the laws that the state is in:
@@ -300,21 +302,22 @@ typedef struct corot_nodal_forces {
 
 /* u, v and a [n]: displacement, velocity, acceleration. In statics (corot_state_stand_still) nothing
    has a velocity or an acceleration, and v and a may be NULL. COROT_RETRY as for corot_residual. */
-corot_status corot_forces(const corot_model *model, corot_state *state, double t, const double *u,
-                          const double *v, const double *a, const corot_nodal_forces *forces);
+COROT_API corot_status corot_forces(const corot_model *model, corot_state *state, double t,
+                                    const double *u, const double *v, const double *a,
+                                    const corot_nodal_forces *forces);
 
 /* Velocity and acceleration of all nodes [nnode][3], of which v and a [n] are the free ones, by the
    laws that the state is in; either output may be NULL, and then its input. */
-void corot_nodal_motion(const corot_model *model, const corot_state *state, double t,
-                        const double *v, const double *a, double (*velocity)[3],
-                        double (*acceleration)[3]);
+COROT_API void corot_nodal_motion(const corot_model *model, const corot_state *state, double t,
+                                  const double *v, const double *a, double (*velocity)[3],
+                                  double (*acceleration)[3]);
 
 /* Loads of time t, times `factor`, on all nodes [nnode][3] [N], held components included, of the
    body displaced by `displacement` [nnode], which says where a pressure acts. What falls on held
    components is taken up by the supports: at rest, the force of a support on the body is the elastic
    force less this. COROT_ENOMEM. */
-corot_status corot_load_force(const corot_model *model, double t, double factor,
-                              const double (*displacement)[3], double (*f)[3]);
+COROT_API corot_status corot_load_force(const corot_model *model, double t, double factor,
+                                        const double (*displacement)[3], double (*f)[3]);
 
 /* --- The matrices' pattern ------------------------------------------------------------------- */
 
@@ -322,10 +325,11 @@ corot_status corot_load_force(const corot_model *model, double t, double factor,
    a tet or, with COROT_DILATATION_NODAL, an average: those two tets apart; with a hierarchy coupled
    by nodes, if the measures differ, or one way, also a tet of level 0. Blocks of held nodes are
    stored but mean nothing. */
-int corot_model_nblock(const corot_model *model);
+COROT_API int corot_model_nblock(const corot_model *model);
 
 /* y = A x for blocks A [nblock][9]; x and y are [n] and may not overlap. */
-void corot_block_multiply(const corot_model *model, const double (*A)[9], const double *x, double *y);
+COROT_API void corot_block_multiply(const corot_model *model, const double (*A)[9], const double *x,
+                                    double *y);
 
 typedef enum corot_triangle { COROT_FULL, COROT_LOWER } corot_triangle;
 
@@ -341,14 +345,16 @@ typedef struct corot_csc {
 } corot_csc;
 
 /* COROT_EINVAL: there are more entries than an int counts. COROT_ENOMEM. */
-corot_status corot_csc_create(const corot_model *model, corot_triangle triangle, corot_csc **csc);
+COROT_API corot_status corot_csc_create(const corot_model *model, corot_triangle triangle,
+                                        corot_csc **csc);
 
 /* Takes NULL. */
-void corot_csc_destroy(corot_csc *csc);
+COROT_API void corot_csc_destroy(corot_csc *csc);
 
 /* value [nnz] = a M + b D + c K with the model's own M; D and K may be NULL where their factor is zero. */
-void corot_csc_combine(const corot_model *model, const corot_csc *csc, double a, double b,
-                       const double (*D)[9], double c, const double (*K)[9], double *value);
+COROT_API void corot_csc_combine(const corot_model *model, const corot_csc *csc, double a, double b,
+                                 const double (*D)[9], double c, const double (*K)[9],
+                                 double *value);
 
 #ifdef __cplusplus
 }

@@ -43,7 +43,7 @@ typedef struct corot_linear_def {
 } corot_linear_def;
 
 /* All "auto", 1e-10, dynamic, no refinement. */
-corot_linear_def corot_linear_defaults(void);
+COROT_API corot_linear_def corot_linear_defaults(void);
 
 /* K, D, S and a factor of S: one for each run. */
 typedef struct corot_pencil corot_pencil;
@@ -52,24 +52,25 @@ typedef struct corot_pencil corot_pencil;
    solver, ordering ... of that name, or not in this build; the tolerance is not positive; the
    refinement is not there, or not of the model's mesh; the matrix has more entries than an int
    counts. COROT_ENOMEM. */
-corot_status corot_pencil_create(const corot_model *model, corot_state *state,
-                                 const corot_linear_def *linear, corot_pencil **pencil);
+COROT_API corot_status corot_pencil_create(const corot_model *model, corot_state *state,
+                                           const corot_linear_def *linear, corot_pencil **pencil);
 
 /* Takes NULL. */
-void corot_pencil_destroy(corot_pencil *pencil);
+COROT_API void corot_pencil_destroy(corot_pencil *pencil);
 
 /* The linear solver chosen, with what it was chosen with: "cholmod supernodal, metis", "klu, amd",
    "pcg, incomplete-cholesky". */
-const char *corot_pencil_solver(const corot_pencil *pencil);
+COROT_API const char *corot_pencil_solver(const corot_pencil *pencil);
 
 /* Which derivative of the frames K uses; held at first. */
-void corot_pencil_use(corot_pencil *pencil, corot_tangent tangent);
+COROT_API void corot_pencil_use(corot_pencil *pencil, corot_tangent tangent);
 
 /* K and D at (t, u, v). COROT_RETRY when a tet is inverted: there is nothing to combine then. */
-corot_status corot_pencil_assemble(corot_pencil *pencil, double t, const double *u, const double *v);
+COROT_API corot_status corot_pencil_assemble(corot_pencil *pencil, double t, const double *u,
+                                             const double *v);
 
 /* S = a M + b D + c K, without reassembly. */
-void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
+COROT_API void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
 
 /* Factors S. cholmod and pcg need it positive definite. Where it is not, in a time step, K is made
    again with the clamped tangent, and stays so until the next assembly; if that is no help (or was
@@ -78,18 +79,18 @@ void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
    COROT_RETRY: not positive definite, in statics, where the loss of stability must be seen.
    COROT_ESINGULAR: no pivot; the message names the degree of freedom and its node.
    COROT_ENOMEM; COROT_EINVAL: the solver's library refuses, for a reason in the message. */
-corot_status corot_pencil_factor(corot_pencil *pencil);
+COROT_API corot_status corot_pencil_factor(corot_pencil *pencil);
 
 /* x = S^-1 b; x may be b. COROT_EINVAL: S has no factor, because factoring it failed or was not
    asked for. COROT_ENOMEM. COROT_RETRY: pcg met a direction in which S is not positive, or did not
    converge. If it was not asked for by name, a direct solver takes its place instead, now and for
    the rest of the run (see corot_pencil_solver), with memory asked for then; and so it does, at a
    factorisation, where the iterations have cost twice as much as it would have. */
-corot_status corot_pencil_solve(corot_pencil *pencil, const double *b, double *x);
+COROT_API corot_status corot_pencil_solve(corot_pencil *pencil, const double *b, double *x);
 
 /* Marks K and D as out of date, so that the next set-up reassembles them whatever the integrator
    thinks. For a host that has called corot_frames_update. */
-void corot_pencil_invalidate(corot_pencil *pencil);
+COROT_API void corot_pencil_invalidate(corot_pencil *pencil);
 
 typedef struct corot_pencil_counts {
   long nassembly, ncombine, nfactor, nsolve; /* done, those of a fallback included */
@@ -103,7 +104,7 @@ typedef struct corot_pencil_counts {
   double assembly_s, combine_s, factor_s, solve_s; /* wall time [s] */
 } corot_pencil_counts;
 
-corot_pencil_counts corot_pencil_statistics(const corot_pencil *pencil);
+COROT_API corot_pencil_counts corot_pencil_statistics(const corot_pencil *pencil);
 
 /* --- Mass ------------------------------------------------------------------------------------ */
 
@@ -111,49 +112,50 @@ corot_pencil_counts corot_pencil_statistics(const corot_pencil *pencil);
 typedef struct corot_mass_solver corot_mass_solver;
 
 /* The model must outlive it. COROT_ENOMEM; a lumped mass needs hardly any. */
-corot_status corot_mass_solver_create(const corot_model *model, corot_mass_solver **solver);
+COROT_API corot_status corot_mass_solver_create(const corot_model *model,
+                                                corot_mass_solver **solver);
 
 /* Takes NULL. */
-void corot_mass_solver_destroy(corot_mass_solver *solver);
+COROT_API void corot_mass_solver_destroy(corot_mass_solver *solver);
 
 /* x = M^-1 b [n]; x may be b. Where the mass is lumped it cannot fail, else for want of memory only:
    COROT_ENOMEM. */
-corot_status corot_mass_solve(corot_mass_solver *solver, const double *b, double *x);
+COROT_API corot_status corot_mass_solve(corot_mass_solver *solver, const double *b, double *x);
 
 /* --- SUNDIALS ------------------------------------------------------------------------------- */
 
 /* The version of the SUNDIALS library in use, "MAJOR.MINOR.PATCH"; "" if it does not tell. */
-const char *corot_sundials_version(void);
+COROT_API const char *corot_sundials_version(void);
 
 /* A SUNMatrix (SUNMATRIX_CUSTOM) and a SUNLinearSolver (SUNLINEARSOLVER_DIRECT) that stand for the
    Newton matrix I - gamma J of y = (u, v) [2n] by way of the pencil. Give both to
    CVodeSetLinearSolver, and corot_sun_linsys to CVodeSetLinSysFn; free them by SUNMatDestroy and
    SUNLinSolFree. NULL where memory ran out or ctx is NULL. The pencil must outlive them. */
-SUNMatrix corot_sun_matrix(corot_pencil *pencil, SUNContext ctx);
-SUNLinearSolver corot_sun_linsol(corot_pencil *pencil, SUNContext ctx);
+COROT_API SUNMatrix corot_sun_matrix(corot_pencil *pencil, SUNContext ctx);
+COROT_API SUNLinearSolver corot_sun_linsol(corot_pencil *pencil, SUNContext ctx);
 
 /* What the functions below return to an integrator: 0, or as its manual asks a number > 0 where a
    shorter step may help (a tet is inverted, the matrix has no factor), or a corot_status < 0 where
    nothing helps (COROT_ENOMEM, COROT_EINVAL). corot_error() tells more.
 
    A CVLsLinSysFn. Its user_data is not looked at: the pencil comes from A. */
-int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
-                     sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
-                     N_Vector tmp2, N_Vector tmp3);
+COROT_API int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A,
+                               sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
+                               void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);
 
 /* The same as an ARKLsLinSysFn of ARKODE, whose mass matrix is the identity: corot_sun_rhs divides by
    the mass. */
-int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
-                         sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
-                         void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);
+COROT_API int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
+                                   sunbooleantype jok, sunbooleantype *jcur, sunrealtype gamma,
+                                   void *user_data, N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);
 
 /* The same for F(t, y, y') = (u' - v, M v' - r), the residual form of IDA (or IDAS): the solver,
    NULL where memory ran out, stands for dF/dy + cj dF/dy'. corot_sun_jacobian_dae is an IDALsJacFn;
    its user_data is not looked at. */
-SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx);
-int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector F,
-                           SUNMatrix A, void *user_data, N_Vector tmp1, N_Vector tmp2,
-                           N_Vector tmp3);
+COROT_API SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx);
+COROT_API int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp,
+                                     N_Vector F, SUNMatrix A, void *user_data, N_Vector tmp1,
+                                     N_Vector tmp2, N_Vector tmp3);
 
 /* Model, state and mass in one pointer: the user_data of corot_sun_rhs. */
 typedef struct corot_sun_data {
@@ -164,11 +166,12 @@ typedef struct corot_sun_data {
 
 /* A CVRhsFn: ydot = (v, M^-1 r). user_data is a corot_sun_data. y is a serial vector [2n]. Without a
    mass solver where one is needed it returns COROT_EINVAL. */
-int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data);
+COROT_API int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data);
 
 /* An IDAResFn: F = (u' - v, M v' - r), for lumped and consistent mass alike. user_data is a
    corot_sun_data, of which the mass solver is not used. */
-int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data);
+COROT_API int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F,
+                                 void *user_data);
 
 #ifdef __cplusplus
 }

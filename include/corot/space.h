@@ -67,9 +67,10 @@ typedef struct corot_space_estimate {
    COROT_EINVAL: the model has ten-node tets, or a hierarchy; the definition does not suit ten-node
    tets; a linear solver as for corot_pencil_create. COROT_RETRY, COROT_ESINGULAR: a tet is inverted,
    or the linear system has no solution. COROT_ENOMEM. */
-corot_status corot_space_error(const corot_model_def *def, const corot_model *model,
-                               const corot_space_moment *at, const corot_linear_def *linear,
-                               double (*correction)[3], corot_space_estimate *estimate);
+COROT_API corot_status corot_space_error(const corot_model_def *def, const corot_model *model,
+                                         const corot_space_moment *at,
+                                         const corot_linear_def *linear, double (*correction)[3],
+                                         corot_space_estimate *estimate);
 
 /* --- Where the error comes from ---------------------------------------------------------------
 
@@ -118,9 +119,10 @@ typedef struct corot_space_total {
    COROT_EINVAL: the model has a hierarchy; a linear solver as for corot_pencil_create. COROT_RETRY,
    COROT_ESINGULAR: u is not finite; with a goal, a tet is inverted, or the linear system has no
    solution. COROT_ENOMEM. */
-corot_status corot_space_indicators(const corot_model *model, const corot_space_moment *at,
-                                    const double *goal, const corot_linear_def *linear,
-                                    double *indicator, corot_space_total *total);
+COROT_API corot_status corot_space_indicators(const corot_model *model,
+                                              const corot_space_moment *at, const double *goal,
+                                              const corot_linear_def *linear, double *indicator,
+                                              corot_space_total *total);
 
 /* Which tets to refine (corot_mesh_refine_marked): the fewest that carry this fraction of the sum of the indicators [ntet]
    (Doerfler 1996); of equal ones those of lower numbers. mark [ntet], of which *nmark are set:
@@ -128,8 +130,8 @@ corot_status corot_space_indicators(const corot_model *model, const corot_space_
    fraction of a half in a twentieth of the tets is local; in a third, uniform refinement is as
    good. COROT_EINVAL: the fraction is not above 0 and at most 1, or an indicator is negative or not a
    number. COROT_ENOMEM. */
-corot_status corot_space_mark(int ntet, const double *indicator, double fraction, int *nmark,
-                              int *mark);
+COROT_API corot_status corot_space_mark(int ntet, const double *indicator, double fraction,
+                                        int *nmark, int *mark);
 
 #ifdef __cplusplus
 }

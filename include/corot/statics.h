@@ -49,7 +49,7 @@ typedef struct corot_statics_def {
 
 /* Everything about the linear solver "auto", frames exact, tolerance 1e-10, 20 iterations, the
    whole load at once, min_step 1e-4, max_step 1. */
-corot_statics_def corot_statics_defaults(void);
+COROT_API corot_statics_def corot_statics_defaults(void);
 
 typedef struct corot_statics corot_statics;
 
@@ -58,11 +58,11 @@ typedef struct corot_statics corot_statics;
    COROT_EINVAL: the definition makes no sense, t or u0 is not finite, or as for corot_pencil_create.
    COROT_ENOMEM. COROT_ESINGULAR: nothing holds the body, or a part
    of it, against some rigid motion, which the message names. */
-corot_status corot_statics_create(const corot_statics_def *def, const corot_model *model, double t,
-                                  const double *u0, corot_statics **statics);
+COROT_API corot_status corot_statics_create(const corot_statics_def *def, const corot_model *model,
+                                            double t, const double *u0, corot_statics **statics);
 
 /* Takes NULL. */
-void corot_statics_destroy(corot_statics *statics);
+COROT_API void corot_statics_destroy(corot_statics *statics);
 
 typedef enum corot_stability {
   COROT_STABILITY_UNKNOWN, /* an iterative solver cannot tell, nor can K of a hierarchy */
@@ -89,16 +89,17 @@ typedef struct corot_load_step {
    reason, or that the equilibrium becomes unstable, and where, to one part in 1000 or 2 min_step.
    What was last reached remains readable. COROT_EINVAL: the full load was reached before.
    COROT_ENOMEM. */
-corot_status corot_statics_step(corot_statics *statics, corot_load_step *step);
+COROT_API corot_status corot_statics_step(corot_statics *statics, corot_load_step *step);
 
 /* Load steps to the end. Failures as of corot_statics_step. */
-corot_status corot_statics_solve(corot_statics *statics);
+COROT_API corot_status corot_statics_solve(corot_statics *statics);
 
 /* The equilibrium reached: its load factor, and u [n] (or NULL). */
-double corot_statics_at(const corot_statics *statics, double *u);
+COROT_API double corot_statics_at(const corot_statics *statics, double *u);
 
 /* Where stability was lost: between these load factors; NaN: nowhere so far. */
-void corot_statics_critical(const corot_statics *statics, double *stable, double *unstable);
+COROT_API void corot_statics_critical(const corot_statics *statics, double *stable,
+                                      double *unstable);
 
 /* Counts of all load steps, refused ones included; the first five under KINSOL's names. */
 typedef struct corot_statics_counts {
@@ -118,13 +119,13 @@ typedef struct corot_statics_counts {
   double force_s, assembly_s, combine_s, factor_s, solve_s, other_s;
 } corot_statics_counts;
 
-corot_statics_counts corot_statics_statistics(const corot_statics *statics);
+COROT_API corot_statics_counts corot_statics_statistics(const corot_statics *statics);
 
 /* The linear solver in use. */
-const char *corot_statics_solver(const corot_statics *statics);
+COROT_API const char *corot_statics_solver(const corot_statics *statics);
 
 /* Bytes of the evaluations' scratch (corot_state_bytes). */
-size_t corot_statics_bytes(const corot_statics *statics);
+COROT_API size_t corot_statics_bytes(const corot_statics *statics);
 
 #ifdef __cplusplus
 }

@@ -21,7 +21,7 @@ def find_silent(text):
     speaks for all functions below it up to the next empty line."""
     found = []
     comments = [(match.end(), match.group()) for match in re.finditer(r"/\*.*?\*/", text, re.S)]
-    for match in re.finditer(r"^corot_status (corot_\w+)\(", text, re.M):
+    for match in re.finditer(r"^(?:COROT_API )?corot_status\s+(corot_\w+)\(", text, re.M):
         own = [said for end, said in comments
                if end < match.start() and "\n\n" not in text[end : match.start()]]
         if not FAILURES.search(" ".join(own)):
@@ -96,7 +96,7 @@ def look_at_document(tree, document, names):
 
 def check_myself(tree, names):
     """What must be found, is."""
-    silent = "/* Adds. */\ncorot_status corot_add(int n);\n"
+    silent = "/* Adds. */\nCOROT_API corot_status corot_add(int n);\n"
     assert find_silent(silent) == [(2, "corot_add")]
     assert not find_silent(silent.replace("Adds.", "Adds. COROT_ENOMEM."))
     said = "`core/base`, `solve/nowhere`,\n`gone.c` and `check.h`; `test_base.c`"

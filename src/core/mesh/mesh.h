@@ -7,6 +7,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "core/base/sisters.h"
+
 /* p = zeroed array of n items; the value is a status. An empty array is not NULL. */
 #define COROT_ALLOC(p, n)                                         \
   (((p) = calloc((size_t)(n) > 0 ? (size_t)(n) : 1, sizeof *(p))) \
@@ -17,7 +19,7 @@
 extern const int corot_tet_face[4][3];
 
 /* The ends of the edges, in the order of corot_mesh.mid. */
-extern const int corot_tet_edge[6][2];
+extern COROT_SISTERS const int corot_tet_edge[6][2];
 
 /* A face of a tet. */
 typedef struct corot_face {
@@ -84,8 +86,8 @@ void corot_group_clear(corot_group *group);
 
 /* slope[a] = dX / dl_a of the map by the ten shape functions, at the volume coordinates `at` and of
    positions relative to corner 0. */
-void corot_curved_slopes(const double (*x)[3], const int v[4], const int mid[6], const double at[4],
-                         double slope[4][3]);
+COROT_SISTERS void corot_curved_slopes(const double (*x)[3], const int v[4], const int mid[6],
+                                       const double at[4], double slope[4][3]);
 
 /* Nodes, weights and position of a location of which the tet and `at` are set. */
 void corot_location_weigh(const corot_mesh *mesh, corot_location *here);
@@ -94,7 +96,7 @@ void corot_location_weigh(const corot_mesh *mesh, corot_location *here);
    from the tet with corners 0, e_x, e_y, e_z; and the volume, which is that of the image. */
 double corot_curved_determinant(const double (*x)[3], const int v[4], const int mid[6],
                                 const double at[4]);
-double corot_curved_volume(const double (*x)[3], const int v[4], const int mid[6]);
+COROT_SISTERS double corot_curved_volume(const double (*x)[3], const int v[4], const int mid[6]);
 
 /* The box that holds all nodes. */
 void corot_mesh_bounds(const corot_mesh *mesh, double min[3], double max[3]);

@@ -3,13 +3,15 @@
 
 #include <corot/ode.h>
 
+#include "core/base/sisters.h"
+
 /* f [n] = the loads on the body displaced by u at t [N], whose power is that of corot_energies:
    with COROT_COUPLING_ONE_WAY those of level 0. */
-void corot_force_of_loads(const corot_model *model, corot_state *state, double t, const double *u,
-                          double *f);
+COROT_SISTERS void corot_force_of_loads(const corot_model *model, corot_state *state, double t,
+                                        const double *u, double *f);
 
 /* corot_energies.carried alone, at the cost of no tet. */
-double corot_carried(const corot_model *model, corot_state *state, double t, const double *u,
-                     const double *v);
+COROT_SISTERS double corot_carried(const corot_model *model, corot_state *state, double t,
+                                   const double *u, const double *v);
 
 #endif

@@ -5,6 +5,7 @@
 #include <corot/model.h>
 
 #include "amplitude.h"
+#include "core/base/sisters.h"
 #include "core/element/face.h"
 #include "core/system/system.h"
 #include "instant.h"
@@ -105,15 +106,16 @@ corot_status corot_model_restrict(const corot_model_def *def, int nnode, double 
 /* Displacement, velocity and acceleration of all nodes, `stride` doubles each: the free values, the
    motions' on their nodes, zero on held components. Where a velocity jumps, it has no acceleration.
    */
-void corot_model_displacement(const corot_model *m, const instant *now, const double *u,
-                              double *nodal, int stride);
-void corot_model_velocity(const corot_model *m, const instant *now, const double *v, double *nodal,
-                          int stride);
-void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
-                              double *nodal, int stride);
+COROT_SISTERS void corot_model_displacement(const corot_model *m, const instant *now,
+                                            const double *u, double *nodal, int stride);
+COROT_SISTERS void corot_model_velocity(const corot_model *m, const instant *now, const double *v,
+                                        double *nodal, int stride);
+COROT_SISTERS void corot_model_acceleration(const corot_model *m, const instant *now,
+                                            const double *a, double *nodal, int stride);
 
 /* The free values alone: zero on every held component. */
-void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride);
+COROT_SISTERS void corot_model_spread(const corot_model *m, const double *values, double *nodal,
+                                      int stride);
 
 /* Mass and mass damping, once degrees of freedom, motions and pattern are known. */
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m);

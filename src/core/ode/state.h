@@ -2,6 +2,7 @@
 #ifndef COROT_CORE_ODE_STATE_H
 #define COROT_CORE_ODE_STATE_H
 
+#include "core/base/sisters.h"
 #include "core/model/model.h"
 
 struct corot_state {
@@ -20,7 +21,7 @@ struct corot_state {
 };
 
 /* The instant of an evaluation at t. */
-instant corot_state_at(const corot_state *s, double t);
+COROT_SISTERS instant corot_state_at(const corot_state *s, double t);
 
 /* How long ago the held frames were found. */
 static inline double age_of(const corot_state *s, double t) { return t - s->t_update; }

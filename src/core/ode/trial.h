@@ -5,10 +5,13 @@
 
 #include <corot/ode.h>
 
+#include "core/base/sisters.h"
+
 /* As corot_residual() and corot_rhs(), but COROT_RETRY for what is not a number. */
-corot_status corot_residual_trial(const corot_model *model, corot_state *state, double t,
-                                  const double *u, const double *v, double *r);
-corot_status corot_rhs_trial(const corot_model *model, corot_state *state, double t,
-                             const double *y, double *ydot);
+COROT_SISTERS corot_status corot_residual_trial(const corot_model *model, corot_state *state,
+                                                double t, const double *u, const double *v,
+                                                double *r);
+COROT_SISTERS corot_status corot_rhs_trial(const corot_model *model, corot_state *state, double t,
+                                           const double *y, double *ydot);
 
 #endif

@@ -25,6 +25,7 @@
 #define COROT_CORE_SYSTEM_SYSTEM_H
 
 #include "coarsening.h"
+#include "core/base/sisters.h"
 #include "core/solid/solid.h"
 
 enum { TERMS = 4, MAPS = 2 }; /* at most */
@@ -83,7 +84,7 @@ corot_status corot_system_check(const corot_hierarchy_def *def, const corot_mesh
 bool corot_system_adds_matrices(const solid_system *y);
 
 /* Whether the stress is linear in the displacement. */
-bool corot_system_is_linear(const solid_system *y);
+COROT_SISTERS bool corot_system_is_linear(const solid_system *y);
 
 /* --- State ----------------------------------------------------------------------------------- */
 

@@ -5,6 +5,8 @@
 #include <corot/solve.h>
 #include <stdbool.h>
 
+#include "core/base/sisters.h"
+
 /* What is to be used on one matrix, every "auto" decided. */
 typedef struct linsol_plan linsol_plan;
 
@@ -68,7 +70,7 @@ corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *l
                                  linsol_plan *plan);
 
 /* The best direct solver of this build. */
-extern const char *const corot_linsol_direct;
+extern COROT_SISTERS const char *const corot_linsol_direct;
 void corot_linsol_plan_clear(linsol_plan *plan);
 
 /* A solver with the matrix it is for. */
@@ -83,8 +85,9 @@ typedef struct linsol {
 } linsol;
 
 /* On the model's pattern. What is half made is released by clear. */
-corot_status corot_linsol_create(const corot_model *model, const corot_linear_def *def, linsol *s);
-void corot_linsol_clear(linsol *s);
+COROT_SISTERS corot_status corot_linsol_create(const corot_model *model,
+                                               const corot_linear_def *def, linsol *s);
+COROT_SISTERS void corot_linsol_clear(linsol *s);
 
 /* Negative pivots of the symmetric matrix `value` on `A` (both triangles), none of which is moved
    from the diagonal: as many as it has negative eigenvalues. Zero pivots count, too. */
@@ -92,7 +95,8 @@ corot_status corot_inertia(const corot_csc *A, const double *value, int *negativ
 
 /* *negative: the pivots of value [csc->nnz] that are negative, of a solver whose factor does not
    object to them; else 0. */
-corot_status corot_linsol_count_negative(const linsol *s, const double *value, int *negative);
+COROT_SISTERS corot_status corot_linsol_count_negative(const linsol *s, const double *value,
+                                                       int *negative);
 
 /* Fails with COROT_ESINGULAR for want of a pivot at a degree of freedom; `ratio`: of the smallest
    pivot to the largest. */

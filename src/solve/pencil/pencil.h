@@ -4,6 +4,7 @@
 
 #include <corot/solve.h>
 
+#include "core/base/sisters.h"
 #include "solve/linsol/linsol.h"
 
 struct corot_pencil {
@@ -31,21 +32,22 @@ struct corot_pencil {
 
 /* corot_pencil_factor, and COROT_RETRY from a solver, too, that does not mind what is not positive
    definite. */
-corot_status corot_pencil_factor_definite(corot_pencil *pencil);
+COROT_SISTERS corot_status corot_pencil_factor_definite(corot_pencil *pencil);
 
 /* What is behind the functions that SUNDIALS calls (corot_sun_*), with a corot_status as the value.
 
    linsys: S at (t, y) for this gamma; *made: K and D were assembled, which `keep` spares unless
    they are out of date. newton, newton_dae: x solves the Newton system of y' = f, or of F(t, y, y')
    = 0, for the residual b. */
-corot_status corot_pencil_linsys(corot_pencil *pencil, double t, N_Vector y, bool keep,
-                                 sunbooleantype *made, double gamma);
-corot_status corot_pencil_newton(corot_pencil *pencil, N_Vector b, N_Vector x);
-corot_status corot_pencil_newton_dae(corot_pencil *pencil, N_Vector b, N_Vector x);
+COROT_SISTERS corot_status corot_pencil_linsys(corot_pencil *pencil, double t, N_Vector y,
+                                               bool keep, sunbooleantype *made, double gamma);
+COROT_SISTERS corot_status corot_pencil_newton(corot_pencil *pencil, N_Vector b, N_Vector x);
+COROT_SISTERS corot_status corot_pencil_newton_dae(corot_pencil *pencil, N_Vector b, N_Vector x);
 
 /* ydot = (v, M^-1 r), and F = (u' - v, M v' - r). */
-corot_status corot_rate(const corot_sun_data *data, double t, N_Vector y, N_Vector ydot);
-corot_status corot_defect(const corot_sun_data *data, double t, N_Vector y, N_Vector yp,
-                          N_Vector F);
+COROT_SISTERS corot_status corot_rate(const corot_sun_data *data, double t, N_Vector y,
+                                      N_Vector ydot);
+COROT_SISTERS corot_status corot_defect(const corot_sun_data *data, double t, N_Vector y,
+                                        N_Vector yp, N_Vector F);
 
 #endif

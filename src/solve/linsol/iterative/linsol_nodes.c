@@ -177,8 +177,7 @@ bool corot_nodes_jacobi(node_matrix *A, int *at) {
   return true;
 }
 
-COROT_CLONES
-bool corot_nodes_cholesky(node_matrix *A, double shift, int *at) {
+static COROT_CLONES bool cholesky(node_matrix *A, double shift, int *at) {
   const double least = 1e-3; /* smaller pivots make a positive, but a bad preconditioner */
   double *L = A->value + 9 * (size_t)A->n, *E = A->C;
   for (int i = 0; i < 9 * A->n; i++) E[i] = A->value[i];
@@ -198,6 +197,8 @@ bool corot_nodes_cholesky(node_matrix *A, double shift, int *at) {
   return true;
 }
 
+bool corot_nodes_cholesky(node_matrix *A, double shift, int *at) { return cholesky(A, shift, at); }
+
 /* --- products and sweeps; vectors of nodes have a fourth component that is zero --- */
 
 COROT_INLINE block_column column(const node_matrix *A, int j) {
@@ -206,8 +207,7 @@ COROT_INLINE block_column column(const node_matrix *A, int j) {
 
 COROT_INLINE void output(double *y, vd4 a) { y[0] = a[0], y[1] = a[1], y[2] = a[2]; }
 
-COROT_CLONES
-void corot_nodes_multiply(node_matrix *A, const double *x, double *y) {
+static COROT_CLONES void multiply(node_matrix *A, const double *x, double *y) {
   double(*in)[4] = A->work, (*out)[4] = A->work + A->n;
   for (int i = 0; i < A->n; i++) {
     const double *xi = x + 3 * i;
@@ -221,10 +221,11 @@ void corot_nodes_multiply(node_matrix *A, const double *x, double *y) {
   }
 }
 
+void corot_nodes_multiply(node_matrix *A, const double *x, double *y) { multiply(A, x, y); }
+
 /* With D + L + L' = (I + L) + (I + L') - (2 I - D) and t = (I + L')^-1 x:
    y = t + (I + L)^-1 (x - (2 I - D) t). */
-COROT_CLONES
-void corot_nodes_sandwich(node_matrix *A, const double *x, double *y) {
+static COROT_CLONES void sandwich(node_matrix *A, const double *x, double *y) {
   double(*t)[4] = A->work, (*w)[4] = A->work + A->n;
   for (int j = A->n - 1; j >= 0; j--) {
     vd4 xj = vd4_padded(x + 3 * j), tj = xj - column_product(column(A, j), (const double(*)[4])t);
@@ -238,8 +239,9 @@ void corot_nodes_sandwich(node_matrix *A, const double *x, double *y) {
   }
 }
 
-COROT_CLONES
-void corot_nodes_forward(node_matrix *A, double *x) {
+void corot_nodes_sandwich(node_matrix *A, const double *x, double *y) { sandwich(A, x, y); }
+
+static COROT_CLONES void forward(node_matrix *A, double *x) {
   double(*w)[4] = A->work;
   for (int j = 0; j < A->n; j++) vd4_store(w[j], vd4_padded(x + 3 * j));
   for (int j = 0; j < A->n; j++) {
@@ -249,8 +251,9 @@ void corot_nodes_forward(node_matrix *A, double *x) {
   }
 }
 
-COROT_CLONES
-void corot_nodes_backward(node_matrix *A, double *x) {
+void corot_nodes_forward(node_matrix *A, double *x) { forward(A, x); }
+
+static COROT_CLONES void backward(node_matrix *A, double *x) {
   double(*t)[4] = A->work;
   for (int j = A->n - 1; j >= 0; j--) {
     vd4 tj = vd4_padded(x + 3 * j) - column_product(column(A, j), (const double(*)[4])t);
@@ -258,6 +261,8 @@ void corot_nodes_backward(node_matrix *A, double *x) {
     output(x + 3 * j, tj);
   }
 }
+
+void corot_nodes_backward(node_matrix *A, double *x) { backward(A, x); }
 
 void corot_nodes_scale(const node_matrix *A, double *x) {
   for (int i = 0; i < A->n; i++, x += 3) {
