@@ -412,7 +412,7 @@ static void a_stop_can_be_moved(void **state) {
     assert_true(step.t == near);
     assert_ok(corot_integrator_step(integrator, near + 1e-9, &step));
     assert_true(step.t == near + 1e-9);
-    double rounding = nextafter(near + 1e-9, 1);
+    double rounding = nextafter(near + 1e-9, INFINITY);
     assert_ok(corot_integrator_step(integrator, rounding, &step));
     assert_true(step.t == rounding);
     assert_ok(corot_integrator_at(integrator, rounding, b.u, b.v));
