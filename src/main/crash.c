@@ -11,6 +11,8 @@
 #include <ucontext.h>
 #include <unistd.h>
 
+#include "sanitized.h"
+
 /* Where each library is in memory; the first one is the program itself. */
 static struct {
   uintptr_t begin, end;
@@ -104,14 +106,6 @@ static int add_object(struct dl_phdr_info *info, size_t size, void *context) {
   object[nobject++].name = slash ? slash + 1 : *info->dlpi_name ? info->dlpi_name : "corot";
   return 0;
 }
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define IS_SANITIZED 1
-#endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define IS_SANITIZED 1
-#endif
 
 void crash_watch(void) {
 #ifdef IS_SANITIZED

@@ -16,6 +16,7 @@
 #include "study/execute/template.h"
 
 #include "crash.h"
+#include "first_signals.h"
 
 static const char help[] =
     "corot: deformable solids as ordinary differential equations, integrated with error control\n"
@@ -112,6 +113,7 @@ int main(int argc, char **argv) {
       {"schema", command_schema},   {"mesh", command_mesh},
       {"--version", print_version}, {0},
   };
+  first_signals_restore();
   hold_standard_streams();
   tell_libraries(argc, argv);
   crash_watch();

@@ -41,6 +41,7 @@ __attribute__((constructor)) static void begin(void) {
   if (file) count_file = strdup(file);
   if (getenv("DISTURB_FOLDER")) folder = strdup(getenv("DISTURB_FOLDER"));
   unsetenv("LD_PRELOAD");
+  changes = looks = 0; /* without those of libraries that are loaded with the program */
 }
 
 __attribute__((destructor)) static void end(void) {

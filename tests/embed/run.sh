@@ -1,6 +1,6 @@
 #!/bin/sh
 # Uses corot as a stranger does: installs the build BUILD, moves what was installed, and works far
-# from the build. CC and CFLAGS are those of the build.
+# from the build. CC, CFLAGS and CMAKE_GENERATOR are those of the build.
 # usage: run.sh cmake|pkg-config|headers|symbols BUILD
 set -eu
 kind=$1 build=$2
@@ -77,17 +77,22 @@ case $kind in
     check_examples
     ;;
   headers)
+    PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name corot.pc)")
+    export PKG_CONFIG_PATH
+    flags=$(pkg-config --cflags corot-integrate) # those of SUNDIALS may want headers of MPI
     for header in "$work"/prefix/include/corot/*.h; do
       name=corot/$(basename "$header")
       echo "#include <$name>" >>all.cc
       echo "#include <$name>" >one.c
-      $cc -std=c11 -pedantic -Wall -Wextra -Werror -fsyntax-only -I"$work/prefix/include" one.c ||
+      # shellcheck disable=SC2086
+      $cc -std=c11 -pedantic -Wall -Wextra -Werror -fsyntax-only $flags one.c ||
         fail "$name does not stand on its own"
     done
     [ "$(wc -l <all.cc)" -ge 5 ] || fail "headers are missing"
     command -v "$cxx" >/dev/null || { echo "no C++ compiler"; exit 77; }
     # C++14 is what the headers of SUNDIALS ask for.
-    $cxx -std=c++14 -Wall -Wextra -Werror -fsyntax-only -I"$work/prefix/include" all.cc
+    # shellcheck disable=SC2086
+    $cxx -std=c++14 -Wall -Wextra -Werror -fsyntax-only $flags all.cc
     ;;
   symbols)
     find "$work/prefix" -name 'libcorot_*.a' >archives

@@ -1,7 +1,6 @@
 /* A host that owns its integrator sees the failures of our linear solver for what they are: each of
    CVODE, IDA and ARKODE counts them, repeats the step where that may help, and stops where it may
    not. */
-#include <arkode/arkode_arkstep.h>
 #include <corot/solve.h>
 #include <cvodes/cvodes.h>
 #include <idas/idas.h>
@@ -9,7 +8,7 @@
 
 #include "bar.h"
 #include "solve/pencil/pencil.h"
-#include "solve/sundials/sun_compat.h"
+#include "solve/sundials/sun_ark.h"
 #include "solver.h"
 
 static const double T_END = 0.2;
@@ -92,16 +91,17 @@ static int run_ida(host *h, double t_end) {
 static int run_arkode(host *h, double t_end) {
   double t;
   void *m = ARKStepCreate(NULL, corot_sun_rhs, 0, h->y, h->ctx);
-  assert_int_equal(ARKStepSStolerances(m, 1e-6, 1e-8) ||
+  assert_int_equal(SUN_ARK(SStolerances)(m, 1e-6, 1e-8) ||
                        SUN_CATCH_ERRORS(ARKStepSetErrHandlerFn, m, h->ctx, keep_quiet, NULL) ||
-                       ARKStepSetUserData(m, &h->data) || ARKStepSetMaxNumSteps(m, 100000) ||
-                       ARKStepSetMaxNonlinIters(m, 10) || ARKStepSetLinearSolver(m, h->LS, h->A) ||
-                       ARKStepSetLinSysFn(m, corot_sun_linsys_ark),
+                       SUN_ARK(SetUserData)(m, &h->data) || SUN_ARK(SetMaxNumSteps)(m, 100000) ||
+                       SUN_ARK(SetMaxNonlinIters)(m, 10) ||
+                       SUN_ARK(SetLinearSolver)(m, h->LS, h->A) ||
+                       SUN_ARK(SetLinSysFn)(m, corot_sun_linsys_ark),
                    0);
-  int flag = ARKStepEvolve(m, t_end, h->y, &t, ARK_NORMAL);
-  assert_int_equal(ARKStepGetNumNonlinSolvConvFails(m, &h->ncfn), 0);
-  assert_int_equal(ARKStepGetNumLinConvFails(m, &h->ncfl), 0);
-  ARKStepFree(&m);
+  int flag = SUN_ARK(Evolve)(m, t_end, h->y, &t, ARK_NORMAL);
+  assert_int_equal(SUN_ARK(GetNumNonlinSolvConvFails)(m, &h->ncfn), 0);
+  assert_int_equal(SUN_ARK(GetNumLinConvFails)(m, &h->ncfl), 0);
+  SUN_ARK(Free)(&m);
   return flag;
 }
 

@@ -1,11 +1,11 @@
 /* The linear solvers, each through the same tests. */
 #include <signal.h>
 #include <stdbool.h>
-#include <suitesparse/SuiteSparse_config.h>
 #include <time.h>
 
 #include "bar.h"
 #include "solve/linsol/linsol.h"
+#include "suitesparse_memory.h"
 
 /* Every solver with every choice it has. */
 static const corot_linear_def table[] = {
@@ -519,7 +519,9 @@ static corot_status make(const corot_linear_def *def, const corot_csc *lower, pr
 
 static void failed_allocations_are_reported(void **state) {
   (void)state;
-  struct SuiteSparse_config_struct saved = SuiteSparse_config;
+  const suitesparse_memory saved = suitesparse_memory_get();
+  const suitesparse_memory failing = {failing_malloc, failing_calloc, failing_realloc,
+                                      counting_free};
   for (int large = 0; large < (order_of_test() == 1 ? 2 : 1); large++)
     for (int s = 0; s < NSOLVER; s++) {
       problem p;
@@ -528,10 +530,7 @@ static void failed_allocations_are_reported(void **state) {
       corot_csc *lower;
       assert_ok(corot_csc_create(p.bar.model, COROT_LOWER, &lower));
       set(&p, 1, 1e-2, 1e-4);
-      SuiteSparse_config.malloc_func = failing_malloc;
-      SuiteSparse_config.calloc_func = failing_calloc;
-      SuiteSparse_config.realloc_func = failing_realloc;
-      SuiteSparse_config.free_func = counting_free;
+      suitesparse_memory_set(failing);
       for (long k = 1;; k++) {
         memory.count = memory.live = 0, memory.fail_at = k;
         corot_status status = make(&table[s], lower, &p);
@@ -545,7 +544,7 @@ static void failed_allocations_are_reported(void **state) {
         if (memory.count < k) break;
       }
       assert_true(memory.count > 10);
-      SuiteSparse_config = saved;
+      suitesparse_memory_set(saved);
       corot_csc_destroy(lower);
       problem_destroy(&p);
     }

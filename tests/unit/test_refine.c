@@ -4,7 +4,7 @@
 
 #include "alloc.h"
 #include "check.h"
-#include "core/mesh/mesh.h"
+#include "core/mesh/refine/mesh_refine.h"
 #include "solid.h"
 
 /* A tet with no symmetry; the first is right-handed as it stands. */
@@ -334,6 +334,17 @@ static corot_status try_refine(void *with_history) {
   return status;
 }
 
+/* Each tet has six sides, which are counted before an edge is known: nothing is read of the mesh.
+ */
+static void more_sides_than_an_int_counts_are_refused(void **state) {
+  (void)state;
+  const corot_mesh vast = {.nnode = 4, .ntet = INT_MAX / 6 + 1};
+  corot_edges edges = {0};
+  assert_fails(corot_edges_list(&vast, &edges), COROT_EINVAL,
+               "357913942 tets are too many to list their edges: at most 357913941");
+  assert_true(edges.n == 0 && !edges.end && !edges.tet);
+}
+
 static void failed_allocations(void **state) {
   (void)state;
   int yes = 1;
@@ -351,6 +362,7 @@ int main(void) {
       cmocka_unit_test(levels_may_be_made_one_by_one),
       cmocka_unit_test(boxes_become_boxes),
       cmocka_unit_test(refusals),
+      cmocka_unit_test(more_sides_than_an_int_counts_are_refused),
       cmocka_unit_test(failed_allocations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,12 +3,12 @@
    reason, and a status of that meaning. */
 #include <corot/integrate.h>
 #include <corot/statics.h>
-#include <suitesparse/SuiteSparse_config.h>
 
 #include "alloc.h"
 #include "bar.h"
 #include "solver.h"
 #include "strike.h"
+#include "suitesparse_memory.h"
 
 static const double T_END = 0.05;
 
@@ -234,11 +234,9 @@ static long next_allocation(long k) { return k < 200 ? k + 1 : k + k / 16; }
    the C library, and only in set-ups.) */
 static void every_allocation_may_fail(void **state) {
   (void)state;
-  struct SuiteSparse_config_struct saved = SuiteSparse_config;
-  SuiteSparse_config.malloc_func = malloc; /* as this program sees them: see alloc.h */
-  SuiteSparse_config.calloc_func = calloc;
-  SuiteSparse_config.realloc_func = realloc;
-  SuiteSparse_config.free_func = free;
+  const suitesparse_memory saved = suitesparse_memory_get();
+  /* as this program sees them: see alloc.h */
+  suitesparse_memory_set((suitesparse_memory){malloc, calloc, realloc, free});
   for (int s = 0; s < NSOLVER; s++)
     for (int m = 0; m < NSOME && is_built(&solvers[s]); m++) {
       trial how = {some[m], solvers[s], COROT_MASS_CONSISTENT, 1e-5};
@@ -263,7 +261,7 @@ static void every_allocation_may_fail(void **state) {
       free(right.y), free(y);
       drop_body(&b);
     }
-  SuiteSparse_config = saved;
+  suitesparse_memory_set(saved);
 }
 
 int main(void) {

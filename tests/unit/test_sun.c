@@ -1,5 +1,4 @@
 /* The pencil as SUNDIALS sees it, against SUNDIALS' own KLU on the full 2n x 2n system. */
-#include <arkode/arkode_arkstep.h>
 #include <corot/solve.h>
 #include <cvodes/cvodes.h>
 #include <idas/idas.h>
@@ -8,7 +7,7 @@
 
 #include "full_system.h"
 #include "solve/integrate/vector.h"
-#include "solve/sundials/sun_compat.h"
+#include "solve/sundials/sun_ark.h"
 #include "solver.h"
 
 static SUNContext context(void) {
@@ -316,12 +315,12 @@ static void arkode_host(bar *b, double t_end, double *y_end) {
   SUNLinearSolver LS = corot_sun_linsol(pencil, ctx);
   void *ark = ARKStepCreate(NULL, corot_sun_rhs, 0, y, ctx);
   double t;
-  assert_false(ARKStepSetUserData(ark, &data) || ARKStepWFtolerances(ark, host_weights) ||
-               ARKStepSetMaxNumSteps(ark, -1) || ARKStepSetLinearSolver(ark, LS, A) ||
-               ARKStepSetLinSysFn(ark, corot_sun_linsys_ark) || ARKStepSetStopTime(ark, t_end));
-  assert_true(ARKStepEvolve(ark, 2 * t_end, y, &t, ARK_NORMAL) == ARK_TSTOP_RETURN);
+  assert_false(SUN_ARK(SetUserData)(ark, &data) || SUN_ARK(WFtolerances)(ark, host_weights) ||
+               SUN_ARK(SetMaxNumSteps)(ark, -1) || SUN_ARK(SetLinearSolver)(ark, LS, A) ||
+               SUN_ARK(SetLinSysFn)(ark, corot_sun_linsys_ark) || SUN_ARK(SetStopTime)(ark, t_end));
+  assert_true(SUN_ARK(Evolve)(ark, 2 * t_end, y, &t, ARK_NORMAL) == ARK_TSTOP_RETURN);
   memcpy(y_end, N_VGetArrayPointer(y), 2 * b->n * sizeof *y_end);
-  ARKStepFree(&ark);
+  SUN_ARK(Free)(&ark);
   SUNLinSolFree(LS), SUNMatDestroy(A), N_VDestroy(y);
   corot_mass_solver_destroy(mass);
   corot_pencil_destroy(pencil);

@@ -9,10 +9,10 @@
 
 #include "core/base/sisters.h"
 
-/* p = zeroed array of n items; the value is a status. An empty array is not NULL. */
-#define COROT_ALLOC(p, n)                                         \
-  (((p) = calloc((size_t)(n) > 0 ? (size_t)(n) : 1, sizeof *(p))) \
-       ? COROT_OK                                                 \
+/* p = zeroed array of n >= 0 items; the value is a status. An empty array is not NULL. */
+#define COROT_ALLOC(p, n)                                 \
+  (((p) = calloc((n) > 0 ? (size_t)(n) : 1, sizeof *(p))) \
+       ? COROT_OK                                         \
        : corot_fail(COROT_ENOMEM, "out of memory: %zu times %zu bytes", (size_t)(n), sizeof *(p)))
 
 /* Local nodes of the face opposite to node k, winding outward. */

@@ -1,6 +1,6 @@
-/* Every difference between SUNDIALS 6.4 (Debian 12) and 7.x stands here. Return values are only
-   ever compared with zero, whose meaning never changed. What our functions return is in
-   sun_status.h. */
+/* Every difference between SUNDIALS 6.4 (Debian 12) and 7.x (Debian 13: 7.1.1) stands here, those
+   of ARKODE in sun_ark.h. Return values are only ever compared with zero, whose meaning never
+   changed. What our functions return is in sun_status.h. */
 #ifndef COROT_SOLVE_SUNDIALS_SUN_COMPAT_H
 #define COROT_SOLVE_SUNDIALS_SUN_COMPAT_H
 
@@ -15,11 +15,6 @@
 #if SUNDIALS_VERSION_MAJOR >= 7
 #include <sundials/sundials_errors.h>
 #include <sundials/sundials_logger.h>
-
-/* ARKStepX and ERKStepX are deprecated from 7.1 on for ARKodeX, which 6.4 lacks. */
-#ifdef __GNUC__
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
-#endif
 
 typedef SUNErrCode sun_status; /* of an operation of our own */
 

@@ -161,7 +161,7 @@ static corot_status take_shard(const char *dir, int shard, int nshard, int *part
 /* Shards begin at the same time: one after the other they look at study.json. */
 static corot_status enter_shard(const char *dir, const manifest *m, int shard, int nshard,
                                 bool force, int *part) {
-  int claiming;
+  int claiming = -1;
   COROT_TRY(take_shard(dir, shard, nshard, part));
   COROT_TRY(take_lock(dir, ".lock-study", LOCK_EX, &claiming));
   corot_status status = claim(dir, m, force);

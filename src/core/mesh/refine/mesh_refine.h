@@ -19,7 +19,8 @@ static inline int corot_edge_middle(const corot_edges *edges, int i) {
   return edges->middle ? edges->middle[i] : edges->nnode + i;
 }
 
-/* Fills `edges`, which corot_edges_clear empties. */
+/* Fills `edges`, which corot_edges_clear empties. COROT_EINVAL: so many tets that their sides
+   cannot be counted. */
 corot_status corot_edges_list(const corot_mesh *mesh, corot_edges *edges);
 void corot_edges_clear(corot_edges *edges);
 

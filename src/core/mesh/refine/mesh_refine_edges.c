@@ -1,4 +1,5 @@
 /* The edges of a mesh, each once, found by sorting in linear time. */
+#include <limits.h>
 #include <string.h>
 
 #include "mesh_refine.h"
@@ -54,6 +55,9 @@ static corot_status find_middles(const corot_mesh *mesh, corot_edges *edges) {
 }
 
 corot_status corot_edges_list(const corot_mesh *mesh, corot_edges *edges) {
+  if (mesh->ntet > INT_MAX / 6)
+    return corot_fail(COROT_EINVAL, "%d tets are too many to list their edges: at most %d",
+                      mesh->ntet, INT_MAX / 6);
   int n = 6 * mesh->ntet, *start = NULL;
   side *a = NULL, *b = NULL;
   corot_status status = COROT_ALLOC(a, n);

@@ -1,8 +1,8 @@
 /* Diagonally implicit Runge-Kutta methods, through ARKODE's ARKStep. */
-#include <arkode/arkode_arkstep.h>
 #include <stdlib.h>
 
 #include "runge_kutta.h"
+#include "solve/sundials/sun_ark.h"
 
 /* The first of each order is what the order stands for: on bars that vibrate, the one with the
    least error for its CPU time. */
@@ -33,26 +33,21 @@ const rk_table corot_rk_implicit[] = {
     {NULL, 0},
 };
 
-static int count_rhs(void *memory, long *nfe) {
-  long explicit_part;
-  return ARKStepGetNumRhsEvals(memory, &explicit_part, nfe);
-}
-
-static const rk_api api = {.advance = ARKStepEvolve,
-                           .reset = ARKStepReset,
-                           .release = ARKStepFree,
-                           .set_stop_time = ARKStepSetStopTime,
-                           .set_first_step = ARKStepSetInitStep,
-                           .interpolate = ARKStepGetDky,
-                           .next_step = ARKStepGetCurrentStep,
-                           .local_errors = ARKStepGetEstLocalErrors,
-                           .error_weights = ARKStepGetErrWeights,
-                           .observe_stages = ARKStepSetPostprocessStageFn,
-                           .nfe = count_rhs,
-                           .netf = ARKStepGetNumErrTestFails,
-                           .nsetups = ARKStepGetNumLinSolvSetups,
-                           .nni = ARKStepGetNumNonlinSolvIters,
-                           .ncfn = ARKStepGetNumNonlinSolvConvFails};
+static const rk_api api = {.advance = SUN_ARK(Evolve),
+                           .reset = SUN_ARK(Reset),
+                           .release = SUN_ARK(Free),
+                           .set_stop_time = SUN_ARK(SetStopTime),
+                           .set_first_step = SUN_ARK(SetInitStep),
+                           .interpolate = SUN_ARK(GetDky),
+                           .next_step = SUN_ARK(GetCurrentStep),
+                           .local_errors = SUN_ARK(GetEstLocalErrors),
+                           .error_weights = SUN_ARK(GetErrWeights),
+                           .observe_stages = SUN_ARK(SetPostprocessStageFn),
+                           .nfe = sun_ark_nfe,
+                           .netf = SUN_ARK(GetNumErrTestFails),
+                           .nsetups = SUN_ARK(GetNumLinSolvSetups),
+                           .nni = SUN_ARK(GetNumNonlinSolvIters),
+                           .ncfn = SUN_ARK(GetNumNonlinSolvConvFails)};
 
 /* On the paper's bar, at a tolerance of 1e-4, against SUNDIALS' own choices: a tenth of the
    set-ups and less than half of the time. A long step changes K much, but a solve costs far less
@@ -86,20 +81,19 @@ static int configure(runge_kutta *m) {
   const corot_integrator_def *d = &m->driver.self->def;
   void *a = m->memory;
   /* a step of 0 leaves it to SUNDIALS */
-  return ARKStepSetUserData(a, m) || ARKStepWFtolerances(a, corot_driver_weights) ||
-         ARKStepSetMaxNumSteps(a, -1) || ARKStepSetMaxErrTestFails(a, DRIVER_MOST_FAILURES) ||
-         ARKStepSetLinearSolver(a, m->driver.LS, m->driver.A) ||
-         ARKStepSetLinSysFn(a, corot_driver_linsys_ark) ||
-         ARKStepSetLSetupFrequency(a, d->refactorisation) ||
-         ARKStepSetJacEvalFrequency(a, d->reassembly) ||
-         ARKStepSetDeltaGammaMax(a, d->gamma_change) ||
-         ARKStepSetNonlinConvCoef(a, d->convergence) || ARKStepSetMaxNonlinIters(a, 10) ||
-         ARKStepSetPredictorMethod(a, d->predictor) || ARKStepSetInterpolantDegree(a, 3) ||
-         ARKStepSetDeduceImplicitRhs(a, SUNTRUE) ||
-         ARKStepSetAdaptivityMethod(a, ARK_ADAPT_PI, SUNTRUE, SUNFALSE, NULL) ||
-         ARKStepSetSafetyFactor(a, 0.9) || ARKStepSetErrorBias(a, 1) ||
-         ARKStepSetInitStep(a, d->first_step) || ARKStepSetMinStep(a, d->min_step) ||
-         ARKStepSetMaxStep(a, d->max_step);
+  return SUN_ARK(SetUserData)(a, m) || SUN_ARK(WFtolerances)(a, corot_driver_weights) ||
+         SUN_ARK(SetMaxNumSteps)(a, -1) || SUN_ARK(SetMaxErrTestFails)(a, DRIVER_MOST_FAILURES) ||
+         SUN_ARK(SetLinearSolver)(a, m->driver.LS, m->driver.A) ||
+         SUN_ARK(SetLinSysFn)(a, corot_driver_linsys_ark) ||
+         SUN_ARK(SetLSetupFrequency)(a, d->refactorisation) ||
+         SUN_ARK(SetJacEvalFrequency)(a, d->reassembly) ||
+         SUN_ARK(SetDeltaGammaMax)(a, d->gamma_change) ||
+         SUN_ARK(SetNonlinConvCoef)(a, d->convergence) || SUN_ARK(SetMaxNonlinIters)(a, 10) ||
+         SUN_ARK(SetPredictorMethod)(a, d->predictor) || SUN_ARK(SetInterpolantDegree)(a, 3) ||
+         SUN_ARK(SetDeduceImplicitRhs)(a, SUNTRUE) ||
+         sun_ark_control(a, m->driver.ctx, &m->controller) || SUN_ARK(SetSafetyFactor)(a, 0.9) ||
+         SUN_ARK(SetInitStep)(a, d->first_step) || SUN_ARK(SetMinStep)(a, d->min_step) ||
+         SUN_ARK(SetMaxStep)(a, d->max_step);
 }
 
 static corot_status create(corot_integrator *self, const double *u, const double *v) {

@@ -3,12 +3,12 @@
    SUNDIALS before 6.6.1 has a defect: it takes each table whose last stage stands at the end of the
    step for one whose last stage is the first of the next step, and so loses the order of those
    where it is not (LLNL/sundials#311). Here every table is made one where it is. */
-#include <arkode/arkode_erkstep.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runge_kutta.h"
+#include "solve/sundials/sun_ark.h"
 
 /* The first of each order is what the order stands for. */
 const rk_table corot_rk_explicit[] = {
@@ -31,17 +31,17 @@ const rk_table corot_rk_explicit[] = {
 
 enum { MOST_STAGES = 15 };
 
-static const rk_api api = {.advance = ERKStepEvolve,
-                           .reset = ERKStepReset,
-                           .release = ERKStepFree,
-                           .set_stop_time = ERKStepSetStopTime,
-                           .set_first_step = ERKStepSetInitStep,
-                           .interpolate = ERKStepGetDky,
-                           .next_step = ERKStepGetCurrentStep,
-                           .local_errors = ERKStepGetEstLocalErrors,
-                           .error_weights = ERKStepGetErrWeights,
-                           .nfe = ERKStepGetNumRhsEvals,
-                           .netf = ERKStepGetNumErrTestFails};
+static const rk_api api = {.advance = SUN_ERK(Evolve),
+                           .reset = SUN_ERK(Reset),
+                           .release = SUN_ERK(Free),
+                           .set_stop_time = SUN_ERK(SetStopTime),
+                           .set_first_step = SUN_ERK(SetInitStep),
+                           .interpolate = SUN_ERK(GetDky),
+                           .next_step = SUN_ERK(GetCurrentStep),
+                           .local_errors = SUN_ERK(GetEstLocalErrors),
+                           .error_weights = SUN_ERK(GetErrWeights),
+                           .nfe = sun_erk_nfe,
+                           .netf = SUN_ERK(GetNumErrTestFails)};
 
 /* Stability, not accuracy, decides the step unless much is asked for; of the methods that then cost
    about the same, that of order 4 has the least error. */
@@ -105,12 +105,12 @@ static int configure(runge_kutta *m, ARKodeButcherTable table) {
   const corot_integrator_def *d = &m->driver.self->def;
   void *e = m->memory;
   /* a step of 0 leaves it to SUNDIALS */
-  return ERKStepSetUserData(e, m) || ERKStepWFtolerances(e, corot_driver_weights) ||
-         ERKStepSetMaxNumSteps(e, -1) || ERKStepSetMaxErrTestFails(e, DRIVER_MOST_FAILURES) ||
-         ERKStepSetTable(e, table) || ERKStepSetInterpolantDegree(e, 3) ||
-         ERKStepSetStabilityFn(e, stable_step, m->limit) || ERKStepSetCFLFraction(e, 0.95) ||
-         ERKStepSetInitStep(e, d->first_step) || ERKStepSetMinStep(e, d->min_step) ||
-         ERKStepSetMaxStep(e, d->max_step);
+  return SUN_ERK(SetUserData)(e, m) || SUN_ERK(WFtolerances)(e, corot_driver_weights) ||
+         SUN_ERK(SetMaxNumSteps)(e, -1) || SUN_ERK(SetMaxErrTestFails)(e, DRIVER_MOST_FAILURES) ||
+         ERKStepSetTable(e, table) || SUN_ERK(SetInterpolantDegree)(e, 3) ||
+         SUN_ERK(SetStabilityFn)(e, stable_step, m->limit) || SUN_ERK(SetCFLFraction)(e, 0.95) ||
+         SUN_ERK(SetInitStep)(e, d->first_step) || SUN_ERK(SetMinStep)(e, d->min_step) ||
+         SUN_ERK(SetMaxStep)(e, d->max_step);
 }
 
 static corot_status start(runge_kutta *m, ARKodeButcherTable table) {

@@ -8,7 +8,6 @@
    of degree order - 1. */
 #include "runge_kutta.h"
 
-#include <arkode/arkode.h>
 #include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -17,6 +16,7 @@
 #include <string.h>
 
 #include "core/model/load_force.h"
+#include "solve/sundials/sun_ark.h"
 
 corot_status corot_rk_open(runge_kutta *m, corot_integrator *self, const rk_api *api, int order,
                            const double *u, const double *v) {
@@ -43,6 +43,7 @@ corot_status corot_rk_open(runge_kutta *m, corot_integrator *self, const rk_api 
 void corot_rk_close(void *method) {
   runge_kutta *m = method;
   if (m->memory) m->api->release(&m->memory);
+  sun_ark_release(m->controller);
   corot_explicit_limit_destroy(m->limit);
   corot_rk_release_stages(&m->stages);
   N_Vector const vectors[] = {m->start.y, m->start.rate, m->end.y,    m->end.rate, m->error,
@@ -117,7 +118,7 @@ static bool too_long(const driver *d, int flag) {
 static corot_status advance(runge_kutta *m, double t_stop, double *t) {
   driver *d = &m->driver;
   double t_now = d->self->t, h = 0, least = 100 * DBL_EPSILON * fabs(t_now);
-  int flag;
+  int flag = ARK_SUCCESS;
   for (;;) {
     COROT_TRY(attempt(m, t_stop, t, &flag));
     if (!too_long(d, flag)) break;

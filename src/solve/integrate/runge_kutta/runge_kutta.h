@@ -73,6 +73,7 @@ typedef struct runge_kutta {
   driver driver; /* first: the callbacks' data */
   const rk_api *api;
   void *memory;
+  void *controller; /* of the steps, see sun_ark.h; NULL: ARKODE's own */
   int order;
   rk_end start, end;                 /* of the last step */
   rk_stages stages;                  /* of the last step */
