@@ -7,7 +7,7 @@
    with (a, b, c) = (1, g, g^2) for CVODE and ARKODE (g: their gamma). The 2n x 2n system is never
    formed. Nothing here refers to an integrator: a host links the CVODE (or CVODES) it likes.
 
-   A complete program: tests/examples/solve.c (tests/embed/host_cvode.c: with a CVODE of your own). */
+   A complete program: tests/examples/solve.c (models/embedding/host_cvode.c: with a CVODE of your own). */
 #ifndef COROT_SOLVE_H
 #define COROT_SOLVE_H
 
@@ -88,6 +88,27 @@ COROT_API corot_status corot_pencil_factor(corot_pencil *pencil);
    factorisation, where the iterations have cost twice as much as it would have. */
 COROT_API corot_status corot_pencil_solve(corot_pencil *pencil, const double *b, double *x);
 
+/* Newton's system of 2n unknowns at the g of the last combination, S = M + g D + g^2 K, by one
+   solution of n. Of y' = f, y = (u, v): x [2n] = (I - g J)^-1 r for r [2n],
+
+     dv = S^-1 (M r_v - g K r_u),   du = r_u + g dv,
+
+   and _dae of F(t, y, y') = (u' - v, M v' - r): x = (dF/dy + dF/dy' / g)^-1 F. x may be r, or F.
+   COROT_EINVAL: S is of another combination; else as corot_pencil_solve. */
+corot_status corot_pencil_newton(corot_pencil *pencil, const double *r, double *x);
+corot_status corot_pencil_newton_dae(corot_pencil *pencil, const double *F, double *x);
+
+/* What the pencil is made of, for a host that solves, preconditions or couples by itself: read it
+   only, until the pencil changes it or is destroyed. */
+typedef struct corot_pencil_parts {
+  const double (*K)[9], (*D)[9]; /* [corot_model_nblock()] of the last assembly: see corot/ode.h */
+  const corot_csc *csc;          /* pattern of S: all of it with klu, else its lower triangle */
+  const double *S;               /* [csc->nnz] of the last combination */
+} corot_pencil_parts;
+
+/* The solver may change in a run where it was left to choose, and the pattern with it. */
+corot_pencil_parts corot_pencil_view(const corot_pencil *pencil);
+
 /* Marks K and D as out of date, so that the next set-up reassembles them whatever the integrator
    thinks. For a host that has called corot_frames_update. */
 COROT_API void corot_pencil_invalidate(corot_pencil *pencil);
@@ -157,11 +178,15 @@ COROT_API int corot_sun_jacobian_dae(sunrealtype t, sunrealtype cj, N_Vector y, 
                                      N_Vector F, SUNMatrix A, void *user_data, N_Vector tmp1,
                                      N_Vector tmp2, N_Vector tmp3);
 
-/* Model, state and mass in one pointer: the user_data of corot_sun_rhs. */
+/* Model, state and mass in one pointer: the user_data of corot_sun_rhs. Fields may be added at its
+   end: zero is what they are if nothing is said. */
 typedef struct corot_sun_data {
   const corot_model *model;
   corot_state *state;
   corot_mass_solver *mass; /* may be NULL where the mass is lumped */
+  /* For corot/host.h; else zero: */
+  corot_pencil *pencil; /* the preconditioner of a Krylov method, the matrix of an equilibrium */
+  double rtol, atol_displacement, atol_velocity; /* of corot_sun_weights */
 } corot_sun_data;
 
 /* A CVRhsFn: ydot = (v, M^-1 r). user_data is a corot_sun_data. y is a serial vector [2n]. Without a

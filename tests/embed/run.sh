@@ -15,7 +15,7 @@ cmake --install "$build" --prefix "$work/first" >"$work/log" || { cat "$work/log
 mv "$work/first" "$work/prefix"
 if grep -rIl -e "$build" -e "$work/first" "$work/prefix"; then fail "a path is baked in there"; fi
 mkdir "$work/host"
-cp "$here"/*.c "$here"/*.h "$here"/CMakeLists.txt "$work/host"
+cp "$here"/../../models/embedding/*.[ch] "$here"/CMakeLists.txt "$work/host"
 cp -r "$here/../examples" "$work/host"
 cd "$work/host"
 

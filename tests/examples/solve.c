@@ -1,6 +1,6 @@
 /* The linear algebra of an implicit step: assemble, factor, solve. Here a Newton iteration for an
-   equilibrium, whose error squares. (For a CVODE of your own see tests/embed/host_cvode.c.) Needs
-   corot::solve. */
+   equilibrium, whose error squares. (For a CVODE of your own see models/embedding/host_cvode.c.)
+   Needs corot::solve. */
 #include <corot/solve.h>
 #include <math.h>
 #include <stdio.h>

@@ -16,8 +16,10 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
 }
 
 corot_status corot_state_create(const corot_model *m, corot_state **state) {
+  if (!m || !state) return corot_fail(COROT_EINVAL, "corot_state_create: there is no model");
   corot_state *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "no memory for a state");
+  s->model = m;
   s->nnode = m->mesh->nnode;
   s->side = NAN;
   corot_status status = allocate(m, s);
@@ -40,6 +42,12 @@ void corot_state_destroy(corot_state *s) {
   free(s->dv);
   free(s->r);
   free(s);
+}
+
+corot_status corot_state_check(const corot_model *m, const corot_state *s, const char *who) {
+  if (!m || !s) return corot_fail(COROT_EINVAL, "%s: there is no %s", who, m ? "state" : "model");
+  if (s->model != m) return corot_fail(COROT_EINVAL, "%s: the state is another model's", who);
+  return COROT_OK;
 }
 
 size_t corot_state_bytes(const corot_state *s) { return s->bytes; }

@@ -6,12 +6,13 @@
 #include "core/model/model.h"
 
 struct corot_state {
-  int nnode;          /* of the model */
-  double side;        /* of kinks: see instant.h */
-  bool still;         /* nothing has a velocity, and the loads are those */
-  double load_time;   /* of this time, not of the evaluation's */
-  double load_factor; /* times this */
-  double t_update;    /* when the held frames were found */
+  const corot_model *model; /* whose it is */
+  int nnode;                /* of the model */
+  double side;              /* of kinks: see instant.h */
+  bool still;               /* nothing has a velocity, and the loads are those */
+  double load_time;         /* of this time, not of the evaluation's */
+  double load_factor;       /* times this */
+  double t_update;          /* when the held frames were found */
   system_state system;
   double (*u)[4];            /* [nnode] scratch: displacement of all nodes, */
   double (*v)[4];            /* velocity, */
@@ -19,6 +20,10 @@ struct corot_state {
   double *r;                 /* [ndof] scratch */
   size_t bytes;              /* with all it holds */
 };
+
+/* COROT_EINVAL: there is no model or no state, or the state is another model's. `who` is the
+   function that a host called. */
+corot_status corot_state_check(const corot_model *model, const corot_state *state, const char *who);
 
 /* The instant of an evaluation at t. */
 COROT_SISTERS instant corot_state_at(const corot_state *s, double t);

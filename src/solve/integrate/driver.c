@@ -36,14 +36,16 @@ static int answer_solved(driver *d, corot_status status) {
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
   (void)A, (void)tol;
   driver *d = LS->content;
-  return answer_solved(d, corot_pencil_newton(d->self->pencil, b, x));
+  return answer_solved(
+      d, corot_pencil_newton(d->self->pencil, N_VGetArrayPointer(b), N_VGetArrayPointer(x)));
 }
 
 int corot_driver_solve_dae(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b,
                            sunrealtype tol) {
   (void)A, (void)tol;
   driver *d = LS->content;
-  return answer_solved(d, corot_pencil_newton_dae(d->self->pencil, b, x));
+  return answer_solved(
+      d, corot_pencil_newton_dae(d->self->pencil, N_VGetArrayPointer(b), N_VGetArrayPointer(x)));
 }
 
 int corot_driver_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
@@ -65,7 +67,7 @@ int corot_driver_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) 
   driver *d = user_data;
   corot_integrator *self = d->self;
   double start = clock_wall();
-  corot_sun_data model = {self->model, self->state, self->mass};
+  corot_sun_data model = {.model = self->model, .state = self->state, .mass = self->mass};
   corot_status status = corot_rate(&model, t, y, ydot);
   self->force_s += clock_wall() - start;
   return corot_driver_answer(d, status);
@@ -75,7 +77,7 @@ int corot_driver_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, vo
   driver *d = user_data;
   corot_integrator *self = d->self;
   double start = clock_wall();
-  corot_sun_data model = {self->model, self->state, self->mass};
+  corot_sun_data model = {.model = self->model, .state = self->state, .mass = self->mass};
   corot_status status = corot_defect(&model, t, y, yp, F);
   self->force_s += clock_wall() - start;
   return corot_driver_answer(d, status);
@@ -98,35 +100,13 @@ int corot_driver_work_rate(sunrealtype t, N_Vector y, N_Vector rate, void *user_
   return corot_driver_answer(d, status);
 }
 
-/* Largest length of a node's vector in x [n], infinity if one is not a number. */
-static double largest_vector(const corot_model *model, const double *x) {
-  int nnode = corot_model_mesh(model)->nnode;
-  const int(*dof)[3] = corot_model_dof(model);
-  double largest = 0;
-  for (int n = 0; n < nnode; n++) {
-    double square = 0;
-    for (int c = 0; c < 3; c++)
-      if (dof[n][c] >= 0) square += x[dof[n][c]] * x[dof[n][c]];
-    if (!(square < INFINITY)) return INFINITY;
-    largest = fmax(largest, square);
-  }
-  return sqrt(largest);
-}
-
 int corot_driver_weights(N_Vector y, N_Vector weight, void *user_data) {
   driver *d = user_data;
-  corot_integrator *self = d->self;
-  const corot_integrator_def *def = &self->def;
-  int n = corot_model_ndof(self->model);
-  const double *u = N_VGetArrayPointer(y);
-  double *w = N_VGetArrayPointer(weight);
-  double wu = 1 / (def->rtol * largest_vector(self->model, u) + def->atol_displacement);
-  double wv = 1 / (def->rtol * largest_vector(self->model, u + n) + def->atol_velocity);
-  if (!(wu > 0 && wv > 0))
-    return sun_callback_code(
-        corot_driver_refuse_trial(d, COROT_EINTEGRATE, "the motion exceeds double precision"));
-  for (int i = 0; i < n; i++) w[i] = wu, w[n + i] = wv;
-  return 0;
+  const corot_integrator_def *def = &d->self->def;
+  tolerance tol = {def->rtol, def->atol_displacement, def->atol_velocity};
+  corot_status status =
+      corot_weigh(d->self->model, &tol, N_VGetArrayPointer(y), N_VGetArrayPointer(weight));
+  return corot_driver_answer(d, status);
 }
 
 /* --- Opening and closing --------------------------------------------------------------------- */

@@ -111,44 +111,25 @@ static corot_status check_start(double t, int n, const double *u, const double *
   return COROT_OK;
 }
 
-/* Order 2 unless higher orders are stable or cheap. BDF 3, 4, 5 of step h are stable for all modes
-   of M u'' + beta K u' + K u = 0 if beta/h >= 0.145, 0.367, 0.738 (numerical scan of their
-   stability regions); below, lightly damped modes hold the step down or grow. The largest step to
-   expect is taken as the time a shear wave needs across the body at a tolerance of 1e-3, falling
-   with the cube root of the tolerance as that of order 2 does. At 1e-7 and below error control
-   alone keeps the steps short enough, given any damping: on the paper's bar order 5 then takes
-   twice the steps of order 2 and has a 300th of its error. */
-static int choose_max_order(const corot_integrator_def *d, const corot_model *model) {
-  double beta = corot_model_damping_time(model);
-  if (d->rtol <= 1e-7 && beta > 0) return 5;
-  double h = cbrt(d->rtol / 1e-3) / corot_model_frequency(model);
-  if (d->max_step > 0) h = fmin(h, d->max_step);
-  return beta >= 0.738 * h ? 5 : beta >= 0.367 * h ? 4 : beta >= 0.145 * h ? 3 : 2;
+/* What the definition leaves open of what `advice` has; the rest is the method's own. */
+static void take(corot_integrator_def *d, const corot_sun_advice *a) {
+  if (d->max_order == 0) d->max_order = a->max_order;
+  if (d->tangent == COROT_TANGENT_AUTO) d->tangent = a->tangent;
+  if (d->reassembly == 0) d->reassembly = a->reassembly;
+  if (d->refactorisation == 0) d->refactorisation = a->refactorisation;
+  if (d->gamma_change == 0) d->gamma_change = a->gamma_change;
+  if (d->convergence == 0) d->convergence = a->convergence;
 }
 
-/* A matrix a hundred steps old costs few more iterations than one twenty steps old (SUNDIALS' own
-   choice), and saves a quarter of a run on the paper's bar. Without damping the iteration's error
-   may put energy into the body, unless it ends at a small fraction of the tolerance: at a tenth of
-   it (SUNDIALS' own choice) an elastic bar gains 11 % in 20 s, at 0.003 nothing. Supports that turn
-   take the body away from an old matrix, and what the iteration leaves shakes it: of the paper's
-   turning bar, at rtol 1e-4, the ledger is off by 3.1 % with a matrix of a hundred steps and 0.03,
-   by 0.1 % with one of thirty and 0.01, for a tenth more time; its cube takes half the steps. */
-void corot_integrator_choose_bdf(corot_integrator *self) {
-  corot_integrator_def *d = &self->def;
-  if (d->max_order == 0) d->max_order = choose_max_order(d, self->model);
-  if (d->tangent == COROT_TANGENT_AUTO) d->tangent = COROT_TANGENT_HELD;
-  bool moves = corot_model_moves(self->model), damped = corot_model_damping_time(self->model) > 0;
-  int age = moves ? 30 : 100;
-  if (d->reassembly == 0) d->reassembly = age;
-  if (d->refactorisation == 0) d->refactorisation = age;
-  if (d->gamma_change == 0) d->gamma_change = 0.3;
-  if (d->convergence == 0) d->convergence = !damped ? 0.003 : moves ? 0.01 : 0.03;
+void corot_integrator_take_advice(corot_integrator *self, corot_sun_method method) {
+  corot_sun_advice a = corot_advise(self->model, method, self->def.rtol, self->def.max_step);
+  take(&self->def, &a);
 }
 
 static void choose(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
   if (d->atol_displacement == 0)
-    d->atol_displacement = 0.01 * d->rtol * corot_model_length(self->model);
+    d->atol_displacement = corot_advise(self->model, COROT_SUN_CVODE, d->rtol, 0).atol_displacement;
   if (d->atol_velocity == 0)
     d->atol_velocity = d->atol_displacement * corot_model_frequency(self->model);
   self->ops->choose(self);
@@ -202,13 +183,8 @@ static bool within_rounding(const corot_integrator *self, double t_stop) {
   return t_stop - self->t <= 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
 }
 
-/* A clock that is late by rounding has passed a horizon that is no further away. A stop that the
-   step does not need is not set: SUNDIALS would shorten a later step to it, when there is another.
- */
 double corot_integrator_sight(const corot_integrator *self, double h, double t_stop) {
-  double late = 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
-  double horizon = corot_model_horizon(self->model, self->t + late);
-  return h > 0 && self->t + h <= horizon ? t_stop : fmin(t_stop, horizon);
+  return corot_sight(self->model, self->t, self->t - self->before, h, t_stop);
 }
 
 static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {

@@ -4,6 +4,7 @@
 
 #include <corot/integrate.h>
 
+#include "solve/host/host.h"
 #include "solve/pencil/pencil.h"
 
 typedef struct integrator_ops {
@@ -44,12 +45,10 @@ struct corot_integrator {
   double t_energies;        /* when that was; NaN: nowhere yet */
 };
 
-/* Where the next step, h long as far as is known (0: not at all), must stop: at t_stop, or before,
-   at corot_model_horizon(). A step that goes past what an amplitude does has not seen it, and its
-   error is not controlled. */
+/* corot_sight of the next step. */
 double corot_integrator_sight(const corot_integrator *self, double h, double t_stop);
 
-/* Defaults of the BDF methods for what is left open. */
-void corot_integrator_choose_bdf(corot_integrator *self);
+/* Takes the advice for a method where the definition leaves something open. */
+void corot_integrator_take_advice(corot_integrator *self, corot_sun_method method);
 
 #endif

@@ -61,6 +61,11 @@ const char *corot_pencil_solver(const corot_pencil *p) { return p->chosen.name; 
 void corot_pencil_use(corot_pencil *p, corot_tangent tangent) { p->tangent = tangent; }
 void corot_pencil_invalidate(corot_pencil *p) { p->dirty = true; }
 
+corot_pencil_parts corot_pencil_view(const corot_pencil *p) {
+  return (corot_pencil_parts){
+      .K = (const double(*)[9])p->K, .D = (const double(*)[9])p->D, .csc = p->csc, .S = p->S};
+}
+
 corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
   corot_pencil_counts counts = p->counts;
   const linsol *s = &p->chosen;
@@ -81,8 +86,7 @@ corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, c
   return status;
 }
 
-/* K once more, where it was assembled, with another derivative of the frames. */
-static corot_status assemble_again(corot_pencil *p, corot_tangent tangent) {
+corot_status corot_pencil_assemble_again(corot_pencil *p, corot_tangent tangent) {
   double start = clock_wall();
   /* K is that of v = 0, so any velocity will do */
   corot_status status = corot_jacobian(p->model, p->state, p->t, p->u, p->u, tangent, p->K, NULL);
@@ -104,6 +108,7 @@ static void combine(corot_pencil *p, linsol *s) {
 
 void corot_pencil_combine(corot_pencil *p, double a, double b, double c) {
   p->a = a, p->b = b, p->c = c;
+  p->gamma = b;
   combine(p, &p->chosen);
 }
 
@@ -125,12 +130,12 @@ static bool no_pivots(corot_status status) {
 /* With K cut off where it is negative. If that is no help, K is as before. */
 static corot_status factor_clamped(corot_pencil *p) {
   corot_tangent before = p->assembled;
-  COROT_TRY(assemble_again(p, COROT_TANGENT_CLAMPED));
+  COROT_TRY(corot_pencil_assemble_again(p, COROT_TANGENT_CLAMPED));
   combine(p, &p->chosen);
   corot_status status = factor(p, &p->chosen);
   p->counts.nclamped += status == COROT_OK;
   if (!no_pivots(status)) return status;
-  COROT_TRY(assemble_again(p, before));
+  COROT_TRY(corot_pencil_assemble_again(p, before));
   combine(p, &p->chosen);
   return status;
 }
@@ -221,4 +226,12 @@ corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
   if (status != COROT_RETRY || !p->tentative || p->solver != &p->chosen) return status;
   COROT_TRY(choose_again(p));
   return solve(p, x);
+}
+
+corot_status corot_pencil_slow_part(corot_pencil *p, const double *x, double *y) {
+  corot_pencil_counts counts = p->counts; /* are of the steps */
+  corot_mass_multiply(p->model, x, p->work);
+  corot_status status = corot_pencil_solve(p, p->work, y);
+  p->counts = counts;
+  return status;
 }

@@ -26,23 +26,25 @@ struct corot_pencil {
   const corot_csc *csc; /* of the chosen one */
   double *S;            /* [csc->nnz] */
   double *work;         /* [2 n] */
-  double gamma;         /* of S, as set by corot_sun_linsys */
+  double gamma;         /* b, which is gamma where S is that of a step */
   corot_pencil_counts counts;
 };
+
+/* K once more, where it was assembled, with another derivative of the frames. */
+COROT_SISTERS corot_status corot_pencil_assemble_again(corot_pencil *pencil, corot_tangent tangent);
 
 /* corot_pencil_factor, and COROT_RETRY from a solver, too, that does not mind what is not positive
    definite. */
 COROT_SISTERS corot_status corot_pencil_factor_definite(corot_pencil *pencil);
 
-/* What is behind the functions that SUNDIALS calls (corot_sun_*), with a corot_status as the value.
+/* y = S^-1 M x [n] by the latest factor, S = M + g D + g^2 K: x where a mode is slow, g w small,
+   and x / (g w)^2 where it is fast: what a step of an implicit method resolves. y may be x. */
+COROT_SISTERS corot_status corot_pencil_slow_part(corot_pencil *pencil, const double *x, double *y);
 
-   linsys: S at (t, y) for this gamma; *made: K and D were assembled, which `keep` spares unless
-   they are out of date. newton, newton_dae: x solves the Newton system of y' = f, or of F(t, y, y')
-   = 0, for the residual b. */
+/* What is behind corot_sun_linsys: S at (t, y) for this gamma; *made: K and D were assembled, which
+   `keep` spares unless they are out of date. */
 COROT_SISTERS corot_status corot_pencil_linsys(corot_pencil *pencil, double t, N_Vector y,
                                                bool keep, sunbooleantype *made, double gamma);
-COROT_SISTERS corot_status corot_pencil_newton(corot_pencil *pencil, N_Vector b, N_Vector x);
-COROT_SISTERS corot_status corot_pencil_newton_dae(corot_pencil *pencil, N_Vector b, N_Vector x);
 
 /* ydot = (v, M^-1 r), and F = (u' - v, M v' - r). */
 COROT_SISTERS corot_status corot_rate(const corot_sun_data *data, double t, N_Vector y,

@@ -1,12 +1,7 @@
 /* The pencil in the clothes of a SUNMatrix and a SUNLinearSolver.
 
    The solver says DIRECT, not MATRIX_EMBEDDED: an integrator then keeps its rules on when to set up
-   again and how to correct for a gamma that has changed since. The Newton system of y' = f,
-
-     du - g dv = r_u,    g M^-1 K du + (I + g M^-1 D) dv = r_v,
-
-   becomes (M + g D + g^2 K) dv = M r_v - g K r_u, then du = r_u + g dv, with the g of the set-up.
- */
+   again and how to correct for a gamma that has changed since. */
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
@@ -52,27 +47,10 @@ static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
   return sun_callback_code(corot_pencil_factor(LS->content));
 }
 
-corot_status corot_pencil_newton(corot_pencil *p, N_Vector b, N_Vector x) {
-  int n = p->n;
-  double start = clock_wall(), g = p->gamma;
-  const double *ru = N_VGetArrayPointer(b), *rv = ru + n;
-  double *du = N_VGetArrayPointer(x), *dv = du + n, *Kru = p->work, *rhs = Kru + n;
-
-  corot_block_multiply(p->model, (const double(*)[9])p->K, ru, Kru);
-  corot_mass_multiply(p->model, rv, rhs);
-  for (int i = 0; i < n; i++) rhs[i] -= g * Kru[i];
-  p->counts.solve_s += clock_wall() - start;
-  COROT_TRY(corot_pencil_solve(p, rhs, rhs));
-  for (int i = 0; i < n; i++) {
-    du[i] = ru[i] + g * rhs[i];
-    dv[i] = rhs[i];
-  }
-  return COROT_OK;
-}
-
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
   (void)A, (void)tol;
-  return sun_solve_code(corot_pencil_newton(LS->content, b, x));
+  return sun_solve_code(
+      corot_pencil_newton(LS->content, N_VGetArrayPointer(b), N_VGetArrayPointer(x)));
 }
 
 static sun_status solver_free(SUNLinearSolver LS) {
@@ -101,7 +79,6 @@ corot_status corot_pencil_linsys(corot_pencil *p, double t, N_Vector y, bool kee
     COROT_TRY(corot_pencil_assemble(p, t, u, u + p->n));
   }
   corot_pencil_combine(p, 1, gamma, gamma * gamma);
-  p->gamma = gamma;
   return COROT_OK;
 }
 

@@ -1,10 +1,4 @@
-/* The pencil for the residual form: F(t, y, y') = (u' - v, M v' - r) of y = (u, v). With the
-   leading coefficient c = dy'/dy of the method, and g = 1/c, the Newton system
-
-     c du - dv = F_u,    K du + (c M + D) dv = F_v
-
-   becomes (M + g D + g^2 K) dv = g (F_v - g K F_u), then du = g (F_u + dv): the matrix is that of
-   y' = f at gamma = g. M is only multiplied by, so a consistent one costs no solve. */
+/* The pencil for the residual form, F(t, y, y') = (u' - v, M v' - r) of y = (u, v), of IDA. */
 #include <nvector/nvector_serial.h>
 
 #include "core/ode/trial.h"
@@ -12,26 +6,10 @@
 #include "solve/sundials/sun_status.h"
 #include "wall_clock.h"
 
-corot_status corot_pencil_newton_dae(corot_pencil *p, N_Vector b, N_Vector x) {
-  int n = p->n;
-  double start = clock_wall(), g = p->gamma;
-  const double *Fu = N_VGetArrayPointer(b), *Fv = Fu + n;
-  double *du = N_VGetArrayPointer(x), *dv = du + n, *KFu = p->work, *rhs = KFu + n;
-
-  corot_block_multiply(p->model, (const double(*)[9])p->K, Fu, KFu);
-  for (int i = 0; i < n; i++) rhs[i] = g * (Fv[i] - g * KFu[i]);
-  p->counts.solve_s += clock_wall() - start;
-  COROT_TRY(corot_pencil_solve(p, rhs, rhs));
-  for (int i = 0; i < n; i++) {
-    du[i] = g * (Fu[i] + rhs[i]);
-    dv[i] = rhs[i];
-  }
-  return COROT_OK;
-}
-
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
   (void)A, (void)tol;
-  return sun_solve_code(corot_pencil_newton_dae(LS->content, b, x));
+  return sun_solve_code(
+      corot_pencil_newton_dae(LS->content, N_VGetArrayPointer(b), N_VGetArrayPointer(x)));
 }
 
 SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx) {

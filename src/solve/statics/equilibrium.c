@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "core/ode/trial.h"
+#include "solve/host/host.h"
 #include "solve/pencil/wall_clock.h"
 
 /* A residual this many times the estimate of its rounding may be all that is left of it. */
@@ -65,16 +66,11 @@ static void record(equilibrium *e, double r) {
 
 /* The largest force on a node where the residual at u is r, and the tolerance that it means. */
 static corot_status weigh(equilibrium *e, const double *u, const double *r) {
-  const int(*dof)[3] = corot_model_dof(e->model);
-  double start = clock_wall(), most = 0;
-  corot_status status = corot_elastic_force(e->model, e->state, e->factor * e->t, u, e->f);
+  double start = clock_wall(), most;
+  corot_status status =
+      corot_largest_force(e->model, e->state, e->factor * e->t, u, r, e->f, &most);
   e->force_s += clock_wall() - start;
   COROT_TRY(status);
-  for (int n = 0; n < corot_model_mesh(e->model)->nnode; n++)
-    for (int c = 0; c < 3; c++) {
-      double load = dof[n][c] >= 0 ? r[dof[n][c]] + e->f[n][c] : 0;
-      most = fmax(most, fmax(fabs(e->f[n][c]), fabs(load)));
-    }
   e->force = most;
   e->floor = e->rounding * (e->edge + largest(e->n, u));
   e->tolerance = fmax(e->def->tolerance * most, e->floor);
@@ -152,21 +148,7 @@ static SUNLinearSolver make_solver(equilibrium *e) {
 
 /* --- Set-up --- */
 
-static double longest_edge(const corot_mesh *mesh) {
-  double longest = 0;
-  for (int k = 0; k < mesh->ntet; k++)
-    for (int a = 1; a < 4; a++)
-      for (int b = 0; b < a; b++) {
-        const double *x = mesh->x[mesh->tet[k][a]], *y = mesh->x[mesh->tet[k][b]];
-        longest = fmax(longest, hypot(hypot(x[0] - y[0], x[1] - y[1]), x[2] - y[2]));
-      }
-  return longest;
-}
-
-/* F is 1 plus differences of u over edges, so a nodal force, a sum over its tets, is off by about
-   eps K_ii (edge + |u|). */
 static corot_status measure_stiffness(equilibrium *e) {
-  const corot_csc *csc = e->pencil->csc;
   corot_status status = factor(e, tangent(e));
   if (status == COROT_RETRY || status == COROT_ESINGULAR)
     return corot_fail(COROT_ESINGULAR,
@@ -174,10 +156,8 @@ static corot_status measure_stiffness(equilibrium *e) {
                       "edge only can turn about it (%s)",
                       corot_error());
   COROT_TRY(status);
-  double stiffest = 0;
-  for (int i = 0; i < e->n; i++) stiffest = fmax(stiffest, e->pencil->S[csc->diagonal[i]]);
-  e->rounding = 4 * DBL_EPSILON * stiffest;
-  e->edge = longest_edge(corot_model_mesh(e->model));
+  e->rounding = corot_rounding_of_forces(e->pencil);
+  e->edge = corot_longest_edge(corot_model_mesh(e->model));
   return COROT_OK;
 }
 

@@ -47,6 +47,8 @@ static int configure(multistep *c) {
          CVodeSetMinStep(m, d->min_step) || CVodeSetMaxStep(m, d->max_step);
 }
 
+static void choose(corot_integrator *self) { corot_integrator_take_advice(self, COROT_SUN_CVODE); }
+
 static void destroy(void *method) {
   multistep *c = method;
   if (c->memory) CVodeFree(&c->memory);
@@ -76,7 +78,7 @@ const integrator_ops corot_integrator_cvode = {
              .multistep = true,
              .order_min = 1,
              .order_max = 5},
-    .choose = corot_integrator_choose_bdf,
+    .choose = choose,
     .create = create,
     .destroy = destroy,
     .step = corot_multistep_step,

@@ -86,13 +86,9 @@ static int configure(multistep *c) {
          IDASetMaxStep(m, d->max_step);
 }
 
-/* There is no rule by the number of steps: the linear solver is set up when c changes. */
 static void choose(corot_integrator *self) {
-  corot_integrator_def *d = &self->def;
-  if (d->gamma_change == 0) d->gamma_change = 0.25;
-  if (d->convergence == 0) d->convergence = 0.33;
-  corot_integrator_choose_bdf(self);
-  d->refactorisation = 0;
+  corot_integrator_take_advice(self, COROT_SUN_IDA);
+  self->def.refactorisation = 0; /* there is no such rule */
 }
 
 static void destroy(void *method) {

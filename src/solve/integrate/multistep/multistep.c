@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/integrate/slow.h"
-
 corot_status corot_multistep_open(multistep *m, corot_integrator *self, const multistep_api *api,
                                   const double *u, const double *v) {
   m->api = api;
@@ -69,16 +67,14 @@ static corot_status begin_again(multistep *m, double h) {
   return COROT_OK;
 }
 
-/* Sets *t_stop to where the next step must stop. Where an amplitude has rested and now sets out, a
-   step must be many times shorter than the last, and the history is of no use: IDA's estimate of
-   the error even falls with the ratio of the steps. */
+/* Sets *t_stop to where the next step must stop. */
 static corot_status look_ahead(multistep *m, double *t_stop) {
   const corot_integrator *self = m->driver.self;
   double h = 0; /* not known after a start */
   if (self->before < self->t && m->api->next_step(m->memory, &h))
     return corot_driver_refuse(&m->driver, "statistics");
   double sight = corot_integrator_sight(self, h, *t_stop);
-  bool sets_out = sight < *t_stop && h > 100 * (sight - self->t);
+  bool sets_out = corot_sets_out(self->t, h, sight, *t_stop);
   *t_stop = sight;
   if (!sets_out) return COROT_OK;
   m->before.nrestart++;
@@ -136,9 +132,8 @@ corot_status corot_multistep_at(corot_integrator *self, double t, double *u, dou
   return COROT_OK;
 }
 
-/* m->error = the jump of the derivative, from the interpolant's to the new right-hand side's; *size
-   is how fast the solution leaves its history, in units of the tolerance per second. */
-static corot_status derivative_jump(multistep *m, double *size) {
+/* m->error = the jump of the derivative, from the interpolant's to the new right-hand side's. */
+static corot_status derivative_jump(multistep *m) {
   N_Vector now = m->error, old = m->scratch;
   m->before.nfe++;
   driver *d = &m->driver;
@@ -148,20 +143,6 @@ static corot_status derivative_jump(multistep *m, double *size) {
       m->api->error_weights(m->memory, m->weight))
     return corot_driver_refuse(d, "interpolant");
   N_VLinearSum(1, now, -1, old, now);
-  *size = N_VWrmsNorm(now, m->weight);
-  return COROT_OK;
-}
-
-/* The same without the modes too fast for a step, in which M^-1 r tells nothing: what Newton's
-   iteration left in u is a jump there that a step never sees. In its place stands what u jumps
-   by. */
-static corot_status slow_jump(multistep *m, double *size) {
-  const corot_integrator *self = m->driver.self;
-  int n = corot_model_ndof(self->model);
-  double *du = N_VGetArrayPointer(m->error), *dv = du + n;
-  COROT_TRY(corot_slow_part(self, dv, dv));
-  for (int i = 0; i < n; i++) du[i] = self->pencil->gamma * dv[i];
-  *size = N_VWrmsNorm(m->error, m->weight);
   return COROT_OK;
 }
 
@@ -169,18 +150,11 @@ static corot_status slow_jump(multistep *m, double *size) {
    step that does. */
 static corot_status is_felt(multistep *m, bool *felt, double *h) {
   const corot_integrator *self = m->driver.self;
-  double jump = 0, slow = 0, h_last = 0, h_next = 0;
-  COROT_TRY(derivative_jump(m, &jump));
+  double h_last = 0, h_next = 0;
+  COROT_TRY(derivative_jump(m));
   if (m->api->last_step(m->memory, &h_last) || m->api->next_step(m->memory, &h_next))
     return corot_driver_refuse(&m->driver, "statistics");
-  *felt = h_next * jump >= 0.5;
-  if (*felt) {
-    corot_status status = slow_jump(m, &slow);
-    if (sun_is_fatal(status)) return status;
-    if (status == COROT_OK) *felt = h_next * slow >= 0.5;
-  }
-  *h = fmax(fmin(h_last, 0.5 / jump), 100 * DBL_EPSILON * fabs(self->t));
-  return COROT_OK;
+  return corot_sun_felt(self->pencil, m->error, m->weight, self->t, h_last, h_next, felt, h);
 }
 
 /* A jump that is not felt is left to error control; otherwise the method begins again. Where it has

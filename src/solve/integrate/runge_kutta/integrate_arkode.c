@@ -49,22 +49,15 @@ static const rk_api api = {.advance = SUN_ARK(Evolve),
                            .nni = SUN_ARK(GetNumNonlinSolvIters),
                            .ncfn = SUN_ARK(GetNumNonlinSolvConvFails)};
 
-/* On the paper's bar, at a tolerance of 1e-4, against SUNDIALS' own choices: a tenth of the
-   set-ups and less than half of the time. A long step changes K much, but a solve costs far less
-   than a factor: hence the exact tangent, a fresh K with every S, and many iterations with one S.
-   What Newton's iteration leaves is noise in the error estimate: at a tenth of the tolerance it
-   doubles the steps of some methods. From a tolerance of 1e-5 on, order 5 has the least error for
-   its time. */
 static void choose(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
+  corot_sun_advice a = corot_advise(self->model, COROT_SUN_ARKODE, d->rtol, d->max_step);
   if (d->order == 0)
-    d->order = d->table ? corot_rk_order(d->table, corot_rk_implicit) : d->rtol <= 1e-5 ? 5 : 4;
-  if (d->predictor < 0) d->predictor = 4;
-  if (d->tangent == COROT_TANGENT_AUTO) d->tangent = COROT_TANGENT_EXACT;
-  if (d->reassembly == 0) d->reassembly = 1;
-  if (d->refactorisation == 0) d->refactorisation = 20;
-  if (d->gamma_change == 0) d->gamma_change = 0.5;
-  if (d->convergence == 0) d->convergence = 0.02;
+    d->order = d->table ? corot_rk_order(d->table, corot_rk_implicit) : a.max_order;
+  if (d->predictor < 0) d->predictor = a.predictor;
+  int max_order = d->max_order; /* means nothing here */
+  corot_integrator_take_advice(self, COROT_SUN_ARKODE);
+  d->max_order = max_order;
 }
 
 static corot_status set_table(runge_kutta *m, const char *name) {

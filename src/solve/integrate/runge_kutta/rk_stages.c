@@ -22,7 +22,6 @@
 #include <string.h>
 
 #include "runge_kutta.h"
-#include "solve/integrate/slow.h"
 
 /* --- The polynomial through stages ----------------------------------------------------------- */
 
@@ -229,7 +228,7 @@ corot_status corot_rk_clear_slopes(runge_kutta *m) {
     double *slope = N_VGetArrayPointer(m->slope[k / 2]) + k % 2 * n;
     difference(m, k, k % 2 ? 1 / (h * h) : 1 / h, slope, E);
     for (int pass = 0; pass < 3; pass++) {
-      corot_status status = corot_slow_part(self, E, x);
+      corot_status status = corot_pencil_slow_part(self->pencil, E, x);
       if (sun_is_fatal(status)) return status;
       if (status) break; /* all of it, then */
       for (int i = 0; i < n; i++) E[i] -= x[i];

@@ -12,7 +12,6 @@
 #include <math.h>
 
 #include "runge_kutta.h"
-#include "solve/integrate/slow.h"
 
 static double product(int n, const double *x, const double *y) {
   double sum = 0;
@@ -25,8 +24,8 @@ static corot_status imbalance(const corot_integrator *self, const double *a, dou
                               double *room) {
   int n = corot_model_ndof(self->model);
   double g = self->pencil->gamma;
-  COROT_TRY(corot_slow_part(self, a, x));
-  COROT_TRY(corot_slow_part(self, x, room));
+  COROT_TRY(corot_pencil_slow_part(self->pencil, a, x));
+  COROT_TRY(corot_pencil_slow_part(self->pencil, x, room));
   for (int i = 0; i < n; i++) x[i] = g * g * (x[i] - room[i]);
   return COROT_OK;
 }
@@ -36,8 +35,8 @@ static corot_status excess(const corot_integrator *self, const double *v, const 
                            double *x, double *room) {
   int n = corot_model_ndof(self->model);
   double g = self->pencil->gamma;
-  COROT_TRY(corot_slow_part(self, v, x));
-  COROT_TRY(corot_slow_part(self, change, room));
+  COROT_TRY(corot_pencil_slow_part(self->pencil, v, x));
+  COROT_TRY(corot_pencil_slow_part(self->pencil, change, room));
   for (int i = 0; i < n; i++) x[i] = v[i] - x[i] - g * g * room[i];
   return COROT_OK;
 }
@@ -61,7 +60,7 @@ static corot_status transient(runge_kutta *m, double h, double *radian) {
   COROT_TRY(imbalance(self, a, w, room));
   double square = product(n, w, w), rate = product(n, w, a);
   COROT_TRY(excess(self, v, change, w, room));
-  COROT_TRY(corot_slow_part(self, w, Fw));
+  COROT_TRY(corot_pencil_slow_part(self->pencil, w, Fw));
   square += g * g * product(n, w, Fw), rate += product(n, w, w);
   if (square > 0 && rate > 0 && sqrt(square / n) * weight > 0.5) *radian = sqrt(square / rate);
   return COROT_OK;

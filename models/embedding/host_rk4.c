@@ -1,5 +1,5 @@
-/* A host with an integrator of its own: the classical Runge-Kutta method at a constant step, with
-   nothing but corot::core. */
+/* A host with an explicit loop of its own: the classical Runge-Kutta method at a constant step,
+   with nothing but corot::core. */
 #include <corot/ode.h>
 
 #include "bar.h"
@@ -12,7 +12,9 @@ int main(void) {
   double *y = calloc((size_t)n * 6, sizeof *y), *k[] = {y + n, y + 2 * n, y + 3 * n, y + 4 * n};
   if (!y) return 1;
 
-  double h = (double)T_END / nstep, *z = y + 5 * n;
+  /* y = (u, v). Which step is the longest stable one depends on the mesh, not on the accuracy asked
+     for: that is what implicit hosts are for. */
+  double h = T_END / nstep, *z = y + 5 * n;
   for (int step = 0; step < nstep; step++) {
     double t = step * h;
     check(corot_rhs(model, state, t, y, k[0]));

@@ -1,0 +1,18 @@
+/* Whether what a host hands over is what it should be: a status and a message in place of a crash.
+   `who` is the function that was called. */
+#ifndef COROT_SOLVE_PENCIL_SEAM_H
+#define COROT_SOLVE_PENCIL_SEAM_H
+
+#include <corot/solve.h>
+
+/* COROT_EINVAL: it is NULL, or has no model or no state, or a state of another model. */
+corot_status corot_seam_data(const corot_sun_data *data, const char *who);
+
+/* COROT_EINVAL: it is NULL. */
+corot_status corot_seam_pencil(const corot_pencil *pencil, const char *who);
+
+/* COROT_EINVAL: one of the x [count] is NULL, has no array of doubles in this process's memory, or
+   not n of them. */
+corot_status corot_seam_vectors(const char *who, int n, int count, const N_Vector *x);
+
+#endif

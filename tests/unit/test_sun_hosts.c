@@ -1,0 +1,177 @@
+/* Integrators that a host owns, set up by corot/sun_cvode.h, sun_ida.h, sun_arkode.h: they take the
+   steps of corot's own, to the same answer. */
+#include <cvodes/cvodes.h> /* the program has CVODES and IDAS, by corot::integrate */
+#include <idas/idas.h>
+
+#include <corot/sun_arkode.h>
+#include <corot/sun_cvode.h>
+#include <corot/sun_ida.h>
+#include <nvector/nvector_serial.h>
+
+#include "bar.h"
+#include "solve/sundials/sun_compat.h"
+
+/* --- Hosts ----------------------------------------------------------------------------------- */
+
+typedef struct machine {
+  SUNContext ctx;
+  N_Vector y, yp;
+  corot_pencil *pencil;
+  corot_mass_solver *mass;
+  corot_sun_host host;
+  void *memory;
+} machine;
+
+static corot_status open_cvode(machine *m, const corot_sun_data *data) {
+  m->memory = CVodeCreate(CV_BDF, m->ctx);
+  assert_int_equal(CVodeInit(m->memory, corot_sun_rhs, 0, m->y), 0);
+  return corot_sun_cvode_open(&m->host, m->memory, m->pencil, data, m->y);
+}
+
+static corot_status open_ida(machine *m, const corot_sun_data *data) {
+  m->memory = IDACreate(m->ctx);
+  assert_int_equal(corot_sun_rhs(0, m->y, m->yp, (void *)data), 0);
+  assert_int_equal(IDAInit(m->memory, corot_sun_residual, 0, m->y, m->yp), 0);
+  return corot_sun_ida_open(&m->host, m->memory, m->pencil, data, m->y, m->yp);
+}
+
+static corot_status open_arkode(machine *m, const corot_sun_data *data) {
+  m->memory = ARKStepCreate(NULL, corot_sun_rhs, 0, m->y, m->ctx);
+  return corot_sun_arkode_open(&m->host, m->memory, m->pencil, data, m->y);
+}
+
+static const struct {
+  const char *name;
+  corot_status (*open)(machine *m, const corot_sun_data *data);
+  void (*release)(void **memory);
+  void (*close)(corot_sun_host *host);
+} hosts[] = {
+    {"cvode", open_cvode, CVodeFree, corot_sun_host_close},
+    {"ida", open_ida, IDAFree, corot_sun_host_close},
+    {"arkode", open_arkode, COROT_SUN_ARK_(Free), corot_sun_arkode_close},
+};
+enum { NHOST = sizeof hosts / sizeof *hosts };
+
+/* Opens host k at rest. */
+static void start_host(machine *m, int k, const bar *b, double rtol) {
+  *m = (machine){0};
+  assert_int_equal(sun_context_create(&m->ctx), 0);
+  m->y = N_VNew_Serial(2 * b->n, m->ctx);
+  m->yp = N_VClone(m->y);
+  memcpy(N_VGetArrayPointer(m->y), b->u, 2 * b->n * sizeof *b->u);
+  assert_ok(corot_mass_solver_create(b->model, &m->mass));
+  assert_ok(corot_pencil_create(b->model, b->state, NULL, &m->pencil));
+  corot_sun_data data = {.model = b->model, .state = b->state, .mass = m->mass, .rtol = rtol};
+  assert_ok(hosts[k].open(m, &data));
+}
+
+static void end_host(machine *m, int k) {
+  hosts[k].release(&m->memory);
+  hosts[k].close(&m->host);
+  corot_pencil_destroy(m->pencil);
+  corot_mass_solver_destroy(m->mass);
+  N_VDestroy(m->y), N_VDestroy(m->yp);
+  SUNContext_Free(&m->ctx);
+}
+
+/* Example 2 as models/bar has it, but for the traction. */
+static bar paper_bar(const double traction[3], const corot_amplitude *amplitude) {
+  bar b;
+  corot_mesh *mesh;
+  assert_ok(corot_mesh_read(SOURCE_DIR "/models/bar/bar.msh", &mesh));
+  assert_ok(corot_mesh_group_plane(mesh, "base", 2, 0, 0));
+  assert_ok(corot_mesh_group_plane(mesh, "top", 2, 0.6, 0));
+  const corot_material soft_bar = {
+      .lambda = 1e5, .mu = 1e4, .density = 1000, .damping_lambda = 10, .damping_mu = 1};
+  const corot_fix base = {"base", {true, true, true}};
+  const corot_load load = {
+      COROT_TRACTION, "top", {traction[0], traction[1], traction[2]}, *amplitude};
+  corot_model_def def = corot_model_defaults();
+  def.mesh = mesh, def.viscosity = COROT_COROTATED;
+  def.nmaterial = 1, def.material = &soft_bar;
+  def.nfix = 1, def.fix = &base;
+  def.nload = 1, def.load = &load;
+  assert_ok(corot_model_create(&def, &b.model));
+  assert_ok(corot_state_create(b.model, &b.state));
+  b.n = corot_model_ndof(b.model);
+  b.tip = corot_model_dof(b.model)[corot_mesh_nearest(mesh, (double[]){0.1, 0.1, 0.6})][0];
+  b.u = calloc(2 * b.n, sizeof *b.u);
+  b.v = b.u + b.n;
+  corot_mesh_destroy(mesh);
+  return b;
+}
+
+/* What each of corot's own takes to t_end, stopping at kinks; tip [m] is where it ends. */
+static corot_statistics run_ours(const char *method, bar *b, double rtol, double t_end,
+                                 double *tip) {
+  corot_integrator_def def = corot_integrator_defaults();
+  def.method = method, def.rtol = rtol;
+  corot_state_enter(b->state, 0);
+  corot_integrator *integrator = start(b, &def);
+  double kinks[16], *u = malloc(b->n * sizeof *u);
+  int nkink = corot_model_kinks(b->model, 0, t_end, 16, kinks);
+  for (int k = 0; k <= nkink; k++) {
+    run_to(integrator, k < nkink ? kinks[k] : t_end);
+    if (k == nkink) break;
+    corot_state_enter(b->state, kinks[k]);
+    assert_ok(corot_integrator_kink(integrator));
+  }
+  assert_ok(corot_integrator_at(integrator, t_end, u, NULL));
+  *tip = u[b->tip];
+  free(u);
+  corot_statistics s = corot_integrator_statistics(integrator);
+  corot_integrator_destroy(integrator);
+  return s;
+}
+
+/* --- Tests ----------------------------------------------------------------------------------- */
+
+static const double ramp_time[] = {0, 10}, ramp[] = {0, 1};
+static const double gust_time[] = {0, 0.5, 0.5, 1.5, 2}, gust[] = {0, 0, 1, 1, 0.2};
+static const double late_time[] = {0, 1, 1.9, 2, 2.1, 2.2}, late[] = {0, 0, 0, 0.3, 0.7, 1};
+static const struct {
+  const char *what;
+  double traction[3];
+  corot_amplitude amplitude;
+  double t_end;
+} cases[] = {
+    {"Example 2", {200, 0, 0}, {.n = 2, .time = ramp_time, .value = ramp}, 40},
+    {"jumps", {50, 20, 0}, {.n = 5, .time = gust_time, .value = gust}, 3},
+    {"shaken", {50, 20, 0}, {.curve = COROT_CURVE_SINE, .frequency = 0.5}, 3},
+    {"spline",
+     {50, 0, 0},
+     {.curve = COROT_CURVE_SMOOTH, .n = 6, .time = late_time, .value = late},
+     3},
+};
+enum { NCASE = sizeof cases / sizeof *cases };
+
+/* At most 1.2 times the steps, and 1.2 times the assemblies of K and D: the same rules, but for
+   rounding in SUNDIALS' vector, whose norms sum in another order. The answers are off from each
+   other by what errors of 1e-4 a step make over many swings. */
+static void a_host_takes_the_steps_of_our_own(void **state) {
+  (void)state;
+  for (int c = 0; c < NCASE; c++)
+    for (int k = 0; k < NHOST; k++) {
+      bar b = paper_bar(cases[c].traction, &cases[c].amplitude);
+      double tip;
+      corot_statistics ours = run_ours(hosts[k].name, &b, 1e-4, cases[c].t_end, &tip);
+      machine m;
+      start_host(&m, k, &b, 1e-4);
+      assert_ok(corot_sun_host_advance(&m.host, cases[c].t_end, m.y));
+      corot_pencil_counts counts = corot_pencil_statistics(m.pencil);
+      if (m.host.nst > 1.2 * ours.nst)
+        fail_msg("%s, %s: %ld steps, ours %ld", cases[c].what, hosts[k].name, m.host.nst, ours.nst);
+      assert_true(counts.nassembly <= 1.2 * ours.nje + 1);
+      assert_true(m.host.t == cases[c].t_end);
+      assert_close(N_VGetArrayPointer(m.y)[b.tip], tip, 0.02, 0);
+      end_host(&m, k);
+      bar_destroy(&b);
+    }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_host_takes_the_steps_of_our_own),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
