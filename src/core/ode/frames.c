@@ -14,6 +14,7 @@ corot_status corot_frames_update(const corot_model *m, corot_state *s, double t,
   nodal_field all_u = corot_state_displace(m, s, &now, u);
   COROT_TRY(corot_system_update_frames(&m->system, &s->system, age_of(s, t), all_u, change));
   s->t_update = t;
+  s->changes++;
   return COROT_OK;
 }
 

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "stamp.h"
+
 static corot_status allocate(const corot_model *m, corot_state *s) {
   int nnode = m->mesh->nnode;
   s->u = corot_vector_calloc(nnode, sizeof *s->u);
@@ -18,6 +20,7 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
 corot_status corot_state_create(const corot_model *m, corot_state **state) {
   corot_state *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "no memory for a state");
+  s->model = m;
   s->nnode = m->mesh->nnode;
   s->side = NAN;
   corot_status status = allocate(m, s);
@@ -44,7 +47,26 @@ void corot_state_destroy(corot_state *s) {
 
 size_t corot_state_bytes(const corot_state *s) { return s->bytes; }
 
-void corot_state_use(corot_state *s, corot_frames frames) { s->system.frames = frames; }
+void corot_state_use(corot_state *s, corot_frames frames) {
+  s->system.frames = frames;
+  s->changes++;
+}
+
+corot_status corot_state_use_inputs(corot_state *s, corot_inputs *inputs) {
+  if (inputs && inputs->model != s->model)
+    return corot_fail(COROT_EINVAL, "the inputs are of another model than the state");
+  s->inputs = inputs;
+  s->changes++;
+  return COROT_OK;
+}
+
+state_stamp corot_state_stamp(const corot_state *s) {
+  state_stamp stamp = {.frames = s->changes};
+  stamp.inputs = s->inputs != NULL;
+  if (s->inputs) stamp.loads = s->inputs->loads;
+  return stamp;
+}
+
 corot_frames corot_state_frames(const corot_state *s) { return s->system.frames; }
 int corot_state_inverted(const corot_state *s) { return s->system.inverted; }
 void corot_state_enter(corot_state *s, double t) { s->side = t; }
@@ -56,8 +78,8 @@ void corot_state_stand_still(corot_state *s, double t, double factor) {
 }
 
 instant corot_state_at(const corot_state *s, double t) {
-  if (s->still) return (instant){t, s->load_time, s->load_factor, NAN, false};
-  return (instant){t, t, 1, s->side, true};
+  if (s->still) return (instant){t, s->load_time, s->load_factor, NAN, false, s->inputs};
+  return (instant){t, t, 1, s->side, true, s->inputs};
 }
 
 nodal_field corot_state_displace(const corot_model *m, corot_state *s, const instant *now,

@@ -2,15 +2,18 @@
 #ifndef COROT_CORE_ODE_STATE_H
 #define COROT_CORE_ODE_STATE_H
 
-#include "core/model/model.h"
+#include "core/model/inputs.h"
 
 struct corot_state {
-  int nnode;          /* of the model */
-  double side;        /* of kinks: see instant.h */
-  bool still;         /* nothing has a velocity, and the loads are those */
-  double load_time;   /* of this time, not of the evaluation's */
-  double load_factor; /* times this */
-  double t_update;    /* when the held frames were found */
+  const corot_model *model;
+  corot_inputs *inputs; /* NULL: none */
+  long changes;         /* of frames, or of inputs for others */
+  int nnode;            /* of the model */
+  double side;          /* of kinks: see instant.h */
+  bool still;           /* nothing has a velocity, and the loads are those */
+  double load_time;     /* of this time, not of the evaluation's */
+  double load_factor;   /* times this */
+  double t_update;      /* when the held frames were found */
   system_state system;
   double (*u)[4];            /* [nnode] scratch: displacement of all nodes, */
   double (*v)[4];            /* velocity, */

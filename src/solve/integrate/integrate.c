@@ -169,7 +169,8 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
                              .def = *def,
                              .t = t,
                              .before = t,
-                             .t_energies = NAN};
+                             .t_energies = NAN,
+                             .seen = corot_state_stamp(state)};
   choose(self);
 
   corot_status status = corot_mass_solver_create(model, &self->mass);
@@ -277,7 +278,11 @@ corot_status corot_integrator_energy(corot_integrator *self, const double *u, co
 }
 
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
-  if (self->pencil) corot_pencil_invalidate(self->pencil);
+  state_stamp now = corot_state_stamp(self->state), before = self->seen;
+  bool loads_alone = now.loads != before.loads && now.frames == before.frames;
+  self->seen = now;
+  if (loads_alone && self->ops->loaded) return self->ops->loaded(self, history);
+  if (self->pencil && !loads_alone) corot_pencil_invalidate(self->pencil);
   return self->ops->changed(self, history);
 }
 

@@ -4,6 +4,7 @@
 
 #include <corot/integrate.h>
 
+#include "core/ode/stamp.h"
 #include "solve/pencil/pencil.h"
 
 typedef struct integrator_ops {
@@ -15,6 +16,8 @@ typedef struct integrator_ops {
   corot_status (*at)(corot_integrator *self, double t, double *u, double *v);
   corot_status (*work)(corot_integrator *self, double t, double *dissipated, double *external);
   corot_status (*changed)(corot_integrator *self, corot_history history);
+  /* Nothing has changed but forces that depend on u and t alone. NULL: as changed. */
+  corot_status (*loaded)(corot_integrator *self, corot_history history);
   void (*statistics)(const corot_integrator *self, corot_statistics *statistics);
 } integrator_ops;
 
@@ -42,6 +45,7 @@ struct corot_integrator {
   const char *table;        /* the Butcher table in use; NULL: none */
   corot_energies energies;  /* where the work integrands were last evaluated */
   double t_energies;        /* when that was; NaN: nowhere yet */
+  state_stamp seen;         /* of the state, as the integrator knows it */
 };
 
 /* Where the next step, h long as far as is known (0: not at all), must stop: at t_stop, or before,

@@ -165,12 +165,25 @@ static corot_status slow_jump(multistep *m, double *size) {
   return COROT_OK;
 }
 
-/* Whether the next step turns the jump into less than half the tolerance; if not, *h is a first
-   step that does. */
-static corot_status is_felt(multistep *m, bool *felt, double *h) {
+/* The same where only the loads have jumped: no tet is asked. */
+static corot_status load_jump(multistep *m, double *size) {
   const corot_integrator *self = m->driver.self;
-  double jump = 0, slow = 0, h_last = 0, h_next = 0;
-  COROT_TRY(derivative_jump(m, &jump));
+  int n = corot_model_ndof(self->model);
+  double *du = N_VGetArrayPointer(m->error), *dv = du + n;
+  COROT_TRY(corot_multistep_reload(m, dv));
+  COROT_TRY(corot_mass_solve(self->mass, dv, dv));
+  memset(du, 0, n * sizeof *du);
+  if (m->api->error_weights(m->memory, m->weight))
+    return corot_driver_refuse(&m->driver, "error weights");
+  *size = N_VWrmsNorm(m->error, m->weight);
+  return COROT_OK;
+}
+
+/* Whether the next step turns the jump in m->error, of this size, into less than half the
+   tolerance; if not, *h is a first step that does. */
+static corot_status is_felt(multistep *m, double jump, bool *felt, double *h) {
+  const corot_integrator *self = m->driver.self;
+  double slow = 0, h_last = 0, h_next = 0;
   if (m->api->last_step(m->memory, &h_last) || m->api->next_step(m->memory, &h_next))
     return corot_driver_refuse(&m->driver, "statistics");
   *felt = h_next * jump >= 0.5;
@@ -192,7 +205,23 @@ corot_status corot_multistep_changed(corot_integrator *self, corot_history histo
   if (history == COROT_HISTORY_KEEP) return COROT_OK;
   m->ledger.broken = true;
   if (self->before == self->t) return begin_again(m, h);
-  if (history == COROT_HISTORY_AUTO) COROT_TRY(is_felt(m, &felt, &h));
+  if (history == COROT_HISTORY_AUTO) {
+    double jump = 0;
+    COROT_TRY(derivative_jump(m, &jump));
+    COROT_TRY(is_felt(m, jump, &felt, &h));
+  }
+  if (!felt) return COROT_OK;
+  m->before.nrestart++;
+  return begin_again(m, h);
+}
+
+corot_status corot_multistep_loaded(corot_integrator *self, corot_history history) {
+  multistep *m = self->method;
+  double h = self->def.first_step, jump = 0;
+  bool felt = history == COROT_HISTORY_RESTART;
+  if (m->ledger.broken || self->before == self->t) return corot_multistep_changed(self, history);
+  COROT_TRY(load_jump(m, &jump));
+  if (history == COROT_HISTORY_AUTO) COROT_TRY(is_felt(m, jump, &felt, &h));
   if (!felt) return COROT_OK;
   m->before.nrestart++;
   return begin_again(m, h);

@@ -244,6 +244,18 @@ corot_status corot_multistep_measure_work(multistep *m, int order) {
   return COROT_OK;
 }
 
+corot_status corot_multistep_reload(multistep *m, double *jump) {
+  multistep_ledger *l = &m->ledger;
+  const corot_integrator *self = m->driver.self;
+  int n = corot_model_ndof(self->model);
+  for (int i = 0; i < n; i++) jump[i] = -l->load_end[i];
+  corot_force_of_loads(self->model, self->state, m->t_last, N_VGetArrayPointer(l->end),
+                       l->load_end);
+  for (int i = 0; i < n; i++) jump[i] += l->load_end[i];
+  if (l->npower > 1) l->npower = 1; /* powers have a kink there */
+  return COROT_OK;
+}
+
 corot_status corot_multistep_work(corot_integrator *self, double t, double *dissipated,
                                   double *external) {
   multistep *m = self->method;

@@ -1,0 +1,304 @@
+/* What comes in while a run goes on, through everything that sees it: forces, factors of loads. */
+#include <corot/inputs.h>
+#include <corot/statics.h>
+#include <stdio.h>
+
+#include "alloc.h"
+#include "bar.h"
+
+static const corot_fix base = {"zmin", {true, true, true}};
+static const double times[] = {0, 1}, values[] = {0.5, 1.5};
+
+/* Loads of every kind, the first of which stand for what comes in. */
+static const corot_load loads[] = {
+    {COROT_TRACTION, "zmax", {200, -30, 50}, {2, times, values}},
+    {COROT_FORCE, "xmax", {0.3, -0.2, 0.1}, {0}},
+    {COROT_GRAVITY, NULL, {1, 2, -9.81}, {0}},
+    {COROT_PRESSURE, "xmax", {300}, {2, times, values}},
+};
+enum { NLOAD = 4 };
+
+/* A bar held at its base, with these loads. */
+static body make_bar(const char *strain, int order, int nload, const corot_load *load) {
+  corot_box box = {.size = {0.1, 0.1, 0.3}, .cells = {1, 1, 3}, .split = COROT_BOX_SYMMETRIC};
+  corot_mesh *mesh;
+  assert_ok(corot_mesh_box(&box, &mesh));
+  if (order == 2) mesh = given_order(mesh, 2);
+  corot_material material = soft;
+  material.damping_mass = 3;
+  corot_model_def def = corot_model_defaults();
+  def.strain = strain;
+  def.nmaterial = 1, def.material = &material;
+  def.nfix = 1, def.fix = &base;
+  def.nload = nload, def.load = load;
+  return make_body(mesh, def);
+}
+
+static corot_inputs *give_inputs(const body *b) {
+  corot_inputs *in;
+  assert_ok(corot_inputs_create(b->model, &in));
+  assert_ok(corot_state_use_inputs(b->state, in));
+  return in;
+}
+
+static void drop_with(body *b, corot_inputs *in) {
+  drop_body(b);
+  corot_inputs_destroy(in);
+}
+
+/* A displacement and a velocity, [2 n]. */
+static double *some_motion(int n, double size) {
+  double *u = malloc(2 * n * sizeof *u);
+  uint64_t seed = 5;
+  for (int i = 0; i < n; i++) u[i] = size * noise(&seed), u[n + i] = 10 * size * noise(&seed);
+  return u;
+}
+
+/* What two states make of one motion at t, to rounding: r, energies, all forces. */
+static void assert_same(const body *a, const body *b, double t, const double *u) {
+  int n = a->n, nnode = a->mesh->nnode;
+  double *r = malloc(2 * n * sizeof *r), *s = r + n;
+  double(*f)[3] = malloc(2 * nnode * sizeof *f), (*g)[3] = f + nnode;
+  corot_energies e, d;
+  assert_ok(corot_residual(a->model, a->state, t, u, u + n, r));
+  assert_ok(corot_residual(b->model, b->state, t, u, u + n, s));
+  assert_below(difference_of(n, r, s), 1e-13 * norm_max(n, r));
+  assert_ok(corot_energy(a->model, a->state, t, u, u + n, &e));
+  assert_ok(corot_energy(b->model, b->state, t, u, u + n, &d));
+  assert_close(e.power_external, d.power_external, 1e-12, 0);
+  assert_close(e.elastic, d.elastic, 1e-13, 0);
+  assert_close(e.power_dissipated, d.power_dissipated, 1e-13, 0);
+  corot_nodal_forces of_a = {.load = f}, of_b = {.load = g};
+  assert_ok(corot_forces(a->model, a->state, t, u, u + n, u + n, &of_a));
+  assert_ok(corot_forces(b->model, b->state, t, u, u + n, u + n, &of_b));
+  assert_below(difference_of(3 * nnode, f[0], g[0]), 1e-13 * norm_max(3 * nnode, f[0]));
+  free(r), free(f);
+}
+
+/* --- Forces and factors ----------------------------------------------------------------------- */
+
+/* The force of the first load on all nodes, at t. */
+static double (*force_of_load(const body *b, double t))[3] {
+  int nnode = b->mesh->nnode;
+  double(*f)[3] = malloc(nnode * sizeof *f), (*rest)[3] = calloc(nnode, sizeof *rest);
+  assert_ok(corot_load_force(b->model, t, 1, (const double(*)[3])rest, f));
+  free(rest);
+  return f;
+}
+
+static void give_ramp(corot_inputs *in, const body *loaded, double t0, double t1) {
+  double(*f)[3] = force_of_load(loaded, t0), (*g)[3] = force_of_load(loaded, t1);
+  assert_ok(corot_inputs_ramp_force(in, loaded->mesh->nnode, t0, (const double(*)[3])f, t1,
+                                    (const double(*)[3])g));
+  free(f), free(g);
+}
+
+static void a_force_is_the_load_of_a_model(void **state) {
+  (void)state;
+  for (int m = 0; m < NMEASURE; m++)
+    for (int order = 1; order <= 2; order++) {
+      body with = make_bar(measures[m], order, 1, loads),
+           without = make_bar(measures[m], order, 0, NULL);
+      corot_inputs *in = give_inputs(&without);
+      double *u = some_motion(with.n, 1e-3);
+      give_ramp(in, &with, 0, 1);
+      assert_same(&with, &without, 0.3, u); /* within the window, */
+      assert_same(&with, &without, 1, u);   /* and at its end */
+      double(*f)[3] = force_of_load(&with, 0.7);
+      assert_ok(corot_inputs_set_force(in, with.mesh->nnode, (const double(*)[3])f));
+      assert_same(&with, &without, 0.7, u);
+      corot_state_stand_still(with.state, 0.7, 0.25),
+          corot_state_stand_still(without.state, 0.7, 0.25);
+      assert_same(&with, &without, 0.1, u);
+      free(f), free(u);
+      drop_body(&with), drop_with(&without, in);
+    }
+}
+
+static void a_factor_is_that_of_a_load(void **state) {
+  (void)state;
+  for (int m = 0; m < NMEASURE; m++) {
+    corot_load scaled[NLOAD];
+    memcpy(scaled, loads, sizeof loads);
+    for (int k = 0; k < NLOAD; k++)
+      for (int c = 0; c < 3; c++) scaled[k].value[c] *= 0.5 + k;
+    body with = make_bar(measures[m], 1, NLOAD, scaled),
+         in_time = make_bar(measures[m], 1, NLOAD, loads);
+    corot_inputs *in = give_inputs(&in_time);
+    double *u = some_motion(with.n, 1e-3), *jv = malloc(2 * with.n * sizeof *jv);
+    for (int k = 0; k < NLOAD; k++) assert_ok(corot_inputs_set_load(in, k, 0.5 + k));
+    assert_same(&with, &in_time, 0.3, u);
+    assert_ok(corot_jvp(with.model, with.state, 0.3, u, u + with.n, COROT_TANGENT_EXACT, u, u, jv));
+    assert_ok(corot_jvp(in_time.model, in_time.state, 0.3, u, u + with.n, COROT_TANGENT_EXACT, u, u,
+                        jv + with.n));
+    assert_below(difference_of(with.n, jv, jv + with.n), 1e-12 * norm_max(with.n, jv));
+    /* along a line, 0.5 + k at 0.3 */
+    for (int k = 0; k < NLOAD; k++) assert_ok(corot_inputs_ramp_load(in, k, 0.2, k, 0.4, 1 + k));
+    assert_same(&with, &in_time, 0.3, u);
+    free(u), free(jv);
+    drop_body(&with), drop_with(&in_time, in);
+  }
+}
+
+static void states_do_not_see_each_others_inputs(void **state) {
+  (void)state;
+  body b = make_bar("polar", 1, 1, loads);
+  corot_inputs *one = give_inputs(&b), *two;
+  corot_state *other, *plain;
+  double *u = some_motion(b.n, 1e-3), *r = malloc(4 * b.n * sizeof *r);
+  assert_ok(corot_inputs_create(b.model, &two));
+  assert_ok(corot_state_create(b.model, &other));
+  assert_ok(corot_state_create(b.model, &plain));
+  assert_ok(corot_state_use_inputs(other, two));
+  assert_ok(corot_inputs_set_load(one, 0, 0));
+  assert_ok(corot_inputs_set_load(two, 0, 3));
+  corot_state *of[] = {b.state, plain, other};
+  for (int k = 0; k < 3; k++)
+    assert_ok(corot_residual(b.model, of[k], 0.5, u, u + b.n, r + k * b.n));
+  /* 0, 1 and 3 times the load */
+  for (int i = 0; i < b.n; i++)
+    assert_close(r[2 * b.n + i] - r[i], 3 * (r[b.n + i] - r[i]), 0, 1e-12 * norm_max(b.n, r));
+  assert_true(difference_of(b.n, r, r + b.n) > 0.1);
+  /* and none once they are taken away */
+  assert_ok(corot_state_use_inputs(b.state, NULL));
+  assert_ok(corot_residual(b.model, b.state, 0.5, u, u + b.n, r));
+  assert_true(difference_of(b.n, r, r + b.n) == 0);
+  corot_state_destroy(other), corot_state_destroy(plain);
+  free(u), free(r);
+  corot_inputs_destroy(two), drop_with(&b, one);
+}
+
+static void an_equilibrium_is_that_of_the_load(void **state) {
+  (void)state;
+  for (int m = 0; m < NMEASURE; m++) {
+    body with = make_bar(measures[m], 1, 1, loads), without = make_bar(measures[m], 1, 0, NULL);
+    corot_inputs *in = give_inputs(&without);
+    give_ramp(in, &with, 0, 1);
+    double *u = calloc(2 * with.n, sizeof *u);
+    corot_statics_def def = corot_statics_defaults();
+    def.max_iterations = 100; /* warp's frames vary beside K */
+    for (int k = 0; k < 2; k++) {
+      corot_statics *statics;
+      def.inputs = k ? in : NULL;
+      assert_ok(corot_statics_create(&def, (k ? &without : &with)->model, 0.8, NULL, &statics));
+      assert_ok(corot_statics_solve(statics));
+      corot_statics_at(statics, u + k * with.n);
+      corot_statics_destroy(statics);
+    }
+    assert_true(norm_max(with.n, u) > 1e-3);
+    /* residuals of 1e-10, and a bar ten times softer in bending than a cube */
+    assert_below(difference_of(with.n, u, u + with.n), 1e-7 * norm_max(with.n, u));
+    free(u);
+    drop_body(&with), drop_with(&without, in);
+  }
+}
+
+/* --- Bad input -------------------------------------------------------------------------------- */
+
+static void what_makes_no_sense_is_refused(void **state) {
+  (void)state;
+  body b = make_bar("polar", 1, 1, loads), other = make_bar("polar", 1, 1, loads);
+  corot_inputs *in = give_inputs(&b);
+  int nnode = b.mesh->nnode;
+  double(*f)[3] = force_of_load(&b, 1), *u = some_motion(b.n, 1e-3),
+  *r = malloc(2 * b.n * sizeof *r);
+  const double(*force)[3] = (const double(*)[3])f;
+  assert_ok(corot_inputs_set_force(in, nnode, force));
+  assert_ok(corot_inputs_set_load(in, 0, 2));
+  assert_ok(corot_residual(b.model, b.state, 0, u, u + b.n, r));
+
+  assert_fails(corot_inputs_set_force(in, nnode - 1, force), COROT_EINVAL, "but the mesh has");
+  assert_fails(corot_inputs_ramp_force(in, 3 * nnode, 0, force, 1, force), COROT_EINVAL,
+               "but the mesh has");
+  assert_fails(corot_inputs_ramp_force(in, nnode, 1, force, 1, force), COROT_EINVAL, "no length");
+  assert_fails(corot_inputs_ramp_force(in, nnode, NAN, force, 1, force), COROT_EINVAL, "no length");
+  assert_fails(corot_inputs_set_load(in, 1, 1), COROT_EINVAL,
+               "there is no load 1: the model has 1");
+  assert_fails(corot_inputs_set_load(in, -1, 1), COROT_EINVAL, "there is no load -1");
+  assert_fails(corot_inputs_set_load(in, 0, INFINITY), COROT_EINVAL, "the factor of load 0 is inf");
+  assert_fails(corot_inputs_ramp_load(in, 0, 0, NAN, 1, 1), COROT_EINVAL,
+               "the factor of load 0 is");
+  assert_fails(corot_inputs_ramp_load(in, 0, 1, 0, 0, 1), COROT_EINVAL, "no length");
+  f[4][1] = NAN;
+  assert_fails(corot_inputs_set_force(in, nnode, force), COROT_EINVAL,
+               "y component of the force at node 4");
+  assert_fails(corot_state_use_inputs(other.state, in), COROT_EINVAL, "of another model");
+
+  /* all of which has changed nothing */
+  assert_ok(corot_residual(b.model, b.state, 0, u, u + b.n, r + b.n));
+  assert_true(difference_of(b.n, r, r + b.n) == 0);
+  free(f), free(u), free(r);
+  drop_body(&other), drop_with(&b, in);
+}
+
+static corot_status make_inputs(void *model) {
+  corot_inputs *in;
+  COROT_TRY(corot_inputs_create(model, &in));
+  corot_inputs_destroy(in);
+  return COROT_OK;
+}
+
+static void memory_may_run_out(void **state) {
+  (void)state;
+  body b = make_bar("polar", 1, 1, loads);
+  assert_true(assert_survives_failed_allocations(make_inputs, b.model) > 3);
+  drop_body(&b);
+}
+
+/* --- Integrators ------------------------------------------------------------------------------ */
+
+/* An integrator of the i-th method; NULL: there is none. */
+static corot_integrator *integrate_by(int i, const body *b, double rtol) {
+  corot_integrator *integrator;
+  const corot_method_kind *kind = corot_method_at(i);
+  if (!kind) return NULL;
+  corot_integrator_def def = corot_integrator_defaults();
+  def.method = kind->name, def.rtol = rtol;
+  if (!kind->controls_error) def.step = 1e-3;
+  double *rest = calloc(b->n, sizeof *rest);
+  assert_ok(corot_integrator_create(&def, b->model, b->state, 0, rest, rest, &integrator));
+  free(rest);
+  return integrator;
+}
+
+/* Steps to t; those of a constant step end there to rounding. */
+static void go_to(corot_integrator *integrator, double t) {
+  corot_step step = {0};
+  while (step.t < t * (1 - 1e-9)) assert_ok(corot_integrator_step(integrator, t, &step));
+}
+
+/* To the last bit, for all sums are the same. */
+static void every_integrator_takes_a_force_for_a_load(void **state) {
+  (void)state;
+  for (int i = 0; corot_method_at(i); i++) {
+    body with = make_bar("polar", 1, 1, loads), without = make_bar("polar", 1, 0, NULL);
+    corot_inputs *in = give_inputs(&without);
+    double *u = malloc(2 * with.n * sizeof *u), work[2][2];
+    give_ramp(in, &with, 0, 1);
+    for (int k = 0; k < 2; k++) {
+      corot_integrator *integrator = integrate_by(i, k ? &without : &with, 1e-5);
+      go_to(integrator, 0.02);
+      assert_ok(corot_integrator_at(integrator, 0.02, u + k * with.n, NULL));
+      assert_ok(corot_integrator_work(integrator, 0.02, &work[k][0], &work[k][1]));
+      corot_integrator_destroy(integrator);
+    }
+    /* but for the rounding of the line in time, and the steps that follow it */
+    assert_below(difference_of(with.n, u, u + with.n), 1e-9 * norm_max(with.n, u));
+    assert_close(work[1][1], work[0][1], 1e-8, 0);
+    free(u);
+    drop_body(&with), drop_with(&without, in);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_force_is_the_load_of_a_model),
+      cmocka_unit_test(a_factor_is_that_of_a_load),
+      cmocka_unit_test(states_do_not_see_each_others_inputs),
+      cmocka_unit_test(an_equilibrium_is_that_of_the_load),
+      cmocka_unit_test(what_makes_no_sense_is_refused),
+      cmocka_unit_test(memory_may_run_out),
+      cmocka_unit_test(every_integrator_takes_a_force_for_a_load),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
