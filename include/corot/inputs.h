@@ -67,6 +67,55 @@ corot_status corot_inputs_set_load(corot_inputs *inputs, int k, double factor);
 corot_status corot_inputs_ramp_load(corot_inputs *inputs, int k, double t0, double from, double t1,
                                     double to);
 
+/* --- Feedback --------------------------------------------------------------------------------- */
+
+/* Where a feedback puts its blocks. */
+typedef struct corot_blocks corot_blocks;
+
+/* Adds K = -df_i/du_j [N/m] and D = -df_i/dv_j [N s/m], row-major [9], of the force f_i on node i by
+   the motion of node j; NULL: zero. A force between two nodes has four such pairs, (i, i), (i, j),
+   (j, i) and (j, j). The matrices of an implicit step are symmetric and take the symmetric part, the
+   directional derivative (corot_jvp) takes all of it; so a feedback that is not symmetric takes more
+   iterations, and its results are the same.
+   COROT_EINVAL: there is no such node, or the two share no block of the pattern (corot_model_nblock),
+   as those that share a tet do. COROT_RETRY: a number is not finite. Either is remembered: the
+   evaluation fails, whatever your function returns. */
+corot_status corot_blocks_add(corot_blocks *blocks, int i, int j, const double *K, const double *D);
+
+/* u [m] and v [m/s] of all nodes at t, held ones too, [nnode][3] each. f [nnode][3]: add the force to
+   it, which is zero on entry [N]. */
+typedef corot_status corot_feedback_force(void *data, double t, const double (*u)[3],
+                                          const double (*v)[3], double (*f)[3]);
+
+/* Adds its blocks, by corot_blocks_add. */
+typedef corot_status corot_feedback_blocks(void *data, double t, const double (*u)[3],
+                                           const double (*v)[3], corot_blocks *blocks);
+
+/* Adds to df the change of the force in the direction (du, dv), all [nnode][3]. */
+typedef corot_status corot_feedback_change(void *data, double t, const double (*u)[3],
+                                           const double (*v)[3], const double (*du)[3],
+                                           const double (*dv)[3], double (*df)[3]);
+
+/* A force that depends on the motion: contact, foundation, muscle, controller. It must be a function
+   of (t, u, v) alone: evaluations come in any order, and steps are tried and given up. What it
+   remembers, change between steps, and call corot_integrator_changed. A stiff one needs its blocks:
+   without them Newton's iteration does not converge but for tiny steps. Its work counts as external;
+   a potential of its own is not in corot_energies.elastic. On held components its force is taken up
+   by the supports.
+
+   Each function returns COROT_OK; COROT_RETRY where it cannot be evaluated and a shorter step may
+   help; or another status, with which the step ends. Set the message by corot_fail. */
+typedef struct corot_feedback {
+  const char *name; /* for messages; copied, 47 letters of it */
+  void *data;       /* handed to the functions */
+  corot_feedback_force *force;
+  corot_feedback_blocks *blocks; /* NULL: none, as if the force did not depend on the motion */
+  corot_feedback_change *change; /* NULL: what the blocks say, not only their symmetric part */
+} corot_feedback;
+
+/* From now on that feedback; NULL: none. COROT_EINVAL: it has no force. COROT_ENOMEM. */
+corot_status corot_inputs_set_feedback(corot_inputs *inputs, const corot_feedback *feedback);
+
 #ifdef __cplusplus
 }
 #endif

@@ -35,6 +35,11 @@ void corot_inputs_destroy(corot_inputs *in) {
   free(in->force);
   free(in->slope);
   free(in->load);
+  free(in->u);
+  free(in->v);
+  free(in->du);
+  free(in->dv);
+  free(in->f);
   free(in);
 }
 

@@ -21,9 +21,19 @@ struct corot_inputs {
   double (*force)[3], (*slope)[3]; /* [nnode] that, and its change [N], [N/s] */
   ramp *load;                      /* [nload] factors */
 
+  corot_feedback feedback; /* its name is that below; without a force there is none */
+  char name[48];
+  double (*u)[3], (*v)[3], (*du)[3], (*dv)[3]; /* [nnode] what it sees; NULL until there is one */
+  double (*f)[3];                              /* [nnode] what it answers */
+
   /* How often they have changed: */
-  long loads; /* forces and factors of loads */
+  long loads;    /* forces and factors of loads */
+  long matrices; /* what K and D depend on */
 };
+
+static inline bool inputs_feed_back(const instant *now) {
+  return now->inputs && now->inputs->feedback.force;
+}
 
 static inline double ramp_at(ramp r, double t) { return r.value + (t - r.t) * r.slope; }
 
@@ -33,6 +43,22 @@ double corot_inputs_load(const instant *now, int k);
 /* f [ndof], or f [nnode] on all components, += the force. */
 void corot_inputs_add_force(const corot_model *m, const instant *now, double *f);
 void corot_inputs_add_nodal_force(const corot_model *m, const instant *now, double (*f)[3]);
+
+/* inputs->f [nnode] = the force of the feedback for nodal u and v; v NULL: nothing has a velocity.
+   A status of its own, or COROT_RETRY: it is not finite. */
+corot_status corot_feedback_evaluate(const instant *now, nodal_field u, nodal_field v);
+
+/* The same of its change for du and dv. */
+corot_status corot_feedback_differentiate(const instant *now, nodal_field u, nodal_field v,
+                                          nodal_field du, nodal_field dv);
+
+/* K and D [pattern.nblock], either of which may be NULL, += its blocks. */
+corot_status corot_feedback_matrices(const instant *now, nodal_field u, nodal_field v,
+                                     double (*K)[9], double (*D)[9]);
+
+/* f [ndof], or f [nnode] on all components, += inputs->f. */
+void corot_feedback_add(const instant *now, double *f);
+void corot_feedback_add_nodal(const instant *now, double (*f)[3]);
 
 /* COROT_EINVAL: an entry of x [n][3], the `what` of a `row`, is not finite. */
 corot_status corot_inputs_check(const char *what, const char *row, int n, const double (*x)[3]);

@@ -4,9 +4,10 @@
 #include <corot/ode.h>
 
 /* f [n] = the loads on the body displaced by u at t [N], whose power is that of corot_energies:
-   with COROT_COUPLING_ONE_WAY those of level 0. */
-void corot_force_of_loads(const corot_model *model, corot_state *state, double t, const double *u,
-                          double *f);
+   with COROT_COUPLING_ONE_WAY those of level 0. A feedback, which may fail, is among them; nothing
+   else looks at the velocity v. */
+corot_status corot_force_of_loads(const corot_model *model, corot_state *state, double t,
+                                  const double *u, const double *v, double *f);
 
 /* corot_energies.carried alone, at the cost of no tet. */
 double corot_carried(const corot_model *model, corot_state *state, double t, const double *u,

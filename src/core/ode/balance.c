@@ -59,6 +59,10 @@ corot_status corot_forces(const corot_model *m, corot_state *s, double t, const 
   }
 
   if (f->load) corot_loads_nodal(m, &now, all_u, f->load);
+  if (f->load && inputs_feed_back(&now)) {
+    COROT_TRY(corot_feedback_evaluate(&now, all_u, all_v));
+    corot_feedback_add_nodal(&now, f->load);
+  }
   for (int k = 0; k < 4; k++) clear_followers(m, part[k]);
   return COROT_OK;
 }

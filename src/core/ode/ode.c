@@ -14,24 +14,37 @@ static corot_status status_at(const corot_state *s, double t, corot_status statu
   return corot_fail(COROT_RETRY, "%s at t = %g", corot_error(), t);
 }
 
-void corot_force_of_loads(const corot_model *m, corot_state *s, double t, const double *u,
-                          double *f) {
+corot_status corot_force_of_loads(const corot_model *m, corot_state *s, double t, const double *u,
+                                  const double *v, double *f) {
   const instant now = corot_state_at(s, t);
-  if (corot_loads_follow(m)) corot_state_displace(m, s, &now, u);
+  bool feeds_back = inputs_feed_back(&now);
+  if (feeds_back || corot_loads_follow(m)) corot_state_displace(m, s, &now, u);
+  if (feeds_back)
+    COROT_TRY(corot_feedback_evaluate(&now, (nodal_field)s->u, corot_state_move(m, s, &now, v)));
   corot_loads_force(m, &now, (nodal_field)s->u, f);
+  if (feeds_back) corot_feedback_add(&now, f);
   for (int i = m->body_ndof; i < m->ndof; i++) f[i] = 0;
+  return COROT_OK;
+}
+
+/* f [ndof] += the force of the feedback for displacement and velocity of all nodes. */
+static corot_status add_feedback(const instant *now, nodal_field u, nodal_field v, double *f) {
+  COROT_TRY(corot_feedback_evaluate(now, u, v));
+  corot_feedback_add(now, f);
+  return COROT_OK;
 }
 
 corot_status corot_residual_trial(const corot_model *m, corot_state *s, double t, const double *u,
                                   const double *v, double *r) {
   const instant now = corot_state_at(s, t);
-  bool damped = solid_of(m)->damped && now.moving;
-  nodal_field all_u = corot_state_displace(m, s, &now, u);
-  nodal_field all_v = damped ? corot_state_move(m, s, &now, v) : NULL;
+  bool damped = solid_of(m)->damped && now.moving, feeds_back = inputs_feed_back(&now);
+  nodal_field all_u = corot_state_displace(m, s, &now, u), all_v = NULL;
+  if (damped || (feeds_back && now.moving)) all_v = corot_state_move(m, s, &now, v);
   corot_loads_force(m, &now, all_u, s->r);
   if (now.moving) corot_mass_damp(m, v, s->r);
-  corot_status status = corot_system_force(&m->system, &s->system, age_of(s, t), all_u, all_v,
-                                           (const int(*)[3])m->dof, s->r);
+  if (feeds_back) COROT_TRY(add_feedback(&now, all_u, all_v, s->r));
+  corot_status status = corot_system_force(&m->system, &s->system, age_of(s, t), all_u,
+                                           damped ? all_v : NULL, (const int(*)[3])m->dof, s->r);
   COROT_TRY(status_at(s, t, status));
   memcpy(r, s->r, m->ndof * sizeof *r);
   return COROT_OK;
@@ -92,7 +105,6 @@ corot_status corot_rhs_trial(const corot_model *m, corot_state *s, double t, con
 corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
-  (void)v; /* viscous forces are linear in it */
   const instant now = corot_state_at(s, t);
   const solid *body = solid_of(m);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
@@ -103,7 +115,9 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
   COROT_TRY(corot_system_matrices(&m->system, &s->system, age_of(s, t), all_u, tangent, K,
                                   body->damped ? D : NULL));
   if (D) corot_mass_damping_matrix(m, D);
-  return COROT_OK;
+  if (!inputs_feed_back(&now)) return COROT_OK; /* all other forces are linear in v */
+  nodal_field all_v = v && now.moving ? corot_state_move(m, s, &now, v) : NULL;
+  return corot_feedback_matrices(&now, all_u, all_v, K, D);
 }
 
 void corot_load_stiffness(const corot_model *m, corot_state *s, double t, const double *u,
@@ -123,13 +137,21 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
   const instant now = corot_state_at(s, t);
-  bool damped = solid_of(m)->damped && now.moving;
+  bool damped = solid_of(m)->damped && now.moving, feeds_back = inputs_feed_back(&now);
   nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = spread(m, du, s->du);
-  nodal_field all_v = damped ? corot_state_move(m, s, &now, v) : NULL;
-  nodal_field all_dv = damped ? spread(m, dv, s->dv) : NULL;
+  nodal_field all_v = NULL, all_dv = NULL;
+  if (damped || (feeds_back && now.moving)) {
+    all_v = corot_state_move(m, s, &now, v);
+    all_dv = spread(m, dv, s->dv);
+  }
   memset(s->r, 0, m->ndof * sizeof *s->r);
   corot_loads_derivative(m, &now, all_u, all_du, s->r);
   if (now.moving) corot_mass_damp(m, dv, s->r);
+  if (feeds_back) {
+    COROT_TRY(corot_feedback_differentiate(&now, all_u, all_v, all_du, all_dv));
+    corot_feedback_add(&now, s->r);
+  }
+  if (!damped) all_v = all_dv = NULL;
   corot_status status =
       corot_system_derivative(&m->system, &s->system, age_of(s, t), all_u, all_v, all_du, all_dv,
                               tangent, (const int(*)[3])m->dof, s->r);
@@ -223,6 +245,7 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
   if (m->nmotion)
     COROT_TRY(status_at(s, t, support_power(m, s, t, all_u, all_v, s->du, &e.power_supports)));
   corot_loads_force(m, &now, all_u, s->r);
+  if (inputs_feed_back(&now)) COROT_TRY(add_feedback(&now, all_u, all_v, s->r));
   e.power_external = e.power_supports + dot(m->body_ndof, s->r, v);
   e.power_carried = e.power_supports;
   if (carried) e.power_carried -= along(m, all_u, &g, force, s->r);

@@ -63,7 +63,10 @@ corot_status corot_state_use_inputs(corot_state *s, corot_inputs *inputs) {
 state_stamp corot_state_stamp(const corot_state *s) {
   state_stamp stamp = {.frames = s->changes};
   stamp.inputs = s->inputs != NULL;
-  if (s->inputs) stamp.loads = s->inputs->loads;
+  if (!s->inputs) return stamp;
+  stamp.feedback = s->inputs->feedback.force != NULL;
+  stamp.loads = s->inputs->loads;
+  stamp.matrices = s->inputs->matrices;
   return stamp;
 }
 
@@ -80,6 +83,10 @@ void corot_state_stand_still(corot_state *s, double t, double factor) {
 instant corot_state_at(const corot_state *s, double t) {
   if (s->still) return (instant){t, s->load_time, s->load_factor, NAN, false, s->inputs};
   return (instant){t, t, 1, s->side, true, s->inputs};
+}
+
+bool corot_inputs_may_hold(const corot_inputs *inputs) {
+  return inputs && inputs->feedback.blocks;
 }
 
 nodal_field corot_state_displace(const corot_model *m, corot_state *s, const instant *now,

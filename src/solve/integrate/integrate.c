@@ -279,7 +279,8 @@ corot_status corot_integrator_energy(corot_integrator *self, const double *u, co
 
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
   state_stamp now = corot_state_stamp(self->state), before = self->seen;
-  bool loads_alone = now.loads != before.loads && now.frames == before.frames;
+  bool loads_alone = now.loads != before.loads && now.frames == before.frames &&
+                     now.matrices == before.matrices;
   self->seen = now;
   if (loads_alone && self->ops->loaded) return self->ops->loaded(self, history);
   if (self->pencil && !loads_alone) corot_pencil_invalidate(self->pencil);

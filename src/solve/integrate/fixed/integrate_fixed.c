@@ -72,6 +72,7 @@ static corot_status predict(corot_integrator *self, const stage *g, double *norm
 
 /* Whether K and D are the same in every step until the frames change. */
 static bool has_constant_matrices(const corot_integrator *self) {
+  if (corot_state_stamp(self->state).feedback) return false;
   const corot_strain_kind *strain = corot_strain_find(corot_model_strain(self->model));
   if (strain && strain->linear) return true; /* a hierarchy is none of them */
   return corot_model_matrices_by_frames(self->model) &&

@@ -36,6 +36,7 @@ typedef struct multistep_power {
 typedef struct multistep_ledger {
   double t_start;                /* of the last step */
   N_Vector start, end;           /* [2n] y at its ends */
+  N_Vector room;                 /* [2n] */
   N_Vector loads;                /* [2n] room for both: */
   double *load_start, *load_end; /* [n] the force of the loads there [N] */
   bool broken;                   /* nothing is known of the forces where the next step begins */

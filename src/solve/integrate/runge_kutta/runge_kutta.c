@@ -357,9 +357,12 @@ static corot_status cross(runge_kutta *m, double t_stop) {
 }
 
 /* The force [n] of the loads at the end of the last step. */
-static void note_loads(const runge_kutta *m, double *force) {
-  const corot_integrator *self = m->driver.self;
-  corot_force_of_loads(self->model, self->state, m->end.t, N_VGetArrayPointer(m->end.y), force);
+static corot_status note_loads(runge_kutta *m, double *force) {
+  driver *d = &m->driver;
+  const double *y = N_VGetArrayPointer(m->end.y), *v = y + corot_model_ndof(d->self->model);
+  corot_status status = corot_force_of_loads(d->self->model, d->self->state, m->end.t, y, v, force);
+  if (corot_driver_answer(d, status)) return corot_driver_give_up(d, "in the state reached");
+  return COROT_OK;
 }
 
 corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *step) {
@@ -379,6 +382,7 @@ corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *st
   long nni = 0;
   if (!status && m->api->nni && m->api->nni(m->memory, &nni))
     status = corot_driver_refuse(d, "statistics");
+  if (!status && self->seen.inputs) status = note_loads(m, N_VGetArrayPointer(m->load));
   m->fresh = status != COROT_OK;
   if (status) { /* of the step before only its end is left */
     m->end = m->start;
@@ -391,7 +395,6 @@ corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *st
   *step =
       (corot_step){.t = m->end.t, .order = m->order, .error = error, .newton = (int)(nni - m->nni)};
   m->nni = nni;
-  if (self->seen.inputs) note_loads(m, N_VGetArrayPointer(m->load));
   return COROT_OK;
 }
 
@@ -419,7 +422,7 @@ corot_status corot_rk_loaded(corot_integrator *self, corot_history history) {
   double *du = N_VGetArrayPointer(m->error), *dv = du + n, usual = 0;
   if (self->nst == 0 || m->stale || self->before == self->t || history == COROT_HISTORY_RESTART)
     return corot_rk_changed(self, history);
-  note_loads(m, now);
+  COROT_TRY(note_loads(m, now));
   for (int i = 0; i < n; i++) du[i] = 0, dv[i] = now[i] - old[i];
   COROT_TRY(corot_mass_solve(self->mass, dv, dv));
   memcpy(old, now, n * sizeof *old);
