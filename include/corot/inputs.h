@@ -67,6 +67,46 @@ corot_status corot_inputs_set_load(corot_inputs *inputs, int k, double factor);
 corot_status corot_inputs_ramp_load(corot_inputs *inputs, int k, double t0, double from, double t1,
                                     double to);
 
+/* --- Paths of supports ------------------------------------------------------------------------ */
+
+/* Where the nodes of a group are at time t, how fast, and how this changes. One row is that of all its
+   nodes; else there is a row for each, in the order of the group (corot_mesh_find_group). Of the
+   components those count that the model holds, by a fix or a motion, whose place the path takes. */
+typedef struct corot_path {
+  const char *group;
+  double t;              /* [s] */
+  int n;                 /* rows: 1, or as many as the group has nodes */
+  const double (*x)[3];  /* [n] displacement [m] */
+  const double (*v)[3];  /* [n] velocity [m/s]; or NULL, see below */
+  const double (*a)[3];  /* [n] acceleration [m/s^2]; or NULL */
+} corot_path;
+
+/* From t on, and before it, the group is at x + v s + a s^2 / 2 at time t + s, until it is told
+   otherwise; v and a of NULL are zero. A path may not jump: where the group would have been at t
+   without it, it still is, to a millionth of the length of the model. Its velocity may; a consistent
+   mass, which takes the acceleration, then leaves the blow out (corot_mass of corot/model.h).
+   COROT_EINVAL: it jumps, there is no such group, the model holds nothing of it, n is not the number
+   of its nodes, or a number is not finite. COROT_ENOMEM, the first time. */
+corot_status corot_inputs_set_path(corot_inputs *inputs, const corot_path *path);
+
+/* The same wherever the group has been: for the start of a run. */
+corot_status corot_inputs_start_path(corot_inputs *inputs, const corot_path *path);
+
+/* On from where the group is at t0, so as to reach the path's x at its t: with v NULL in a straight
+   line; with a NULL by the cubic that begins with the velocity at t0 and ends with v; else by the
+   polynomial of degree five that has the accelerations, too. For a window of a coupled loop. Failures
+   as above, or t0 is not before t. */
+corot_status corot_inputs_reach(corot_inputs *inputs, double t0, const corot_path *path);
+
+/* Back to what the model says of the group. COROT_EINVAL: there it would jump at t, or there is no
+   such group, or the model holds nothing of it. */
+corot_status corot_inputs_release(corot_inputs *inputs, const char *group, double t);
+
+/* corot_nodal as the state sees it, supports on paths included. */
+void corot_state_nodal(const corot_model *model, const corot_state *state, double t,
+                       const double *u, const double *v, double (*displacement)[3],
+                       double (*velocity)[3]);
+
 /* --- Feedback --------------------------------------------------------------------------------- */
 
 /* Where a feedback puts its blocks. */

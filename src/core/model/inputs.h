@@ -12,6 +12,14 @@ typedef struct ramp {
   double t, value, slope;
 } ramp;
 
+/* The way of a node of which the model holds something: sum c_k (t' - t)^k. */
+typedef struct node_path {
+  int node;
+  bool on;        /* else the model's own */
+  double t;       /* [s] */
+  double c[6][3]; /* displacement, velocity, and so on [m/s^k] */
+} node_path;
+
 struct corot_inputs {
   const corot_model *model;
   size_t bytes; /* with all they hold */
@@ -21,6 +29,10 @@ struct corot_inputs {
   double (*force)[3], (*slope)[3]; /* [nnode] that, and its change [N], [N/s] */
   ramp *load;                      /* [nload] factors */
 
+  int nheld, npath;    /* nodes of which something is held, and how many of them are on a path */
+  node_path *path;     /* [nheld] by node; NULL until there was one */
+  double (*law[3])[3]; /* [nnode] displacement, velocity, acceleration of supports: scratch */
+
   corot_feedback feedback; /* its name is that below; without a force there is none */
   char name[48];
   double (*u)[3], (*v)[3], (*du)[3], (*dv)[3]; /* [nnode] what it sees; NULL until there is one */
@@ -29,7 +41,10 @@ struct corot_inputs {
   /* How often they have changed: */
   long loads;    /* forces and factors of loads */
   long matrices; /* what K and D depend on */
+  long paths;
 };
+
+static inline bool inputs_move(const instant *now) { return now->inputs && now->inputs->npath > 0; }
 
 static inline bool inputs_feed_back(const instant *now) {
   return now->inputs && now->inputs->feedback.force;
@@ -43,6 +58,14 @@ double corot_inputs_load(const instant *now, int k);
 /* f [ndof], or f [nnode] on all components, += the force. */
 void corot_inputs_add_force(const corot_model *m, const instant *now, double *f);
 void corot_inputs_add_nodal_force(const corot_model *m, const instant *now, double (*f)[3]);
+
+/* nodal [nnode], `stride` doubles each, becomes the k-th derivative of the displacement where a
+   component is on a path, 0 <= k <= 2. */
+void corot_paths_place(const instant *now, int k, double *nodal, int stride);
+
+/* f [ndof] -= what a consistent mass and its damping take from free nodes for the velocities and
+   accelerations of paths, less what drags the model's own motions in their places. */
+void corot_paths_drag(const instant *now, double *f);
 
 /* inputs->f [nnode] = the force of the feedback for nodal u and v; v NULL: nothing has a velocity.
    A status of its own, or COROT_RETRY: it is not finite. */

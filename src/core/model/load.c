@@ -235,6 +235,7 @@ void corot_loads_force(const corot_model *m, const instant *now, const double (*
       }
   }
   corot_drags_apply(m, now, f);
+  if (inputs_move(now)) corot_paths_drag(now, f);
   if (now->inputs) corot_inputs_add_force(m, now, f);
 }
 

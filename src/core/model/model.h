@@ -112,6 +112,11 @@ void corot_model_velocity(const corot_model *m, const instant *now, const double
 void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
                               double *nodal, int stride);
 
+/* The motions' values alone, on their nodes. */
+void corot_motions_displace(const corot_model *m, const instant *now, double *nodal, int stride);
+void corot_motions_move(const corot_model *m, const instant *now, double *nodal, int stride);
+void corot_motions_accelerate(const corot_model *m, const instant *now, double *nodal, int stride);
+
 /* The free values alone: zero on every held component. */
 void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride);
 

@@ -242,7 +242,7 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
                                 &e.power_dissipated));
 
   /* the supports, which need the forces on all nodes, and the loads */
-  if (m->nmotion)
+  if (m->nmotion || inputs_move(&now))
     COROT_TRY(status_at(s, t, support_power(m, s, t, all_u, all_v, s->du, &e.power_supports)));
   corot_loads_force(m, &now, all_u, s->r);
   if (inputs_feed_back(&now)) COROT_TRY(add_feedback(&now, all_u, all_v, s->r));

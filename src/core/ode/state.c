@@ -65,7 +65,9 @@ state_stamp corot_state_stamp(const corot_state *s) {
   stamp.inputs = s->inputs != NULL;
   if (!s->inputs) return stamp;
   stamp.feedback = s->inputs->feedback.force != NULL;
+  stamp.moves = s->inputs->npath > 0;
   stamp.loads = s->inputs->loads;
+  stamp.paths = s->inputs->paths;
   stamp.matrices = s->inputs->matrices;
   return stamp;
 }
@@ -85,9 +87,14 @@ instant corot_state_at(const corot_state *s, double t) {
   return (instant){t, t, 1, s->side, true, s->inputs};
 }
 
-bool corot_inputs_may_hold(const corot_inputs *inputs) {
-  return inputs && inputs->feedback.blocks;
+void corot_state_nodal(const corot_model *m, const corot_state *s, double t, const double *u,
+                       const double *v, double (*displacement)[3], double (*velocity)[3]) {
+  const instant now = corot_state_at(s, t);
+  if (displacement) corot_model_displacement(m, &now, u, displacement[0], 3);
+  if (velocity) corot_model_velocity(m, &now, v, velocity[0], 3);
 }
+
+bool corot_inputs_may_hold(const corot_inputs *inputs) { return inputs && inputs->feedback.blocks; }
 
 nodal_field corot_state_displace(const corot_model *m, corot_state *s, const instant *now,
                                  const double *u) {

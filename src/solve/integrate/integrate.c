@@ -137,7 +137,8 @@ void corot_integrator_choose_bdf(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
   if (d->max_order == 0) d->max_order = choose_max_order(d, self->model);
   if (d->tangent == COROT_TANGENT_AUTO) d->tangent = COROT_TANGENT_HELD;
-  bool moves = corot_model_moves(self->model), damped = corot_model_damping_time(self->model) > 0;
+  bool moves = corot_model_moves(self->model) || self->seen.moves;
+  bool damped = corot_model_damping_time(self->model) > 0;
   int age = moves ? 30 : 100;
   if (d->reassembly == 0) d->reassembly = age;
   if (d->refactorisation == 0) d->refactorisation = age;
@@ -279,11 +280,11 @@ corot_status corot_integrator_energy(corot_integrator *self, const double *u, co
 
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
   state_stamp now = corot_state_stamp(self->state), before = self->seen;
-  bool loads_alone = now.loads != before.loads && now.frames == before.frames &&
-                     now.matrices == before.matrices;
+  bool loads = now.loads != before.loads, paths = now.paths != before.paths;
+  bool others = now.frames != before.frames || now.matrices != before.matrices;
   self->seen = now;
-  if (loads_alone && self->ops->loaded) return self->ops->loaded(self, history);
-  if (self->pencil && !loads_alone) corot_pencil_invalidate(self->pencil);
+  if (loads && !paths && !others && self->ops->loaded) return self->ops->loaded(self, history);
+  if (self->pencil && (others || !(loads || paths))) corot_pencil_invalidate(self->pencil);
   return self->ops->changed(self, history);
 }
 

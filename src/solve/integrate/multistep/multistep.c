@@ -202,8 +202,9 @@ corot_status corot_multistep_changed(corot_integrator *self, corot_history histo
   multistep *m = self->method;
   double h = self->def.first_step;
   bool felt = true;
-  if (history == COROT_HISTORY_KEEP) return COROT_OK;
+  if (history == COROT_HISTORY_KEEP && !self->seen.inputs) return COROT_OK;
   m->ledger.broken = true;
+  if (history == COROT_HISTORY_KEEP) return COROT_OK;
   if (self->before == self->t) return begin_again(m, h);
   if (history == COROT_HISTORY_AUTO) {
     double jump = 0;
