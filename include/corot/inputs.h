@@ -67,6 +67,24 @@ corot_status corot_inputs_set_load(corot_inputs *inputs, int k, double factor);
 corot_status corot_inputs_ramp_load(corot_inputs *inputs, int k, double t0, double from, double t1,
                                     double to);
 
+/* --- Materials -------------------------------------------------------------------------------- */
+
+/* Factors of a material's coefficients. */
+typedef struct corot_material_factors {
+  double lambda, mu;                 /* 3 lambda + 2 mu > 0 and mu > 0 of what they make */
+  double damping_lambda, damping_mu; /* >= 0; what is zero in the model stays so */
+} corot_material_factors;
+
+/* From now on material k of the model's definition has so many times its coefficients; NULL: its own.
+   Density and damping_mass stay. A strained body whose stiffness changes gains or loses energy: an
+   integrator that is told counts that as external work. What is chosen by the scales of the model
+   (tolerances, orders) goes by its own coefficients.
+   COROT_EINVAL: there is no such material, a factor is out of range, or lambda, of which a model with
+   averaged dilatation leaves so many mu to the tets, would begin to be averaged. COROT_ENOMEM, the
+   first time. */
+corot_status corot_inputs_set_material(corot_inputs *inputs, int k,
+                                       const corot_material_factors *factors);
+
 /* --- Paths of supports ------------------------------------------------------------------------ */
 
 /* Where the nodes of a group are at time t, how fast, and how this changes. One row is that of all its

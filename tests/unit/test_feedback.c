@@ -35,9 +35,25 @@ static void difference(const body *b, const double *u, const double *du, const d
   free(y);
 }
 
+/* All that may come in, at once. */
+static void give_everything(const body *b, corot_inputs *in, const corot_feedback *of) {
+  static const double x[1][3] = {{1e-3, 2e-3, -1e-3}}, v[1][3] = {{0.1, 0.2, 0.3}};
+  const corot_path path = {"zmin", 0.3, 1, x, v, v};
+  const corot_material_factors factors = {2, 0.5, 30, 50};
+  double(*f)[3] = malloc(b->mesh->nnode * sizeof *f);
+  uint64_t seed = 9;
+  for (int i = 0; i < 3 * b->mesh->nnode; i++) f[i / 3][i % 3] = noise(&seed);
+  assert_ok(corot_inputs_set_feedback(in, of));
+  assert_ok(corot_inputs_set_load(in, 3, 7));
+  assert_ok(corot_inputs_set_force(in, b->mesh->nnode, (const double(*)[3])f));
+  assert_ok(corot_inputs_start_path(in, &path));
+  assert_ok(corot_inputs_set_material(in, 0, &factors));
+  free(f);
+}
+
 /* With a load that follows the surface, too. The error of the difference is that of its fourth
    order, as in test_derivatives.c. */
-static void jvp_knows_the_feedback(void **state) {
+static void jvp_knows_all_that_comes_in(void **state) {
   (void)state;
   for (int m = 0; m < NMEASURE; m++)
     for (int order = 1; order <= 2; order++)
@@ -46,8 +62,7 @@ static void jvp_knows_the_feedback(void **state) {
         corot_inputs *in = give_inputs(&b);
         tie s = make_tie(&b);
         corot_feedback of = feedback_of_tie(&s, change);
-        assert_ok(corot_inputs_set_feedback(in, &of));
-        assert_ok(corot_inputs_set_load(in, 3, 7));
+        give_everything(&b, in, &of);
         double *u = some_motion(b.n, 1e-3), *d = some_motion(b.n, 1e-2);
         double *jv = malloc(2 * b.n * sizeof *jv), *fd = jv + b.n;
         difference(&b, u, d, d + b.n, fd);
@@ -426,7 +441,7 @@ static void memory_may_run_out(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(jvp_knows_the_feedback),
+      cmocka_unit_test(jvp_knows_all_that_comes_in),
       cmocka_unit_test(matrices_have_its_symmetric_part),
       cmocka_unit_test(its_power_is_external_and_its_force_a_load),
       cmocka_unit_test(a_spring_at_the_end_of_a_bar),

@@ -255,6 +255,7 @@ static void every_integrator_follows(void **state) {
   (void)state;
   for (int i = 0; corot_method_at(i); i++)
     for (int order = 1; order <= 2; order++) {
+      if (order == 2 && corot_method_at(i)->explicit_steps) continue; /* takes seconds */
       trace moved = run(i, order, false), led = run(i, order, true);
       assert_below(difference_of(led.n, led.u, moved.u), 1e-4 * norm_max(led.n, led.u));
       assert_true(led.cost <= 1.2 * moved.cost);

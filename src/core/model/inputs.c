@@ -35,6 +35,8 @@ void corot_inputs_destroy(corot_inputs *in) {
   free(in->force);
   free(in->slope);
   free(in->load);
+  corot_other_system_destroy(in->other);
+  corot_other_system_destroy(in->before);
   free(in->path);
   for (int k = 0; k < 3; k++) free(in->law[k]);
   free(in->u);

@@ -20,6 +20,14 @@ typedef struct node_path {
   double c[6][3]; /* displacement, velocity, and so on [m/s^k] */
 } node_path;
 
+/* The model's system with other materials: of all else it holds no more than the model's pointers.
+ */
+typedef struct other_system {
+  solid_system system;
+  material *material;      /* [nmaterial] */
+  double *averaged[TERMS]; /* [dilatation.npool] of each term, in the place of its `lambda` */
+} other_system;
+
 struct corot_inputs {
   const corot_model *model;
   size_t bytes; /* with all they hold */
@@ -32,6 +40,11 @@ struct corot_inputs {
   int nheld, npath;    /* nodes of which something is held, and how many of them are on a path */
   node_path *path;     /* [nheld] by node; NULL until there was one */
   double (*law[3])[3]; /* [nnode] displacement, velocity, acceleration of supports: scratch */
+
+  /* What deforms in the model's place, and what did before the materials changed, if somebody has
+     yet to take notice. NULL: the model's own. */
+  other_system *other, *before;
+  bool pending;
 
   corot_feedback feedback; /* its name is that below; without a force there is none */
   char name[48];
@@ -50,6 +63,11 @@ static inline bool inputs_feed_back(const instant *now) {
   return now->inputs && now->inputs->feedback.force;
 }
 
+/* What deforms. */
+static inline const solid_system *inputs_system(const corot_model *m, const corot_inputs *in) {
+  return in && in->other ? &in->other->system : &m->system;
+}
+
 static inline double ramp_at(ramp r, double t) { return r.value + (t - r.t) * r.slope; }
 
 /* The factor of load k at an instant. */
@@ -66,6 +84,9 @@ void corot_paths_place(const instant *now, int k, double *nodal, int stride);
 /* f [ndof] -= what a consistent mass and its damping take from free nodes for the velocities and
    accelerations of paths, less what drags the model's own motions in their places. */
 void corot_paths_drag(const instant *now, double *f);
+
+/* Takes NULL. */
+void corot_other_system_destroy(other_system *other);
 
 /* inputs->f [nnode] = the force of the feedback for nodal u and v; v NULL: nothing has a velocity.
    A status of its own, or COROT_RETRY: it is not finite. */

@@ -65,6 +65,7 @@ struct corot_model {
   corot_mesh *mesh;
   int nmaterial;
   material *material;
+  double local_moduli; /* so many mu of lambda no average takes; infinity: there are none */
   bool mass_damped;    /* some mass damping is not zero */
   solid_system system; /* what deforms; its first term is the solid on the mesh */
 
@@ -97,6 +98,9 @@ static inline const solid *solid_of(const corot_model *m) { return &m->system.te
    viscous coefficient is not zero. */
 corot_status corot_materials_create(const corot_model_def *def, corot_model *m, int *of_tet,
                                     bool *damped);
+
+/* What of a material's lambda acts on each tet's own dilatation. */
+void corot_material_share(const corot_model *m, material *a);
 
 /* Nodal masses or loads of the finest level become, on the nodes of level 0, those of level 0 if it
    has its own: T' of corot/hierarchy.h. */

@@ -37,13 +37,13 @@ static corot_status add_feedback(const instant *now, nodal_field u, nodal_field 
 corot_status corot_residual_trial(const corot_model *m, corot_state *s, double t, const double *u,
                                   const double *v, double *r) {
   const instant now = corot_state_at(s, t);
-  bool damped = solid_of(m)->damped && now.moving, feeds_back = inputs_feed_back(&now);
+  bool damped = body_of(m, s)->damped && now.moving, feeds_back = inputs_feed_back(&now);
   nodal_field all_u = corot_state_displace(m, s, &now, u), all_v = NULL;
   if (damped || (feeds_back && now.moving)) all_v = corot_state_move(m, s, &now, v);
   corot_loads_force(m, &now, all_u, s->r);
   if (now.moving) corot_mass_damp(m, v, s->r);
   if (feeds_back) COROT_TRY(add_feedback(&now, all_u, all_v, s->r));
-  corot_status status = corot_system_force(&m->system, &s->system, age_of(s, t), all_u,
+  corot_status status = corot_system_force(system_of(m, s), &s->system, age_of(s, t), all_u,
                                            damped ? all_v : NULL, (const int(*)[3])m->dof, s->r);
   COROT_TRY(status_at(s, t, status));
   memcpy(r, s->r, m->ndof * sizeof *r);
@@ -106,13 +106,13 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
   const instant now = corot_state_at(s, t);
-  const solid *body = solid_of(m);
+  const solid *body = body_of(m, s);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
   size_t bytes = body->pattern.nblock * sizeof *K;
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
   if (tangent == COROT_TANGENT_AUTO) tangent = COROT_TANGENT_HELD;
-  COROT_TRY(corot_system_matrices(&m->system, &s->system, age_of(s, t), all_u, tangent, K,
+  COROT_TRY(corot_system_matrices(system_of(m, s), &s->system, age_of(s, t), all_u, tangent, K,
                                   body->damped ? D : NULL));
   if (D) corot_mass_damping_matrix(m, D);
   if (!inputs_feed_back(&now)) return COROT_OK; /* all other forces are linear in v */
@@ -137,7 +137,7 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
   const instant now = corot_state_at(s, t);
-  bool damped = solid_of(m)->damped && now.moving, feeds_back = inputs_feed_back(&now);
+  bool damped = body_of(m, s)->damped && now.moving, feeds_back = inputs_feed_back(&now);
   nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = spread(m, du, s->du);
   nodal_field all_v = NULL, all_dv = NULL;
   if (damped || (feeds_back && now.moving)) {
@@ -153,8 +153,8 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
   }
   if (!damped) all_v = all_dv = NULL;
   corot_status status =
-      corot_system_derivative(&m->system, &s->system, age_of(s, t), all_u, all_v, all_du, all_dv,
-                              tangent, (const int(*)[3])m->dof, s->r);
+      corot_system_derivative(system_of(m, s), &s->system, age_of(s, t), all_u, all_v, all_du,
+                              all_dv, tangent, (const int(*)[3])m->dof, s->r);
   COROT_TRY(status_at(s, t, status));
   memcpy(jv, s->r, m->ndof * sizeof *jv);
   return COROT_OK;
@@ -194,8 +194,8 @@ static void add_inertia(const corot_model *m, corot_state *s, nodal_field all_u,
 static corot_status support_power(const corot_model *m, corot_state *s, double t, nodal_field u,
                                   nodal_field v, double (*f)[4], double *power) {
   memset(f, 0, s->nnode * sizeof *f);
-  COROT_TRY(corot_system_force(&m->system, &s->system, age_of(s, t), u,
-                               solid_of(m)->damped ? v : NULL, NULL, f[0]));
+  COROT_TRY(corot_system_force(system_of(m, s), &s->system, age_of(s, t), u,
+                               body_of(m, s)->damped ? v : NULL, NULL, f[0]));
   for (int n = 0; n < m->body_nnode; n++)
     for (int i = 0; i < 3; i++)
       if (m->dof[n][i] < 0) *power -= f[n][i] * v[n][i];
@@ -237,8 +237,8 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
   bool carried = m->nmotion > 0 && corot_motions_carry(m, &now, &g);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
   nodal_field all_v = corot_state_move(m, s, &now, v), force = (nodal_field)s->du;
-  COROT_TRY(corot_system_energy(&m->system, &s->system, age_of(s, t), all_u,
-                                solid_of(m)->damped ? all_v : NULL, &e.elastic,
+  COROT_TRY(corot_system_energy(system_of(m, s), &s->system, age_of(s, t), all_u,
+                                body_of(m, s)->damped ? all_v : NULL, &e.elastic,
                                 &e.power_dissipated));
 
   /* the supports, which need the forces on all nodes, and the loads */
@@ -277,7 +277,7 @@ corot_status corot_elastic_force(const corot_model *m, corot_state *s, double t,
   memset(s->du, 0, s->nnode * sizeof *s->du);
   s->system.frames = COROT_FRAMES_EXACT;
   corot_status status =
-      corot_system_force(&m->system, &s->system, age_of(s, t), all_u, NULL, NULL, s->du[0]);
+      corot_system_force(system_of(m, s), &s->system, age_of(s, t), all_u, NULL, NULL, s->du[0]);
   s->system.frames = frames;
   COROT_TRY(status_at(s, t, status));
   negate(s, f);
@@ -293,8 +293,8 @@ corot_status corot_internal_force(const corot_model *m, corot_state *s, double t
   COROT_TRY(corot_strain_index(strain, &index));
   nodal_field all_u = corot_state_displace(m, s, &now, u);
   memset(s->du, 0, s->nnode * sizeof *s->du);
-  corot_status status =
-      corot_solid_internal(solid_of(m), &s->system.of[0], all_u, index, lambda_part, mu_part, &sum);
+  corot_status status = corot_solid_internal(body_of(m, s), &s->system.of[0], all_u, index,
+                                             lambda_part, mu_part, &sum);
   s->system.inverted = s->system.of[0].inverted;
   COROT_TRY(status);
   negate(s, f);

@@ -3,8 +3,6 @@
 
 #include <stdlib.h>
 
-#include "stamp.h"
-
 static corot_status allocate(const corot_model *m, corot_state *s) {
   int nnode = m->mesh->nnode;
   s->u = corot_vector_calloc(nnode, sizeof *s->u);
@@ -60,18 +58,6 @@ corot_status corot_state_use_inputs(corot_state *s, corot_inputs *inputs) {
   return COROT_OK;
 }
 
-state_stamp corot_state_stamp(const corot_state *s) {
-  state_stamp stamp = {.frames = s->changes};
-  stamp.inputs = s->inputs != NULL;
-  if (!s->inputs) return stamp;
-  stamp.feedback = s->inputs->feedback.force != NULL;
-  stamp.moves = s->inputs->npath > 0;
-  stamp.loads = s->inputs->loads;
-  stamp.paths = s->inputs->paths;
-  stamp.matrices = s->inputs->matrices;
-  return stamp;
-}
-
 corot_frames corot_state_frames(const corot_state *s) { return s->system.frames; }
 int corot_state_inverted(const corot_state *s) { return s->system.inverted; }
 void corot_state_enter(corot_state *s, double t) { s->side = t; }
@@ -92,14 +78,6 @@ void corot_state_nodal(const corot_model *m, const corot_state *s, double t, con
   const instant now = corot_state_at(s, t);
   if (displacement) corot_model_displacement(m, &now, u, displacement[0], 3);
   if (velocity) corot_model_velocity(m, &now, v, velocity[0], 3);
-}
-
-bool corot_inputs_may_hold(const corot_inputs *inputs) { return inputs && inputs->feedback.blocks; }
-
-nodal_field corot_state_displace(const corot_model *m, corot_state *s, const instant *now,
-                                 const double *u) {
-  corot_model_displacement(m, now, u, s->u[0], 4);
-  return (nodal_field)s->u;
 }
 
 nodal_field corot_state_move(const corot_model *m, corot_state *s, const instant *now,

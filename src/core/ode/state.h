@@ -22,6 +22,15 @@ struct corot_state {
   size_t bytes;              /* with all it holds */
 };
 
+/* What deforms: the model's system, or with the factors of inputs; and the solid on the mesh. */
+static inline const solid_system *system_of(const corot_model *m, const corot_state *s) {
+  return inputs_system(m, s->inputs);
+}
+
+static inline const solid *body_of(const corot_model *m, const corot_state *s) {
+  return &system_of(m, s)->term[0].body;
+}
+
 /* The instant of an evaluation at t. */
 instant corot_state_at(const corot_state *s, double t);
 

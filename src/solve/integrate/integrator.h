@@ -33,19 +33,21 @@ struct corot_integrator {
   corot_state *state;
   corot_pencil *pencil; /* NULL: of explicit steps */
   corot_mass_solver *mass;
-  corot_integrator_def def; /* choices made; its strings are not kept */
-  double t;                 /* reached */
-  double before;            /* where the last step began; t: there is no interpolant */
-  double hlast;             /* length of the last step, 0: there was none */
-  int qlast;                /* its order */
-  long nst;                 /* steps taken */
-  double force_s, work_s;   /* wall time in the right-hand side and the work integrands [s] */
-  double step_s;            /* wall time of all steps [s] */
-  void *method;             /* the method's own part */
-  const char *table;        /* the Butcher table in use; NULL: none */
-  corot_energies energies;  /* where the work integrands were last evaluated */
-  double t_energies;        /* when that was; NaN: nowhere yet */
-  state_stamp seen;         /* of the state, as the integrator knows it */
+  corot_integrator_def def;   /* choices made; its strings are not kept */
+  double t;                   /* reached */
+  double before;              /* where the last step began; t: there is no interpolant */
+  double hlast;               /* length of the last step, 0: there was none */
+  int qlast;                  /* its order */
+  long nst;                   /* steps taken */
+  double force_s, work_s;     /* wall time in the right-hand side and the work integrands [s] */
+  double step_s;              /* wall time of all steps [s] */
+  void *method;               /* the method's own part */
+  const char *table;          /* the Butcher table in use; NULL: none */
+  corot_energies energies;    /* where the work integrands were last evaluated */
+  double t_energies;          /* when that was; NaN: nowhere yet */
+  double given, given_before; /* external work by changes of materials, and before the latest [J] */
+  double t_given;             /* when that was; -infinity: there was none */
+  state_stamp seen;           /* of the state, as the integrator knows it */
 };
 
 /* Where the next step, h long as far as is known (0: not at all), must stop: at t_stop, or before,
