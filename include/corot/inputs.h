@@ -63,7 +63,7 @@ corot_status corot_inputs_ramp_force(corot_inputs *inputs, int nnode, double t0,
    first. COROT_EINVAL: there is no such load, or the factor is not finite. */
 corot_status corot_inputs_set_load(corot_inputs *inputs, int k, double factor);
 
-/* The same along a straight line in time, as above. */
+/* The same along a straight line in time, as of a force. Failures as above, and of the window. */
 corot_status corot_inputs_ramp_load(corot_inputs *inputs, int k, double t0, double from, double t1,
                                     double to);
 
@@ -107,7 +107,7 @@ typedef struct corot_path {
    of its nodes, or a number is not finite. COROT_ENOMEM, the first time. */
 corot_status corot_inputs_set_path(corot_inputs *inputs, const corot_path *path);
 
-/* The same wherever the group has been: for the start of a run. */
+/* The same wherever the group has been: for the start of a run. Failures as above, but for jumps. */
 corot_status corot_inputs_start_path(corot_inputs *inputs, const corot_path *path);
 
 /* On from where the group is at t0, so as to reach the path's x at its t: with v NULL in a straight
