@@ -29,7 +29,7 @@ extern "C" {
    turned, nor grow where a component passes through zero. user_data is a corot_sun_data with rtol
    and both atol set, as corot_sun_advise does. Not 0: the motion exceeds double precision, or
    these are not positive. */
-int corot_sun_weights(N_Vector y, N_Vector weight, void *user_data);
+COROT_API int corot_sun_weights(N_Vector y, N_Vector weight, void *user_data);
 
 /* --- Settings --------------------------------------------------------------------------------- */
 
@@ -55,7 +55,7 @@ typedef struct corot_sun_advice {
 } corot_sun_advice;
 
 /* COROT_EINVAL: there is no model, or no such method; rtol is not positive and finite. */
-corot_status corot_sun_advise(const corot_model *model, corot_sun_method method, double rtol,
+COROT_API corot_status corot_sun_advise(const corot_model *model, corot_sun_method method, double rtol,
                               corot_sun_advice *advice);
 
 /* --- Where to stop, and what to do there ------------------------------------------------------ */
@@ -71,7 +71,7 @@ typedef struct corot_sun_stop {
 /* Where the next step from t must stop, at t_stop or before: at the next kink, and, of a step that
    is h long as far as is known (0: not at all), at corot_model_horizon(), so as not to pass over
    what amplitudes do meanwhile. Kinks that t has passed but for rounding are behind it. */
-corot_sun_stop corot_sun_next_stop(const corot_model *model, double t, double h, double t_stop);
+COROT_API corot_sun_stop corot_sun_next_stop(const corot_model *model, double t, double h, double t_stop);
 
 /* Whether a multistep method feels that y' has jumped between two steps, as at a kink, after new
    frames, or after a change of what comes in at run time: whether more than half of the tolerance
@@ -79,7 +79,7 @@ corot_sun_stop corot_sun_next_stop(const corot_model *model, double t, double h,
    interpolant before; weight: the error weights; h_last, h_next: lengths of the last step, and the
    next. *h_first: the first step to begin again with, where it is felt; where not, error control
    deals with it. COROT_EINVAL: something is not there, or of another size; COROT_ENOMEM. */
-corot_status corot_sun_felt(corot_pencil *pencil, N_Vector jump, N_Vector weight, double t,
+COROT_API corot_status corot_sun_felt(corot_pencil *pencil, N_Vector jump, N_Vector weight, double t,
                             double h_last, double h_next, bool *felt, double *h_first);
 
 /* --- An integrator of the host's, set up ------------------------------------------------------ */
@@ -130,35 +130,35 @@ struct corot_sun_host {
    rtol 0: 1e-4. COROT_EINVAL: a model, state or pencil is missing, or another model's; y is not a
    serial vector [2n]; t is not finite; rtol is not positive. COROT_ENOMEM. Then there is nothing to
    close. */
-corot_status corot_sun_host_open(corot_sun_host *host, const corot_sun_api *api, void *memory,
+COROT_API corot_status corot_sun_host_open(corot_sun_host *host, const corot_sun_api *api, void *memory,
                                  corot_pencil *pencil, const corot_sun_data *data, double t,
                                  N_Vector y);
 
 /* Takes NULL, and zeroed ones. */
-void corot_sun_host_close(corot_sun_host *host);
+COROT_API void corot_sun_host_close(corot_sun_host *host);
 
 /* One internal step from y, which is left at *t; never past t_stop, on which it lands if it comes
    near; at kinks and where amplitudes set out it stops and does what has to be done. Within a step
    the integrator's own GetDky tells. COROT_EINTEGRATE: SUNDIALS gave up, or its steps have shrunk
    to nothing because the body cannot be evaluated beyond; the message has its flag and our reason.
    COROT_EINVAL: t_stop is not after the time reached. COROT_ENOMEM. */
-corot_status corot_sun_host_step(corot_sun_host *host, double t_stop, N_Vector y, double *t);
+COROT_API corot_status corot_sun_host_step(corot_sun_host *host, double t_stop, N_Vector y, double *t);
 
 /* Steps until t_stop. Failures as of corot_sun_host_step. */
-corot_status corot_sun_host_advance(corot_sun_host *host, double t_stop, N_Vector y);
+COROT_API corot_status corot_sun_host_advance(corot_sun_host *host, double t_stop, N_Vector y);
 
 /* Call this when r has changed at the time reached, as by other frames or what comes in at run
    time: matrices are made anew, and the integrator begins again if it feels the jump
    (corot_sun_felt). Failures as of corot_sun_host_step. */
-corot_status corot_sun_host_changed(corot_sun_host *host, N_Vector y);
+COROT_API corot_status corot_sun_host_changed(corot_sun_host *host, N_Vector y);
 
 /* Begins again at (t, y) that the host has set, with a first step of h [s]; 0: SUNDIALS chooses.
    Failures as of corot_sun_host_step. */
-corot_status corot_sun_host_restart(corot_sun_host *host, double t, N_Vector y, double h);
+COROT_API corot_status corot_sun_host_restart(corot_sun_host *host, double t, N_Vector y, double h);
 
 /* COROT_OK where flag >= 0; else COROT_EINTEGRATE (COROT_ENOMEM, where that is what corot saw),
    with `call`, the flag, and what corot_error() said last. */
-corot_status corot_sun_judge(int flag, const char *call);
+COROT_API corot_status corot_sun_judge(int flag, const char *call);
 
 /* --- Krylov methods --------------------------------------------------------------------------- */
 
@@ -169,42 +169,42 @@ corot_status corot_sun_judge(int flag, const char *call);
 
    CVLsJacTimesVecFn and ARKLsJacTimesVecFn; CVLsPrecSetupFn and ARKLsPrecSetupFn; CVLsPrecSolveFn
    and ARKLsPrecSolveFn, of I - gamma J, from the left as well as from the right: */
-int corot_sun_jtimes(N_Vector v, N_Vector Jv, sunrealtype t, N_Vector y, N_Vector fy,
+COROT_API int corot_sun_jtimes(N_Vector v, N_Vector Jv, sunrealtype t, N_Vector y, N_Vector fy,
                      void *user_data, N_Vector tmp);
-int corot_sun_psetup(sunrealtype t, N_Vector y, N_Vector fy, sunbooleantype jok,
+COROT_API int corot_sun_psetup(sunrealtype t, N_Vector y, N_Vector fy, sunbooleantype jok,
                      sunbooleantype *jcur, sunrealtype gamma, void *user_data);
-int corot_sun_psolve(sunrealtype t, N_Vector y, N_Vector fy, N_Vector r, N_Vector z,
+COROT_API int corot_sun_psolve(sunrealtype t, N_Vector y, N_Vector fy, N_Vector r, N_Vector z,
                      sunrealtype gamma, sunrealtype delta, int lr, void *user_data);
 
 /* IDALsJacTimesVecFn, IDALsPrecSetupFn, IDALsPrecSolveFn, of dF/dy + cj dF/dy': */
-int corot_sun_jtimes_dae(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, N_Vector v,
+COROT_API int corot_sun_jtimes_dae(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, N_Vector v,
                          N_Vector Jv, sunrealtype cj, void *user_data, N_Vector tmp1,
                          N_Vector tmp2);
-int corot_sun_psetup_dae(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, sunrealtype cj,
+COROT_API int corot_sun_psetup_dae(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, sunrealtype cj,
                          void *user_data);
-int corot_sun_psolve_dae(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, N_Vector r, N_Vector z,
+COROT_API int corot_sun_psolve_dae(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, N_Vector r, N_Vector z,
                          sunrealtype cj, sunrealtype delta, void *user_data);
 
 /* --- Equilibria ------------------------------------------------------------------------------- */
 
 /* F(u) = -r(u) [n] of the state of user_data, a corot_sun_data, in which corot_state_stand_still
    has been called, with a pencil whose role is static: a KINSysFn. */
-int corot_sun_force(N_Vector u, N_Vector F, void *user_data);
+COROT_API int corot_sun_force(N_Vector u, N_Vector F, void *user_data);
 
 /* A KINLsJacFn, whose user_data is not looked at, and the solver to go with it and
    corot_sun_matrix; NULL where memory ran out. The Jacobian is K = dF/du; where it is not positive
    definite, a clamped one takes its place, so that the iteration leads downhill to a stable
    equilibrium. */
-int corot_sun_jacobian_static(N_Vector u, N_Vector F, SUNMatrix A, void *user_data, N_Vector tmp1,
+COROT_API int corot_sun_jacobian_static(N_Vector u, N_Vector F, SUNMatrix A, void *user_data, N_Vector tmp1,
                               N_Vector tmp2);
-SUNLinearSolver corot_sun_linsol_static(corot_pencil *pencil, SUNContext ctx);
+COROT_API SUNLinearSolver corot_sun_linsol_static(corot_pencil *pencil, SUNContext ctx);
 
 /* Forces by which an equilibrium is judged, at u [n] under the loads that the state stands under:
    *largest, the largest on a node (internal, a load, or a support's) [N]; *rounding, what rounding
    leaves of r's largest component [N], by the stiffness there. Assembles K. COROT_RETRY when a tet
    is inverted; COROT_EINVAL: the state does not stand still, or something is missing; COROT_ENOMEM.
  */
-corot_status corot_sun_force_scale(const corot_sun_data *data, const double *u, double *largest,
+COROT_API corot_status corot_sun_force_scale(const corot_sun_data *data, const double *u, double *largest,
                                    double *rounding);
 
 /* What corot/sun_kinsol.h needs: a host's KINSOL with scales, matrix and solver; as corot_sun_host.
@@ -219,18 +219,18 @@ typedef struct corot_sun_rest {
 
 /* COROT_EINVAL: something is missing, another model's, or of another kind: u is a serial vector
    [n]. COROT_ENOMEM. Then there is nothing to close. The pencil's tangent becomes the exact one. */
-corot_status corot_sun_rest_open(corot_sun_rest *rest, void *memory, corot_pencil *pencil,
+COROT_API corot_status corot_sun_rest_open(corot_sun_rest *rest, void *memory, corot_pencil *pencil,
                                  const corot_sun_data *data, N_Vector u);
 
 /* Takes NULL, and zeroed ones. */
-void corot_sun_rest_close(corot_sun_rest *rest);
+COROT_API void corot_sun_rest_close(corot_sun_rest *rest);
 
 /* KINLsJacTimesVecFn, KINLsPrecSetupFn, KINLsPrecSolveFn; as above. */
-int corot_sun_jtimes_static(N_Vector v, N_Vector Jv, N_Vector u, sunbooleantype *new_u,
+COROT_API int corot_sun_jtimes_static(N_Vector v, N_Vector Jv, N_Vector u, sunbooleantype *new_u,
                             void *user_data);
-int corot_sun_psetup_static(N_Vector u, N_Vector uscale, N_Vector F, N_Vector fscale,
+COROT_API int corot_sun_psetup_static(N_Vector u, N_Vector uscale, N_Vector F, N_Vector fscale,
                             void *user_data);
-int corot_sun_psolve_static(N_Vector u, N_Vector uscale, N_Vector F, N_Vector fscale, N_Vector v,
+COROT_API int corot_sun_psolve_static(N_Vector u, N_Vector uscale, N_Vector F, N_Vector fscale, N_Vector v,
                             void *user_data);
 
 #ifdef __cplusplus

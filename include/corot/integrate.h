@@ -148,8 +148,11 @@ typedef enum corot_history {
   COROT_HISTORY_RESTART, /* begin again at order 1 */
 } corot_history;
 
-/* Call this after a change of the held frames, at the end of a step. COROT_EINTEGRATE: r cannot be
-   evaluated after the change, or SUNDIALS refuses to begin again. COROT_ENOMEM. */
+/* Call this after a change of the held frames or of the state's inputs (corot/inputs.h), at the end of
+   a step. Where only forces or factors of loads have changed, it is no more than a comparison of the
+   loads; K and D are assembled anew only where frames, materials or a feedback have. COROT_EINTEGRATE:
+   r cannot be evaluated after the change, or SUNDIALS refuses to begin again. COROT_ENOMEM.
+   COROT_RETRY: materials have changed, and a tet is inverted. */
 COROT_API corot_status corot_integrator_changed(corot_integrator *integrator,
                                                 corot_history history);
 

@@ -20,6 +20,7 @@
 #ifndef COROT_STATICS_H
 #define COROT_STATICS_H
 
+#include <corot/inputs.h>
 #include <corot/solve.h>
 #include <stdbool.h>
 
@@ -45,6 +46,9 @@ typedef struct corot_statics_def {
                            steps: the linear solver is taken to be klu, and no equilibrium is judged */
   bool (*stop)(void *data); /* asked in every iteration; true: end with COROT_EINTEGRATE. Or NULL */
   void *stop_data;
+  corot_inputs *inputs; /* seen by all evaluations, and must outlive the solver; NULL: none. Forces and
+                           factors of loads are those of time t, scaled as loads are; feedback is not
+                           scaled, and may hold a body that no support holds */
 } corot_statics_def;
 
 /* Everything about the linear solver "auto", frames exact, tolerance 1e-10, 20 iterations, the

@@ -9,6 +9,7 @@
 
 static _Thread_local char message[1024];
 static _Thread_local corot_fault fault;
+static _Thread_local long count;
 
 const char *corot_error(void) { return message; }
 
@@ -21,6 +22,7 @@ static void set_message(const char *before, const char *after, const char *forma
   size_t end = strlen(text);
   snprintf(text + end, size - end, "%s", after);
   memcpy(message, text, size);
+  count++;
   *length = (int)(end - begin);
 }
 
@@ -65,6 +67,8 @@ corot_status corot_fail_at(const char *entry, int index, const char *field, cons
   va_end(args);
   return status;
 }
+
+long corot_fail_count(void) { return count; }
 
 corot_fault corot_fault_last(void) { return fault; }
 

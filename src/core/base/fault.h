@@ -35,4 +35,8 @@ corot_status corot_fail_at(const char *entry, int index, const char *field, cons
 /* What the last failure on this thread is about. Another failure takes its place. */
 corot_fault corot_fault_last(void);
 
+/* How many failures this thread has had: tells whether a function of a host has said why it failed.
+ */
+long corot_fail_count(void);
+
 #endif

@@ -157,14 +157,10 @@ static void find_scales(corot_model *m) {
    many shear moduli; over an element nothing, unless it has one point only. */
 static corot_status share_lambda(const corot_model_def *def, corot_model *m) {
   bool by_element = def->dilatation == COROT_DILATATION_ELEMENT;
+  m->local_moduli = INFINITY;
   if (def->dilatation == COROT_DILATATION_LOCAL || (by_element && !m->mesh->mid)) return COROT_OK;
-  for (int k = 0; k < m->nmaterial; k++) {
-    material *a = &m->material[k];
-    double local = by_element ? 0 : def->dilatation_local * a->mu;
-    if (!(a->lambda > local)) continue;
-    a->lambda_local = local;
-    a->own_share = local / a->lambda;
-  }
+  m->local_moduli = by_element ? 0 : def->dilatation_local;
+  for (int k = 0; k < m->nmaterial; k++) corot_material_share(m, &m->material[k]);
   return COROT_OK;
 }
 

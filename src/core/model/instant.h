@@ -11,6 +11,7 @@ typedef struct instant {
   double load_factor; /* times this */
   double side; /* by the law in force just after this time [s]; NaN: just after each one's own */
   bool moving; /* else nothing has a velocity */
+  struct corot_inputs *inputs; /* NULL: none */
 } instant;
 
 #endif

@@ -3,7 +3,7 @@
 
 #include "core/base/fault.h"
 #include "definition.h"
-#include "model.h"
+#include "inputs.h"
 
 static void add_force(const corot_model *m, double *force, int node, const double value[3],
                       double factor) {
@@ -198,8 +198,10 @@ void corot_loads_destroy(corot_model *m) {
   free(m->load);
 }
 
-static double factor_of(const load *l, const instant *now) {
-  return now->load_factor * corot_amplitude_at(&l->amplitude, now->side, now->load_t);
+static double factor_of(const corot_model *m, int k, const instant *now) {
+  double factor =
+      now->load_factor * corot_amplitude_at(&m->load[k].amplitude, now->side, now->load_t);
+  return now->inputs ? factor * corot_inputs_load(now, k) : factor;
 }
 
 /* The area vector at a point of a face where u has taken it [m^2]. */
@@ -220,7 +222,7 @@ void corot_loads_force(const corot_model *m, const instant *now, const double (*
   memset(f, 0, m->ndof * sizeof *f);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = factor_of(l, now);
+    double factor = factor_of(m, k, now);
     if (factor == 0) continue;
     if (l->force)
       for (int i = 0; i < m->ndof; i++) f[i] += factor * l->force[i];
@@ -233,6 +235,8 @@ void corot_loads_force(const corot_model *m, const instant *now, const double (*
       }
   }
   corot_drags_apply(m, now, f);
+  if (inputs_move(now)) corot_paths_drag(now, f);
+  if (now->inputs) corot_inputs_add_force(m, now, f);
 }
 
 bool corot_loads_follow(const corot_model *m) {
@@ -263,8 +267,8 @@ static void add_nodal_load(const corot_model *m, const load *l, double factor, c
 
 void corot_loads_nodal(const corot_model *m, const instant *now, const double (*u)[4],
                        double (*f)[3]) {
-  for (int k = 0; k < m->nload; k++)
-    add_nodal_load(m, &m->load[k], factor_of(&m->load[k], now), u, f);
+  for (int k = 0; k < m->nload; k++) add_nodal_load(m, &m->load[k], factor_of(m, k, now), u, f);
+  if (now->inputs) corot_inputs_add_nodal_force(m, now, f);
 }
 
 corot_status corot_load_force(const corot_model *m, double t, double factor,
@@ -285,7 +289,7 @@ void corot_loads_derivative(const corot_model *m, const instant *now, const doub
   const face_kind *kind = faces_of(m);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = factor_of(l, now);
+    double factor = factor_of(m, k, now);
     for (int at = 0; at < l->nface * kind->npoint; at++) { /* d(a x b) = da x b + a x db */
       const int *n = l->face[at / kind->npoint], q = at % kind->npoint;
       double a[3], b[3], da[3], db[3], first[3], second[3];
@@ -333,7 +337,7 @@ void corot_loads_stiffness(const corot_model *m, const instant *now, const doubl
   const face_kind *kind = faces_of(m);
   for (int k = 0; k < m->nload; k++) {
     const load *l = &m->load[k];
-    double factor = factor_of(l, now);
+    double factor = factor_of(m, k, now);
     if (factor == 0) continue;
     for (int at = 0; at < l->nface * kind->npoint; at++)
       add_turning(m, l, l->face[at / kind->npoint], at % kind->npoint, u, factor, K);

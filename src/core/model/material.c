@@ -80,6 +80,13 @@ static corot_status fill_group(const corot_mesh *mesh, const char *name, int k, 
   return COROT_OK;
 }
 
+void corot_material_share(const corot_model *m, material *a) {
+  double local = m->local_moduli < INFINITY ? m->local_moduli * a->mu : INFINITY;
+  bool averaged = a->lambda > local;
+  a->lambda_local = averaged ? local : a->lambda;
+  a->own_share = averaged ? local / a->lambda : 1;
+}
+
 corot_status corot_materials_create(const corot_model_def *def, corot_model *m, int *of_tet,
                                     bool *damped) {
   *damped = false;

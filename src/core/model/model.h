@@ -66,6 +66,7 @@ struct corot_model {
   corot_mesh *mesh;
   int nmaterial;
   material *material;
+  double local_moduli; /* so many mu of lambda no average takes; infinity: there are none */
   bool mass_damped;    /* some mass damping is not zero */
   solid_system system; /* what deforms; its first term is the solid on the mesh */
 
@@ -99,6 +100,9 @@ static inline const solid *solid_of(const corot_model *m) { return &m->system.te
 corot_status corot_materials_create(const corot_model_def *def, corot_model *m, int *of_tet,
                                     bool *damped);
 
+/* What of a material's lambda acts on each tet's own dilatation. */
+void corot_material_share(const corot_model *m, material *a);
+
 /* Nodal masses or loads of the finest level become, on the nodes of level 0, those of level 0 if it
    has its own: T' of corot/hierarchy.h. */
 corot_status corot_model_restrict(const corot_model_def *def, int nnode, double (*nodal)[3]);
@@ -112,6 +116,11 @@ COROT_SISTERS void corot_model_velocity(const corot_model *m, const instant *now
                                         double *nodal, int stride);
 COROT_SISTERS void corot_model_acceleration(const corot_model *m, const instant *now,
                                             const double *a, double *nodal, int stride);
+
+/* The motions' values alone, on their nodes. */
+void corot_motions_displace(const corot_model *m, const instant *now, double *nodal, int stride);
+void corot_motions_move(const corot_model *m, const instant *now, double *nodal, int stride);
+void corot_motions_accelerate(const corot_model *m, const instant *now, double *nodal, int stride);
 
 /* The free values alone: zero on every held component. */
 COROT_SISTERS void corot_model_spread(const corot_model *m, const double *values, double *nodal,

@@ -4,7 +4,7 @@
 
 #include "core/base/fault.h"
 #include "definition.h"
-#include "model.h"
+#include "inputs.h"
 
 static bool turns(const corot_motion *from) {
   return from->kind == COROT_ROTATE || from->kind == COROT_TURN;
@@ -265,9 +265,7 @@ static void spin_arms(const motion *a, const double X[3], double w[3], double d[
   }
 }
 
-void corot_model_displacement(const corot_model *m, const instant *now, const double *u,
-                              double *nodal, int stride) {
-  corot_model_spread(m, u, nodal, stride);
+void corot_motions_displace(const corot_model *m, const instant *now, double *nodal, int stride) {
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
     progress p = progress_at(a, now);
@@ -281,9 +279,7 @@ void corot_model_displacement(const corot_model *m, const instant *now, const do
   }
 }
 
-void corot_model_velocity(const corot_model *m, const instant *now, const double *v, double *nodal,
-                          int stride) {
-  corot_model_spread(m, v, nodal, stride);
+void corot_motions_move(const corot_model *m, const instant *now, double *nodal, int stride) {
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
     progress p = progress_at(a, now);
@@ -298,9 +294,7 @@ void corot_model_velocity(const corot_model *m, const instant *now, const double
   }
 }
 
-void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
-                              double *nodal, int stride) {
-  corot_model_spread(m, a, nodal, stride);
+void corot_motions_accelerate(const corot_model *m, const instant *now, double *nodal, int stride) {
   for (int k = 0; k < m->nmotion && now->moving; k++) {
     const motion *of = &m->motion[k];
     double velocity[3][2], by[3][2], field[2];
@@ -311,6 +305,27 @@ void corot_model_acceleration(const corot_model *m, const instant *now, const do
         nodal[of->node[i] * stride + c] = by[c][0] * field[0] + by[c][1] * field[1];
       }
   }
+}
+
+void corot_model_displacement(const corot_model *m, const instant *now, const double *u,
+                              double *nodal, int stride) {
+  corot_model_spread(m, u, nodal, stride);
+  corot_motions_displace(m, now, nodal, stride);
+  if (inputs_move(now)) corot_paths_place(now, 0, nodal, stride);
+}
+
+void corot_model_velocity(const corot_model *m, const instant *now, const double *v, double *nodal,
+                          int stride) {
+  corot_model_spread(m, v, nodal, stride);
+  corot_motions_move(m, now, nodal, stride);
+  if (inputs_move(now)) corot_paths_place(now, 1, nodal, stride);
+}
+
+void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
+                              double *nodal, int stride) {
+  corot_model_spread(m, a, nodal, stride);
+  corot_motions_accelerate(m, now, nodal, stride);
+  if (inputs_move(now) && now->moving) corot_paths_place(now, 2, nodal, stride);
 }
 
 bool corot_motion_jolts(const motion *a) {
@@ -343,7 +358,7 @@ void corot_motion_factors(const motion *a, const instant *now, double velocity[3
 bool corot_motions_carry(const corot_model *m, const instant *now, rigid_motion *all) {
   const motion *moving = NULL;
   progress p = {0}, of_it = {0};
-  if (isnan(now->side)) return false;
+  if (isnan(now->side) || inputs_move(now)) return false;
   for (int k = 0; k < m->nmotion; k++) {
     const motion *a = &m->motion[k];
     p = progress_at(a, now);

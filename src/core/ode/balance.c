@@ -7,7 +7,7 @@
 static corot_status find_internal(const corot_model *m, corot_state *s, double t, nodal_field u,
                                   nodal_field v) {
   memset(s->du, 0, s->nnode * sizeof *s->du);
-  return corot_system_force(&m->system, &s->system, age_of(s, t), u, v, NULL, s->du[0]);
+  return corot_system_force(system_of(m, s), &s->system, age_of(s, t), u, v, NULL, s->du[0]);
 }
 
 /* f [nnode] += factor * s->du, unless it is NULL. */
@@ -29,7 +29,7 @@ static void clear_followers(const corot_model *m, double (*f)[3]) {
 /* Elastic and viscous forces, together where they are not asked for one by one. */
 static corot_status add_stresses(const corot_model *m, corot_state *s, double t, nodal_field u,
                                  nodal_field v, const corot_nodal_forces *f) {
-  bool viscous = v && solid_of(m)->damped, apart = viscous && f->viscous;
+  bool viscous = v && body_of(m, s)->damped, apart = viscous && f->viscous;
   if (f->internal || apart) {
     COROT_TRY(find_internal(m, s, t, u, viscous && !apart ? v : NULL));
     add_scratch(s, -1, f->internal);
@@ -59,6 +59,10 @@ corot_status corot_forces(const corot_model *m, corot_state *s, double t, const 
   }
 
   if (f->load) corot_loads_nodal(m, &now, all_u, f->load);
+  if (f->load && inputs_feed_back(&now)) {
+    COROT_TRY(corot_feedback_evaluate(&now, all_u, all_v));
+    corot_feedback_add_nodal(&now, f->load);
+  }
   for (int k = 0; k < 4; k++) clear_followers(m, part[k]);
   return COROT_OK;
 }

@@ -76,7 +76,7 @@ void corot_deformation_measure(const corot_model *m, corot_state *s, double t, c
                                double strain_limit, double turn_limit, corot_deformation *out) {
   corot_deformation d = {.stretch_min = 1, .stretch_max = 1, .det_min = INFINITY, .det_tet = -1};
   const instant now = corot_state_at(s, t);
-  const solid *body = solid_of(m);
+  const solid *body = body_of(m, s);
   measure_deformation(body, corot_state_displace(m, s, &now, u), strain_limit, turn_limit, &d);
   double volume = 0;
   for (int b = 0; b < body->elements.nblock; b++)

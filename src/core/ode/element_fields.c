@@ -110,15 +110,15 @@ corot_status corot_show_begin(const corot_model *m, corot_state *s, double t, co
                               nodal_field *all_u) {
   const instant now = corot_state_at(s, t);
   *all_u = corot_state_displace(m, s, &now, u);
-  corot_status above = corot_system_settle(&m->system, &s->system, age_of(s, t), *all_u);
+  corot_status above = corot_system_settle(system_of(m, s), &s->system, age_of(s, t), *all_u);
   if (above && above != COROT_RETRY) return above;
-  corot_kernel_dilatation(solid_of(m), &s->system.of[0], *all_u);
+  corot_kernel_dilatation(body_of(m, s), &s->system.of[0], *all_u);
   return above;
 }
 
 corot_status corot_show_end(const corot_model *m, corot_state *s, int first, corot_status above) {
   corot_status status = corot_solid_check(&s->system.of[0], first);
-  return status ? corot_system_told(&m->system, &s->system, 0, status) : above;
+  return status ? corot_system_told(system_of(m, s), &s->system, 0, status) : above;
 }
 
 corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
@@ -126,5 +126,5 @@ corot_status corot_elements(const corot_model *m, corot_state *s, double t, cons
   nodal_field all_u;
   corot_status above = corot_show_begin(m, s, t, u, &all_u);
   if (above && above != COROT_RETRY) return above;
-  return corot_show_end(m, s, show_elements(solid_of(m), &s->system.of[0], all_u, fields), above);
+  return corot_show_end(m, s, show_elements(body_of(m, s), &s->system.of[0], all_u, fields), above);
 }

@@ -14,24 +14,37 @@ static corot_status status_at(const corot_state *s, double t, corot_status statu
   return corot_fail(COROT_RETRY, "%s at t = %g", corot_error(), t);
 }
 
-void corot_force_of_loads(const corot_model *m, corot_state *s, double t, const double *u,
-                          double *f) {
+corot_status corot_force_of_loads(const corot_model *m, corot_state *s, double t, const double *u,
+                                  const double *v, double *f) {
   const instant now = corot_state_at(s, t);
-  if (corot_loads_follow(m)) corot_state_displace(m, s, &now, u);
+  bool feeds_back = inputs_feed_back(&now);
+  if (feeds_back || corot_loads_follow(m)) corot_state_displace(m, s, &now, u);
+  if (feeds_back)
+    COROT_TRY(corot_feedback_evaluate(&now, (nodal_field)s->u, corot_state_move(m, s, &now, v)));
   corot_loads_force(m, &now, (nodal_field)s->u, f);
+  if (feeds_back) corot_feedback_add(&now, f);
   for (int i = m->body_ndof; i < m->ndof; i++) f[i] = 0;
+  return COROT_OK;
+}
+
+/* f [ndof] += the force of the feedback for displacement and velocity of all nodes. */
+static corot_status add_feedback(const instant *now, nodal_field u, nodal_field v, double *f) {
+  COROT_TRY(corot_feedback_evaluate(now, u, v));
+  corot_feedback_add(now, f);
+  return COROT_OK;
 }
 
 corot_status corot_residual_trial(const corot_model *m, corot_state *s, double t, const double *u,
                                   const double *v, double *r) {
   const instant now = corot_state_at(s, t);
-  bool damped = solid_of(m)->damped && now.moving;
-  nodal_field all_u = corot_state_displace(m, s, &now, u);
-  nodal_field all_v = damped ? corot_state_move(m, s, &now, v) : NULL;
+  bool damped = body_of(m, s)->damped && now.moving, feeds_back = inputs_feed_back(&now);
+  nodal_field all_u = corot_state_displace(m, s, &now, u), all_v = NULL;
+  if (damped || (feeds_back && now.moving)) all_v = corot_state_move(m, s, &now, v);
   corot_loads_force(m, &now, all_u, s->r);
   if (now.moving) corot_mass_damp(m, v, s->r);
-  corot_status status = corot_system_force(&m->system, &s->system, age_of(s, t), all_u, all_v,
-                                           (const int(*)[3])m->dof, s->r);
+  if (feeds_back) COROT_TRY(add_feedback(&now, all_u, all_v, s->r));
+  corot_status status = corot_system_force(system_of(m, s), &s->system, age_of(s, t), all_u,
+                                           damped ? all_v : NULL, (const int(*)[3])m->dof, s->r);
   COROT_TRY(status_at(s, t, status));
   memcpy(r, s->r, m->ndof * sizeof *r);
   return COROT_OK;
@@ -92,18 +105,19 @@ corot_status corot_rhs_trial(const corot_model *m, corot_state *s, double t, con
 corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
-  (void)v; /* viscous forces are linear in it */
   const instant now = corot_state_at(s, t);
-  const solid *body = solid_of(m);
+  const solid *body = body_of(m, s);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
   size_t bytes = body->pattern.nblock * sizeof *K;
   if (K) memset(K, 0, bytes);
   if (D) memset(D, 0, bytes);
   if (tangent == COROT_TANGENT_AUTO) tangent = COROT_TANGENT_HELD;
-  COROT_TRY(corot_system_matrices(&m->system, &s->system, age_of(s, t), all_u, tangent, K,
+  COROT_TRY(corot_system_matrices(system_of(m, s), &s->system, age_of(s, t), all_u, tangent, K,
                                   body->damped ? D : NULL));
   if (D) corot_mass_damping_matrix(m, D);
-  return COROT_OK;
+  if (!inputs_feed_back(&now)) return COROT_OK; /* all other forces are linear in v */
+  nodal_field all_v = v && now.moving ? corot_state_move(m, s, &now, v) : NULL;
+  return corot_feedback_matrices(&now, all_u, all_v, K, D);
 }
 
 void corot_load_stiffness(const corot_model *m, corot_state *s, double t, const double *u,
@@ -123,16 +137,24 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
   const instant now = corot_state_at(s, t);
-  bool damped = solid_of(m)->damped && now.moving;
+  bool damped = body_of(m, s)->damped && now.moving, feeds_back = inputs_feed_back(&now);
   nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = spread(m, du, s->du);
-  nodal_field all_v = damped ? corot_state_move(m, s, &now, v) : NULL;
-  nodal_field all_dv = damped ? spread(m, dv, s->dv) : NULL;
+  nodal_field all_v = NULL, all_dv = NULL;
+  if (damped || (feeds_back && now.moving)) {
+    all_v = corot_state_move(m, s, &now, v);
+    all_dv = spread(m, dv, s->dv);
+  }
   memset(s->r, 0, m->ndof * sizeof *s->r);
   corot_loads_derivative(m, &now, all_u, all_du, s->r);
   if (now.moving) corot_mass_damp(m, dv, s->r);
+  if (feeds_back) {
+    COROT_TRY(corot_feedback_differentiate(&now, all_u, all_v, all_du, all_dv));
+    corot_feedback_add(&now, s->r);
+  }
+  if (!damped) all_v = all_dv = NULL;
   corot_status status =
-      corot_system_derivative(&m->system, &s->system, age_of(s, t), all_u, all_v, all_du, all_dv,
-                              tangent, (const int(*)[3])m->dof, s->r);
+      corot_system_derivative(system_of(m, s), &s->system, age_of(s, t), all_u, all_v, all_du,
+                              all_dv, tangent, (const int(*)[3])m->dof, s->r);
   COROT_TRY(status_at(s, t, status));
   memcpy(jv, s->r, m->ndof * sizeof *jv);
   return COROT_OK;
@@ -172,8 +194,8 @@ static void add_inertia(const corot_model *m, corot_state *s, nodal_field all_u,
 static corot_status support_power(const corot_model *m, corot_state *s, double t, nodal_field u,
                                   nodal_field v, double (*f)[4], double *power) {
   memset(f, 0, s->nnode * sizeof *f);
-  COROT_TRY(corot_system_force(&m->system, &s->system, age_of(s, t), u,
-                               solid_of(m)->damped ? v : NULL, NULL, f[0]));
+  COROT_TRY(corot_system_force(system_of(m, s), &s->system, age_of(s, t), u,
+                               body_of(m, s)->damped ? v : NULL, NULL, f[0]));
   for (int n = 0; n < m->body_nnode; n++)
     for (int i = 0; i < 3; i++)
       if (m->dof[n][i] < 0) *power -= f[n][i] * v[n][i];
@@ -215,14 +237,15 @@ corot_status corot_energy(const corot_model *m, corot_state *s, double t, const 
   bool carried = m->nmotion > 0 && corot_motions_carry(m, &now, &g);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
   nodal_field all_v = corot_state_move(m, s, &now, v), force = (nodal_field)s->du;
-  COROT_TRY(corot_system_energy(&m->system, &s->system, age_of(s, t), all_u,
-                                solid_of(m)->damped ? all_v : NULL, &e.elastic,
+  COROT_TRY(corot_system_energy(system_of(m, s), &s->system, age_of(s, t), all_u,
+                                body_of(m, s)->damped ? all_v : NULL, &e.elastic,
                                 &e.power_dissipated));
 
   /* the supports, which need the forces on all nodes, and the loads */
-  if (m->nmotion)
+  if (m->nmotion || inputs_move(&now))
     COROT_TRY(status_at(s, t, support_power(m, s, t, all_u, all_v, s->du, &e.power_supports)));
   corot_loads_force(m, &now, all_u, s->r);
+  if (inputs_feed_back(&now)) COROT_TRY(add_feedback(&now, all_u, all_v, s->r));
   e.power_external = e.power_supports + dot(m->body_ndof, s->r, v);
   e.power_carried = e.power_supports;
   if (carried) e.power_carried -= along(m, all_u, &g, force, s->r);
@@ -254,7 +277,7 @@ corot_status corot_elastic_force(const corot_model *m, corot_state *s, double t,
   memset(s->du, 0, s->nnode * sizeof *s->du);
   s->system.frames = COROT_FRAMES_EXACT;
   corot_status status =
-      corot_system_force(&m->system, &s->system, age_of(s, t), all_u, NULL, NULL, s->du[0]);
+      corot_system_force(system_of(m, s), &s->system, age_of(s, t), all_u, NULL, NULL, s->du[0]);
   s->system.frames = frames;
   COROT_TRY(status_at(s, t, status));
   negate(s, f);
@@ -270,8 +293,8 @@ corot_status corot_internal_force(const corot_model *m, corot_state *s, double t
   COROT_TRY(corot_strain_index(strain, &index));
   nodal_field all_u = corot_state_displace(m, s, &now, u);
   memset(s->du, 0, s->nnode * sizeof *s->du);
-  corot_status status =
-      corot_solid_internal(solid_of(m), &s->system.of[0], all_u, index, lambda_part, mu_part, &sum);
+  corot_status status = corot_solid_internal(body_of(m, s), &s->system.of[0], all_u, index,
+                                             lambda_part, mu_part, &sum);
   s->system.inverted = s->system.of[0].inverted;
   COROT_TRY(status);
   negate(s, f);

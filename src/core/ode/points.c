@@ -254,6 +254,6 @@ corot_status corot_points_evaluate(const corot_points *points, corot_state *s, d
   nodal_field all_u;
   corot_status above = corot_show_begin(m, s, t, u, &all_u);
   if (above && above != COROT_RETRY) return above;
-  int first = show_places(points, solid_of(m), &s->system.of[0], all_u, fields);
+  int first = show_places(points, body_of(m, s), &s->system.of[0], all_u, fields);
   return corot_show_end(m, s, first, above);
 }

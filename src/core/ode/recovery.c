@@ -173,8 +173,8 @@ static double largest_displacement(int nnode, nodal_field u) {
 corot_status corot_stress_jumps(const corot_model *m, corot_state *s, double t, const double *u,
                                 double *share) {
   size_t nnode = (size_t)m->mesh->nnode;
-  recovery r = {.body = solid_of(m),
-                .linear = corot_system_is_linear(&m->system),
+  recovery r = {.body = body_of(m, s),
+                .linear = corot_system_is_linear(system_of(m, s)),
                 .sum = malloc(nnode * sizeof *r.sum),
                 .volume = malloc(nnode * sizeof *r.volume)};
   const instant now = corot_state_at(s, t);

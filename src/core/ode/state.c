@@ -52,7 +52,19 @@ corot_status corot_state_check(const corot_model *m, const corot_state *s, const
 
 size_t corot_state_bytes(const corot_state *s) { return s->bytes; }
 
-void corot_state_use(corot_state *s, corot_frames frames) { s->system.frames = frames; }
+void corot_state_use(corot_state *s, corot_frames frames) {
+  s->system.frames = frames;
+  s->changes++;
+}
+
+corot_status corot_state_use_inputs(corot_state *s, corot_inputs *inputs) {
+  if (inputs && inputs->model != s->model)
+    return corot_fail(COROT_EINVAL, "the inputs are of another model than the state");
+  s->inputs = inputs;
+  s->changes++;
+  return COROT_OK;
+}
+
 corot_frames corot_state_frames(const corot_state *s) { return s->system.frames; }
 int corot_state_inverted(const corot_state *s) { return s->system.inverted; }
 void corot_state_enter(corot_state *s, double t) { s->side = t; }
@@ -64,14 +76,15 @@ void corot_state_stand_still(corot_state *s, double t, double factor) {
 }
 
 instant corot_state_at(const corot_state *s, double t) {
-  if (s->still) return (instant){t, s->load_time, s->load_factor, NAN, false};
-  return (instant){t, t, 1, s->side, true};
+  if (s->still) return (instant){t, s->load_time, s->load_factor, NAN, false, s->inputs};
+  return (instant){t, t, 1, s->side, true, s->inputs};
 }
 
-nodal_field corot_state_displace(const corot_model *m, corot_state *s, const instant *now,
-                                 const double *u) {
-  corot_model_displacement(m, now, u, s->u[0], 4);
-  return (nodal_field)s->u;
+void corot_state_nodal(const corot_model *m, const corot_state *s, double t, const double *u,
+                       const double *v, double (*displacement)[3], double (*velocity)[3]) {
+  const instant now = corot_state_at(s, t);
+  if (displacement) corot_model_displacement(m, &now, u, displacement[0], 3);
+  if (velocity) corot_model_velocity(m, &now, v, velocity[0], 3);
 }
 
 nodal_field corot_state_move(const corot_model *m, corot_state *s, const instant *now,

@@ -3,16 +3,18 @@
 #define COROT_CORE_ODE_STATE_H
 
 #include "core/base/sisters.h"
-#include "core/model/model.h"
+#include "core/model/inputs.h"
 
 struct corot_state {
-  const corot_model *model; /* whose it is */
-  int nnode;                /* of the model */
-  double side;              /* of kinks: see instant.h */
-  bool still;               /* nothing has a velocity, and the loads are those */
-  double load_time;         /* of this time, not of the evaluation's */
-  double load_factor;       /* times this */
-  double t_update;          /* when the held frames were found */
+  const corot_model *model;
+  corot_inputs *inputs; /* NULL: none */
+  long changes;         /* of frames, or of inputs for others */
+  int nnode;            /* of the model */
+  double side;          /* of kinks: see instant.h */
+  bool still;           /* nothing has a velocity, and the loads are those */
+  double load_time;     /* of this time, not of the evaluation's */
+  double load_factor;   /* times this */
+  double t_update;      /* when the held frames were found */
   system_state system;
   double (*u)[4];            /* [nnode] scratch: displacement of all nodes, */
   double (*v)[4];            /* velocity, */
@@ -24,6 +26,15 @@ struct corot_state {
 /* COROT_EINVAL: there is no model or no state, or the state is another model's. `who` is the
    function that a host called. */
 corot_status corot_state_check(const corot_model *model, const corot_state *state, const char *who);
+
+/* What deforms: the model's system, or with the factors of inputs; and the solid on the mesh. */
+static inline const solid_system *system_of(const corot_model *m, const corot_state *s) {
+  return inputs_system(m, s->inputs);
+}
+
+static inline const solid *body_of(const corot_model *m, const corot_state *s) {
+  return &system_of(m, s)->term[0].body;
+}
 
 /* The instant of an evaluation at t. */
 COROT_SISTERS instant corot_state_at(const corot_state *s, double t);

@@ -122,14 +122,15 @@ static void take(corot_integrator_def *d, const corot_sun_advice *a) {
 }
 
 void corot_integrator_take_advice(corot_integrator *self, corot_sun_method method) {
-  corot_sun_advice a = corot_advise(self->model, method, self->def.rtol, self->def.max_step);
+  corot_sun_advice a = corot_advise(self->model, method, self->def.rtol, self->def.max_step,
+                                    corot_model_moves(self->model) || self->seen.moves);
   take(&self->def, &a);
 }
 
 static void choose(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
   if (d->atol_displacement == 0)
-    d->atol_displacement = corot_advise(self->model, COROT_SUN_CVODE, d->rtol, 0).atol_displacement;
+    d->atol_displacement = corot_advise(self->model, COROT_SUN_CVODE, d->rtol, 0, false).atol_displacement;
   if (d->atol_velocity == 0)
     d->atol_velocity = d->atol_displacement * corot_model_frequency(self->model);
   self->ops->choose(self);
@@ -150,8 +151,11 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
                              .def = *def,
                              .t = t,
                              .before = t,
-                             .t_energies = NAN};
+                             .t_energies = NAN,
+                             .t_given = -INFINITY,
+                             .seen = corot_state_stamp(state)};
   choose(self);
+  corot_materials_settle(state);
 
   corot_status status = corot_mass_solver_create(model, &self->mass);
   if (!status && !ops->kind.explicit_steps) {
@@ -239,7 +243,9 @@ corot_status corot_integrator_at(corot_integrator *self, double t, double *u, do
 corot_status corot_integrator_work(corot_integrator *self, double t, double *dissipated,
                                    double *external) {
   COROT_TRY(check_within(self, t));
-  return self->ops->work(self, t, dissipated, external);
+  COROT_TRY(self->ops->work(self, t, dissipated, external));
+  *external += t < self->t_given ? self->given_before : self->given;
+  return COROT_OK;
 }
 
 corot_status corot_integrator_energy(corot_integrator *self, const double *u, const double *v,
@@ -252,8 +258,28 @@ corot_status corot_integrator_energy(corot_integrator *self, const double *u, co
   return corot_energy(self->model, self->state, self->t, u, v, energies);
 }
 
+/* The energy that a change of materials puts into the body is external work. */
+static corot_status take_gain(corot_integrator *self) {
+  double gain, *u = malloc(corot_model_ndof(self->model) * sizeof *u);
+  if (!u) return corot_fail(COROT_ENOMEM, "no memory for a displacement");
+  corot_status status = self->ops->at(self, self->t, u, NULL);
+  if (!status) status = corot_materials_gain(self->model, self->state, self->t, u, &gain);
+  free(u);
+  COROT_TRY(status);
+  if (self->t_given != self->t) self->given_before = self->given;
+  self->t_given = self->t;
+  self->given += gain;
+  return COROT_OK;
+}
+
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
-  if (self->pencil) corot_pencil_invalidate(self->pencil);
+  state_stamp now = corot_state_stamp(self->state), before = self->seen;
+  bool loads = now.loads != before.loads, paths = now.paths != before.paths;
+  bool others = now.frames != before.frames || now.matrices != before.matrices;
+  if (now.matrices != before.matrices) COROT_TRY(take_gain(self));
+  self->seen = now;
+  if (loads && !paths && !others && self->ops->loaded) return self->ops->loaded(self, history);
+  if (self->pencil && (others || !(loads || paths))) corot_pencil_invalidate(self->pencil);
   return self->ops->changed(self, history);
 }
 

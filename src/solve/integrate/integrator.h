@@ -4,6 +4,7 @@
 
 #include <corot/integrate.h>
 
+#include "core/ode/stamp.h"
 #include "solve/host/host.h"
 #include "solve/pencil/pencil.h"
 
@@ -16,6 +17,8 @@ typedef struct integrator_ops {
   corot_status (*at)(corot_integrator *self, double t, double *u, double *v);
   corot_status (*work)(corot_integrator *self, double t, double *dissipated, double *external);
   corot_status (*changed)(corot_integrator *self, corot_history history);
+  /* Nothing has changed but forces that depend on u and t alone. NULL: as changed. */
+  corot_status (*loaded)(corot_integrator *self, corot_history history);
   void (*statistics)(const corot_integrator *self, corot_statistics *statistics);
 } integrator_ops;
 
@@ -31,18 +34,21 @@ struct corot_integrator {
   corot_state *state;
   corot_pencil *pencil; /* NULL: of explicit steps */
   corot_mass_solver *mass;
-  corot_integrator_def def; /* choices made; its strings are not kept */
-  double t;                 /* reached */
-  double before;            /* where the last step began; t: there is no interpolant */
-  double hlast;             /* length of the last step, 0: there was none */
-  int qlast;                /* its order */
-  long nst;                 /* steps taken */
-  double force_s, work_s;   /* wall time in the right-hand side and the work integrands [s] */
-  double step_s;            /* wall time of all steps [s] */
-  void *method;             /* the method's own part */
-  const char *table;        /* the Butcher table in use; NULL: none */
-  corot_energies energies;  /* where the work integrands were last evaluated */
-  double t_energies;        /* when that was; NaN: nowhere yet */
+  corot_integrator_def def;   /* choices made; its strings are not kept */
+  double t;                   /* reached */
+  double before;              /* where the last step began; t: there is no interpolant */
+  double hlast;               /* length of the last step, 0: there was none */
+  int qlast;                  /* its order */
+  long nst;                   /* steps taken */
+  double force_s, work_s;     /* wall time in the right-hand side and the work integrands [s] */
+  double step_s;              /* wall time of all steps [s] */
+  void *method;               /* the method's own part */
+  const char *table;          /* the Butcher table in use; NULL: none */
+  corot_energies energies;    /* where the work integrands were last evaluated */
+  double t_energies;          /* when that was; NaN: nowhere yet */
+  double given, given_before; /* external work by changes of materials, and before the latest [J] */
+  double t_given;             /* when that was; -infinity: there was none */
+  state_stamp seen;           /* of the state, as the integrator knows it */
 };
 
 /* corot_sight of the next step. */

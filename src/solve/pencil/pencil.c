@@ -21,8 +21,9 @@ static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
   p->K = malloc(nblock * sizeof *p->K);
   p->D = malloc(nblock * sizeof *p->D);
   p->u = malloc(p->n * sizeof *p->u);
+  p->v = malloc(p->n * sizeof *p->v);
   p->work = malloc(2 * (size_t)p->n * sizeof *p->work);
-  if (!p->K || !p->D || !p->u || !p->work)
+  if (!p->K || !p->D || !p->u || !p->v || !p->work)
     return corot_fail(COROT_ENOMEM, "no memory for matrices of %d unknowns", p->n);
   return COROT_OK;
 }
@@ -53,6 +54,7 @@ void corot_pencil_destroy(corot_pencil *p) {
   free(p->K);
   free(p->D);
   free(p->u);
+  free(p->v);
   free(p->work);
   free(p);
 }
@@ -81,6 +83,7 @@ corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, c
   p->assembled = p->tangent;
   p->t = t;
   memcpy(p->u, u, p->n * sizeof *u);
+  for (int i = 0; i < p->n; i++) p->v[i] = v ? v[i] : 0;
   p->counts.nassembly++;
   p->counts.assembly_s += clock_wall() - start;
   return status;
@@ -88,8 +91,7 @@ corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, c
 
 corot_status corot_pencil_assemble_again(corot_pencil *p, corot_tangent tangent) {
   double start = clock_wall();
-  /* K is that of v = 0, so any velocity will do */
-  corot_status status = corot_jacobian(p->model, p->state, p->t, p->u, p->u, tangent, p->K, NULL);
+  corot_status status = corot_jacobian(p->model, p->state, p->t, p->u, p->v, tangent, p->K, NULL);
   p->dirty = p->dirty || status != COROT_OK;
   p->assembled = tangent;
   p->counts.nassembly++;

@@ -15,7 +15,7 @@ struct corot_pencil {
   corot_tangent tangent; /* to be used */
   bool dirty;            /* K and D do not belong to the present frames, or were never assembled */
   double (*K)[9], (*D)[9]; /* [nblock] */
-  double t, *u;            /* [n] where they were assembled, */
+  double t, *u, *v;        /* [n] where they were assembled, */
   corot_tangent assembled; /* and how */
   double a, b, c;          /* of S */
   linsol chosen;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/ode/stamp.h"
 #include "equilibrium.h"
 #include "rigid.h"
 #include "solve/pencil/wall_clock.h"
@@ -60,7 +61,7 @@ static corot_status check(const corot_statics_def *d, const corot_model *model, 
 static corot_status allocate(corot_statics *s, const corot_model *model, double t,
                              const double *u0) {
   size_t n = corot_model_ndof(model);
-  COROT_TRY(corot_rigid_check(model));
+  if (!corot_inputs_may_hold(s->def.inputs)) COROT_TRY(corot_rigid_check(model));
   s->u = calloc(n, sizeof *s->u);
   if (!s->u) return corot_fail(COROT_ENOMEM, "no memory for statics");
   for (size_t i = 0; u0 && i < n; i++) {

@@ -72,6 +72,7 @@ static corot_status predict(corot_integrator *self, const stage *g, double *norm
 
 /* Whether K and D are the same in every step until the frames change. */
 static bool has_constant_matrices(const corot_integrator *self) {
+  if (corot_state_stamp(self->state).feedback) return false;
   const corot_strain_kind *strain = corot_strain_find(corot_model_strain(self->model));
   if (strain && strain->linear) return true; /* a hierarchy is none of them */
   return corot_model_matrices_by_frames(self->model) &&
@@ -247,9 +248,20 @@ static corot_status fixed_work(corot_integrator *self, double t, double *dissipa
   return COROT_OK;
 }
 
+/* The powers that the next step begins with, where inputs have jumped. */
+static corot_status renew_powers(corot_integrator *self) {
+  fixed *f = self->method;
+  corot_energies *e = &self->energies;
+  COROT_TRY(corot_energy(self->model, self->state, self->t, f->u[0], f->v[0], e));
+  f->power[0] = e->power_dissipated, f->power[1] = e->power_external;
+  f->counts.nfeQ++;
+  return COROT_OK;
+}
+
 /* One-step methods have no history; BDF keeps it, as the paper does, unless told otherwise. */
 static corot_status fixed_changed(corot_integrator *self, corot_history history) {
   fixed *f = self->method;
+  if (self->seen.inputs) COROT_TRY(renew_powers(self));
   if (history != COROT_HISTORY_RESTART) return COROT_OK;
   f->depth = 1;
   self->before = self->t; /* no interpolant any more */

@@ -132,5 +132,6 @@ const integrator_ops corot_integrator_ida = {
     .at = corot_multistep_at,
     .work = corot_multistep_work,
     .changed = corot_multistep_changed,
+    .loaded = corot_multistep_loaded,
     .statistics = corot_multistep_statistics,
 };

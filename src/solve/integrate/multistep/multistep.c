@@ -146,12 +146,24 @@ static corot_status derivative_jump(multistep *m) {
   return COROT_OK;
 }
 
-/* Whether the next step turns the jump into less than half the tolerance; if not, *h is a first
-   step that does. */
+/* The same where only the loads have jumped: no tet is asked. */
+static corot_status load_jump(multistep *m) {
+  const corot_integrator *self = m->driver.self;
+  int n = corot_model_ndof(self->model);
+  double *du = N_VGetArrayPointer(m->error), *dv = du + n;
+  COROT_TRY(corot_multistep_reload(m, dv));
+  COROT_TRY(corot_mass_solve(self->mass, dv, dv));
+  memset(du, 0, n * sizeof *du);
+  if (m->api->error_weights(m->memory, m->weight))
+    return corot_driver_refuse(&m->driver, "error weights");
+  return COROT_OK;
+}
+
+/* Whether the next step turns the jump in m->error into less than half the tolerance; if not, *h is
+   a first step that does. */
 static corot_status is_felt(multistep *m, bool *felt, double *h) {
   const corot_integrator *self = m->driver.self;
   double h_last = 0, h_next = 0;
-  COROT_TRY(derivative_jump(m));
   if (m->api->last_step(m->memory, &h_last) || m->api->next_step(m->memory, &h_next))
     return corot_driver_refuse(&m->driver, "statistics");
   return corot_sun_felt(self->pencil, m->error, m->weight, self->t, h_last, h_next, felt, h);
@@ -163,9 +175,25 @@ corot_status corot_multistep_changed(corot_integrator *self, corot_history histo
   multistep *m = self->method;
   double h = self->def.first_step;
   bool felt = true;
-  if (history == COROT_HISTORY_KEEP) return COROT_OK;
+  if (history == COROT_HISTORY_KEEP && !self->seen.inputs) return COROT_OK;
   m->ledger.broken = true;
+  if (history == COROT_HISTORY_KEEP) return COROT_OK;
   if (self->before == self->t) return begin_again(m, h);
+  if (history == COROT_HISTORY_AUTO) {
+    COROT_TRY(derivative_jump(m));
+    COROT_TRY(is_felt(m, &felt, &h));
+  }
+  if (!felt) return COROT_OK;
+  m->before.nrestart++;
+  return begin_again(m, h);
+}
+
+corot_status corot_multistep_loaded(corot_integrator *self, corot_history history) {
+  multistep *m = self->method;
+  double h = self->def.first_step;
+  bool felt = history == COROT_HISTORY_RESTART;
+  if (m->ledger.broken || self->before == self->t) return corot_multistep_changed(self, history);
+  COROT_TRY(load_jump(m));
   if (history == COROT_HISTORY_AUTO) COROT_TRY(is_felt(m, &felt, &h));
   if (!felt) return COROT_OK;
   m->before.nrestart++;

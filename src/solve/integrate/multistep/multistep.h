@@ -36,6 +36,7 @@ typedef struct multistep_power {
 typedef struct multistep_ledger {
   double t_start;                /* of the last step */
   N_Vector start, end;           /* [2n] y at its ends */
+  N_Vector room;                 /* [2n] */
   N_Vector loads;                /* [2n] room for both: */
   double *load_start, *load_end; /* [n] the force of the loads there [N] */
   bool broken;                   /* nothing is known of the forces where the next step begins */
@@ -77,12 +78,17 @@ void corot_multistep_close_ledger(multistep_ledger *ledger);
    m->scratch lend their room; m->weight is that of the step. */
 corot_status corot_multistep_measure_work(multistep *m, int order);
 
+/* The loads have changed at the end of the last step, which the next step starts with: jump [n] is
+   by how much [N]. */
+corot_status corot_multistep_reload(multistep *m, double *jump);
+
 /* Operations of an integrator. */
 corot_status corot_multistep_step(corot_integrator *self, double t_stop, corot_step *step);
 corot_status corot_multistep_at(corot_integrator *self, double t, double *u, double *v);
 corot_status corot_multistep_work(corot_integrator *self, double t, double *dissipated,
                                   double *external);
 corot_status corot_multistep_changed(corot_integrator *self, corot_history history);
+corot_status corot_multistep_loaded(corot_integrator *self, corot_history history);
 void corot_multistep_statistics(const corot_integrator *self, corot_statistics *statistics);
 
 #endif

@@ -35,7 +35,8 @@ corot_status corot_multistep_open_ledger(multistep *m) {
   l->start = N_VClone(m->driver.y);
   l->end = N_VClone(m->driver.y);
   l->loads = N_VClone(m->driver.y);
-  if (!l->start || !l->end || !l->loads)
+  l->room = N_VClone(m->driver.y);
+  if (!l->start || !l->end || !l->loads || !l->room)
     return corot_fail(COROT_ENOMEM, "no memory for the ledger of %s",
                       m->driver.self->ops->kind.name);
   N_VScale(1, m->driver.y, l->end);
@@ -49,6 +50,7 @@ void corot_multistep_close_ledger(multistep_ledger *l) {
   if (l->start) N_VDestroy(l->start);
   if (l->end) N_VDestroy(l->end);
   if (l->loads) N_VDestroy(l->loads);
+  if (l->room) N_VDestroy(l->room);
 }
 
 /* --- The loads ------------------------------------------------------------------------------- */
@@ -57,10 +59,9 @@ void corot_multistep_close_ledger(multistep_ledger *l) {
 typedef struct path {
   int n;
   double t[LOBATTO_MOST];
-  const double *u[LOBATTO_MOST]; /* [ndof] */
+  const double *u[LOBATTO_MOST]; /* [2 ndof] and velocity */
 } path;
 
-/* Of the room it takes the halves of the velocities are free afterwards. */
 static corot_status find_path(multistep *m, double t, int npoint, path *p) {
   const multistep_ledger *l = &m->ledger;
   const lobatto_point *rule = corot_lobatto(npoint);
@@ -100,6 +101,17 @@ static double along_slope(int n, const double *f, const path *p, int k) {
   return sum;
 }
 
+/* load [n] = the force of the loads in the state y at t; where a feedback cannot be evaluated,
+   which it can be at the ends of the step, that of its start. */
+static corot_status find_load(const multistep *m, double t, const double *y, double *load) {
+  const corot_integrator *self = m->driver.self;
+  int n = corot_model_ndof(self->model);
+  corot_status status = corot_force_of_loads(self->model, self->state, t, y, y + n, load);
+  if (sun_is_fatal(status)) return status;
+  if (status && load != m->ledger.load_start) memcpy(load, m->ledger.load_start, n * sizeof *load);
+  return COROT_OK;
+}
+
 /* *work = that of the loads from the start of the last step to t, where their force is `load` in
    the end. */
 static corot_status work_of_loads(multistep *m, double t, int order, double *load, double *work) {
@@ -111,7 +123,7 @@ static corot_status work_of_loads(multistep *m, double t, int order, double *loa
   COROT_TRY(find_path(m, t, npoint, &p));
   if (npoint > 2) sum = along_slope(n, load_start, &p, 0);
   for (int k = 1; k < npoint; k++) {
-    corot_force_of_loads(self->model, self->state, p.t[k], p.u[k], load);
+    COROT_TRY(find_load(m, p.t[k], p.u[k], load));
     if (npoint > 2) sum += along_slope(n, load, &p, k);
   }
   *work = npoint > 2 ? sum : mean_along(n, load_start, load, p.u[0], p.u[1]);
@@ -222,8 +234,7 @@ corot_status corot_multistep_measure_work(multistep *m, int order) {
   turn_page(m);
   if (l->broken) {
     l->npower = 0;
-    corot_force_of_loads(self->model, self->state, l->t_start, N_VGetArrayPointer(l->start),
-                         l->load_start);
+    COROT_TRY(find_load(m, l->t_start, N_VGetArrayPointer(l->start), l->load_start));
   }
   /* powers: those at the ends of the last steps, or where they do not tell, along the path */
   add_end(m);
@@ -244,13 +255,28 @@ corot_status corot_multistep_measure_work(multistep *m, int order) {
   return COROT_OK;
 }
 
+corot_status corot_multistep_reload(multistep *m, double *jump) {
+  multistep_ledger *l = &m->ledger;
+  driver *d = &m->driver;
+  const corot_integrator *self = d->self;
+  const double *y = N_VGetArrayPointer(l->end);
+  int n = corot_model_ndof(self->model);
+  for (int i = 0; i < n; i++) jump[i] = -l->load_end[i];
+  if (corot_driver_answer(
+          d, corot_force_of_loads(self->model, self->state, m->t_last, y, y + n, l->load_end)))
+    return corot_driver_give_up(d, "after a change of the inputs");
+  for (int i = 0; i < n; i++) jump[i] += l->load_end[i];
+  if (l->npower > 1) l->npower = 1; /* powers have a kink there */
+  return COROT_OK;
+}
+
 corot_status corot_multistep_work(corot_integrator *self, double t, double *dissipated,
                                   double *external) {
   multistep *m = self->method;
   multistep_ledger *l = &m->ledger;
   double work[NWORK] = {l->work_end[0], l->work_end[1]}, loads;
   if (t < m->t_last) {
-    double *load = N_VGetArrayPointer(m->weight) + corot_model_ndof(self->model);
+    double *load = N_VGetArrayPointer(l->room);
     memcpy(work, l->work_start, sizeof work);
     COROT_TRY(work_of_loads(m, t, self->qlast, load, &loads));
     add_powers(m, t, work);

@@ -51,7 +51,7 @@ static const rk_api api = {.advance = SUN_ARK(Evolve),
 
 static void choose(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
-  corot_sun_advice a = corot_advise(self->model, COROT_SUN_ARKODE, d->rtol, d->max_step);
+  corot_sun_advice a = corot_advise(self->model, COROT_SUN_ARKODE, d->rtol, d->max_step, false);
   if (d->order == 0)
     d->order = d->table ? corot_rk_order(d->table, corot_rk_implicit) : a.max_order;
   if (d->predictor < 0) d->predictor = a.predictor;
@@ -122,5 +122,6 @@ const integrator_ops corot_integrator_arkode = {
     .at = corot_rk_at,
     .work = corot_rk_work,
     .changed = corot_rk_changed,
+    .loaded = corot_rk_loaded,
     .statistics = corot_rk_statistics,
 };

@@ -159,5 +159,6 @@ const integrator_ops corot_integrator_erk = {
     .at = corot_rk_at,
     .work = corot_rk_work,
     .changed = corot_rk_changed,
+    .loaded = corot_rk_loaded,
     .statistics = corot_rk_statistics,
 };

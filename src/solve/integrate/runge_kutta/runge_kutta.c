@@ -27,8 +27,8 @@ corot_status corot_rk_open(runge_kutta *m, corot_integrator *self, const rk_api 
   m->fresh = true;
   driver *d = &m->driver;
   COROT_TRY(corot_driver_open(d, self, u, v));
-  N_Vector *const like_y[] = {&m->start.y, &m->start.rate, &m->end.y,    &m->end.rate,
-                              &m->error,   &m->weight,     &m->slope[0], &m->slope[1]};
+  N_Vector *const like_y[] = {&m->start.y, &m->start.rate, &m->end.y,    &m->end.rate, &m->error,
+                              &m->weight,  &m->slope[0],   &m->slope[1], &m->load};
   bool short_of_memory = !(m->power = N_VNew_Serial(2, d->ctx));
   for (size_t k = 0; k < sizeof like_y / sizeof *like_y; k++)
     short_of_memory = !(*like_y[k] = N_VClone(d->y)) || short_of_memory;
@@ -47,7 +47,7 @@ void corot_rk_close(void *method) {
   corot_explicit_limit_destroy(m->limit);
   corot_rk_release_stages(&m->stages);
   N_Vector const vectors[] = {m->start.y, m->start.rate, m->end.y,    m->end.rate, m->error,
-                              m->weight,  m->power,      m->slope[0], m->slope[1]};
+                              m->weight,  m->power,      m->slope[0], m->slope[1], m->load};
   for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
     if (vectors[k]) N_VDestroy(vectors[k]);
   corot_driver_close(&m->driver);
@@ -357,6 +357,15 @@ static corot_status cross(runge_kutta *m, double t_stop) {
   return find_rate(m, &m->end, true);
 }
 
+/* The force [n] of the loads at the end of the last step. */
+static corot_status note_loads(runge_kutta *m, double *force) {
+  driver *d = &m->driver;
+  const double *y = N_VGetArrayPointer(m->end.y), *v = y + corot_model_ndof(d->self->model);
+  corot_status status = corot_force_of_loads(d->self->model, d->self->state, m->end.t, y, v, force);
+  if (corot_driver_answer(d, status)) return corot_driver_give_up(d, "in the state reached");
+  return COROT_OK;
+}
+
 corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *step) {
   runge_kutta *m = self->method;
   driver *d = &m->driver;
@@ -374,6 +383,7 @@ corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *st
   long nni = 0;
   if (!status && m->api->nni && m->api->nni(m->memory, &nni))
     status = corot_driver_refuse(d, "statistics");
+  if (!status && self->seen.inputs) status = note_loads(m, N_VGetArrayPointer(m->load));
   m->fresh = status != COROT_OK;
   if (status) { /* of the step before only its end is left */
     m->end = m->start;
@@ -401,6 +411,25 @@ corot_status corot_rk_changed(corot_integrator *self, corot_history history) {
   m->nrestart++;
   m->driver.collapsed = false;
   self->before = self->t;
+  return COROT_OK;
+}
+
+/* The first stage goes by the rate at the end of the last step: where this is as it was, to a
+   hundredth of the tolerance in a step, there is nothing to begin. */
+corot_status corot_rk_loaded(corot_integrator *self, corot_history history) {
+  runge_kutta *m = self->method;
+  int n = corot_model_ndof(self->model);
+  double *old = N_VGetArrayPointer(m->load), *now = old + n;
+  double *du = N_VGetArrayPointer(m->error), *dv = du + n, usual = 0;
+  if (self->nst == 0 || m->stale || self->before == self->t || history == COROT_HISTORY_RESTART)
+    return corot_rk_changed(self, history);
+  COROT_TRY(note_loads(m, now));
+  for (int i = 0; i < n; i++) du[i] = 0, dv[i] = now[i] - old[i];
+  COROT_TRY(corot_mass_solve(self->mass, dv, dv));
+  memcpy(old, now, n * sizeof *old);
+  if (m->api->next_step(m->memory, &usual)) return corot_driver_refuse(&m->driver, "statistics");
+  if (!(usual * N_VWrmsNorm(m->error, m->weight) < 0.01)) return corot_rk_changed(self, history);
+  m->end.power_known = false;
   return COROT_OK;
 }
 

@@ -81,6 +81,8 @@ typedef struct runge_kutta {
   bool resolved;                     /* the last step resolves all that its slopes show */
   bool inside_known;                 /* slope and powers are those of the last step */
   N_Vector error, weight;            /* [2n] */
+  N_Vector load;                     /* [2n] force of the loads at the end of the last step, where
+                                        there are inputs, and room for another */
   N_Vector power;                    /* [2] dissipated, external */
   int npoint;                        /* of Lobatto's rule in each step */
   double powers[LOBATTO_MOST][2];    /* at its points in the last step */
@@ -104,6 +106,7 @@ corot_status corot_rk_step(corot_integrator *self, double t_stop, corot_step *st
 corot_status corot_rk_at(corot_integrator *self, double t, double *u, double *v);
 corot_status corot_rk_work(corot_integrator *self, double t, double *dissipated, double *external);
 corot_status corot_rk_changed(corot_integrator *self, corot_history history);
+corot_status corot_rk_loaded(corot_integrator *self, corot_history history);
 void corot_rk_statistics(const corot_integrator *self, corot_statistics *statistics);
 
 /* Keeps the stages of an implicit method of this table, and finds the polynomial through them. */
