@@ -130,7 +130,8 @@ void corot_integrator_take_advice(corot_integrator *self, corot_sun_method metho
 static void choose(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
   if (d->atol_displacement == 0)
-    d->atol_displacement = corot_advise(self->model, COROT_SUN_CVODE, d->rtol, 0, false).atol_displacement;
+    d->atol_displacement =
+        corot_advise(self->model, COROT_SUN_CVODE, d->rtol, 0, false).atol_displacement;
   if (d->atol_velocity == 0)
     d->atol_velocity = d->atol_displacement * corot_model_frequency(self->model);
   self->ops->choose(self);
