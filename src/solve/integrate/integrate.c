@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/names.h"
+#include "core/ode/state.h"
 #include "integrator.h"
 #include "solve/pencil/wall_clock.h"
 
@@ -139,6 +140,7 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
                                      corot_state *state, double t, const double *u, const double *v,
                                      corot_integrator **integrator) {
   const integrator_ops *ops;
+  COROT_TRY(corot_state_check(model, state, "corot_integrator_create"));
   COROT_TRY(check(def));
   COROT_TRY(find_method(def->method, &ops));
   COROT_TRY(check_start(t, corot_model_ndof(model), u, v));
