@@ -213,6 +213,35 @@ static void a_host_feels_changes_as_our_own(void **state) {
   }
 }
 
+/* Where nothing has changed nothing is lost: a multistep method keeps its history, and K and D stay
+   where only loads may have changed; else they are made anew at the next set-up. */
+static void what_does_not_change_costs_nothing(void **state) {
+  (void)state;
+  bar b = bar_create(&example2);
+  for (int k = 0; k < NHOST; k++)
+    for (int matrices = 0; matrices < 2; matrices++) {
+      long nassembly[2], nst[2];
+      for (int told = 0; told < 2; told++) {
+        machine m;
+        start_host(&m, k, &b, 1e-4);
+        assert_ok(corot_sun_host_advance(&m.host, 0.3, m.y));
+        for (int window = 1; window <= 10; window++) {
+          if (told)
+            assert_ok(matrices ? corot_sun_host_changed(&m.host, m.y)
+                               : corot_sun_host_loaded(&m.host, m.y));
+          assert_ok(corot_sun_host_advance(&m.host, 0.3 + 0.01 * window, m.y));
+        }
+        assert_int_equal(m.host.nrestart, 0);
+        nassembly[told] = corot_pencil_statistics(m.pencil).nassembly;
+        nst[told] = m.host.nst;
+        end_host(&m, k);
+      }
+      assert_true(nst[1] <= 1.2 * nst[0]);
+      if (!matrices && k < 2) assert_int_equal(nassembly[1], nassembly[0]);
+    }
+  bar_destroy(&b);
+}
+
 /* A window that is gone through twice, as by a partner who iterates, comes out the same to the last
    bit: a restart forgets all that was. */
 static void a_window_can_be_repeated(void **state) {
@@ -261,6 +290,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_host_takes_the_steps_of_our_own),
       cmocka_unit_test(a_host_feels_changes_as_our_own),
+      cmocka_unit_test(what_does_not_change_costs_nothing),
       cmocka_unit_test(a_window_can_be_repeated),
       cmocka_unit_test(a_host_gives_up_where_an_element_inverts),
   };

@@ -25,9 +25,9 @@ static int choose_max_order(const corot_model *model, double rtol, double max_st
    take the body away from an old matrix, and what the iteration leaves shakes it: of the paper's
    turning bar, at rtol 1e-4, the ledger is off by 3.1 % with a matrix of a hundred steps and 0.03,
    by 0.1 % with one of thirty and 0.01, for a tenth more time; its cube takes half the steps. */
-static void advise_bdf(const corot_model *model, double rtol, double max_step,
+static void advise_bdf(const corot_model *model, double rtol, double max_step, bool moves,
                        corot_sun_advice *a) {
-  bool moves = corot_model_moves(model), damped = corot_model_damping_time(model) > 0;
+  bool damped = corot_model_damping_time(model) > 0;
   a->max_order = choose_max_order(model, rtol, max_step);
   a->tangent = COROT_TANGENT_HELD;
   a->reassembly = a->refactorisation = moves ? 30 : 100;
@@ -61,14 +61,14 @@ static void advise_arkode(double rtol, corot_sun_advice *a) {
 }
 
 corot_sun_advice corot_advise(const corot_model *model, corot_sun_method method, double rtol,
-                              double max_step) {
+                              double max_step, bool moves) {
   corot_sun_advice a = {.error_failures = 40};
   a.atol_displacement = 0.01 * rtol * corot_model_length(model);
   a.atol_velocity = a.atol_displacement * corot_model_frequency(model);
   if (method == COROT_SUN_ARKODE)
     advise_arkode(rtol, &a);
   else
-    advise_bdf(model, rtol, max_step, &a);
+    advise_bdf(model, rtol, max_step, moves, &a);
   if (method == COROT_SUN_IDA) advise_ida(&a);
   return a;
 }
@@ -81,6 +81,6 @@ corot_status corot_sun_advise(const corot_model *model, corot_sun_method method,
     return corot_fail(COROT_EINVAL, "corot_sun_advise: method %d is none", (int)method);
   if (!(rtol > 0) || !isfinite(rtol))
     return corot_fail(COROT_EINVAL, "corot_sun_advise: rtol = %g is not positive and finite", rtol);
-  *advice = corot_advise(model, method, rtol, 0);
+  *advice = corot_advise(model, method, rtol, 0, corot_model_moves(model));
   return COROT_OK;
 }

@@ -12,9 +12,10 @@ typedef struct tolerance {
 corot_status corot_weigh(const corot_model *model, const tolerance *tol, const double *y,
                          double *w);
 
-/* The choices of corot_sun_advise where no step is longer than max_step (0: no limit). */
+/* The choices of corot_sun_advise where no step is longer than max_step (0: no limit). `moves`:
+   supports do. */
 corot_sun_advice corot_advise(const corot_model *model, corot_sun_method method, double rtol,
-                              double max_step);
+                              double max_step, bool moves);
 
 /* Where a step from t, h long as far as is known (0: not at all), must stop: at t_stop, or before,
    at corot_model_horizon(). A step that goes past what an amplitude does has not seen it, and its

@@ -140,6 +140,11 @@ corot_status corot_sun_host_changed(corot_sun_host *h, N_Vector y) {
   return change(h, y, true);
 }
 
+corot_status corot_sun_host_loaded(corot_sun_host *h, N_Vector y) {
+  COROT_TRY(corot_seam_vectors(h->api->name, 2 * h->pencil->n, 1, &y));
+  return change(h, y, false);
+}
+
 /* --- A step ----------------------------------------------------------------------------------- */
 
 /* Where the body cannot be evaluated beyond some time (an element inverts), SUNDIALS takes ever

@@ -123,14 +123,15 @@ static void take(corot_integrator_def *d, const corot_sun_advice *a) {
 }
 
 void corot_integrator_take_advice(corot_integrator *self, corot_sun_method method) {
-  corot_sun_advice a = corot_advise(self->model, method, self->def.rtol, self->def.max_step);
+  bool moves = corot_model_moves(self->model);
+  corot_sun_advice a = corot_advise(self->model, method, self->def.rtol, self->def.max_step, moves);
   take(&self->def, &a);
 }
 
 static void choose(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
   if (d->atol_displacement == 0)
-    d->atol_displacement = corot_advise(self->model, COROT_SUN_CVODE, d->rtol, 0).atol_displacement;
+    d->atol_displacement = 0.01 * d->rtol * corot_model_length(self->model);
   if (d->atol_velocity == 0)
     d->atol_velocity = d->atol_displacement * corot_model_frequency(self->model);
   self->ops->choose(self);

@@ -56,7 +56,7 @@ static const rk_api api = {.advance = ARKStepEvolve,
 
 static void choose(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
-  corot_sun_advice a = corot_advise(self->model, COROT_SUN_ARKODE, d->rtol, d->max_step);
+  corot_sun_advice a = corot_advise(self->model, COROT_SUN_ARKODE, d->rtol, d->max_step, false);
   if (d->order == 0)
     d->order = d->table ? corot_rk_order(d->table, corot_rk_implicit) : a.max_order;
   if (d->predictor < 0) d->predictor = a.predictor;
