@@ -147,10 +147,12 @@ COROT_API corot_status corot_sun_host_step(corot_sun_host *host, double t_stop, 
 /* Steps until t_stop. Failures as of corot_sun_host_step. */
 COROT_API corot_status corot_sun_host_advance(corot_sun_host *host, double t_stop, N_Vector y);
 
-/* Call this when r has changed at the time reached, as by other frames or what comes in at run
-   time: matrices are made anew, and the integrator begins again if it feels the jump
-   (corot_sun_felt). Failures as of corot_sun_host_step. */
+/* Call this when r has changed at the time reached, as by other frames or what comes in at run time:
+   the integrator begins again if it feels the jump (corot_sun_felt), and keeps its history if not.
+   _loaded: by forces that do not depend on u and v, so that the matrices are as they were; _changed:
+   these are made anew. Failures as of corot_sun_host_step. */
 COROT_API corot_status corot_sun_host_changed(corot_sun_host *host, N_Vector y);
+COROT_API corot_status corot_sun_host_loaded(corot_sun_host *host, N_Vector y);
 
 /* Begins again at (t, y) that the host has set, with a first step of h [s]; 0: SUNDIALS chooses.
    Failures as of corot_sun_host_step. */

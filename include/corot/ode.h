@@ -7,7 +7,9 @@
 
    u displacement [m], v velocity [m/s], M mass, lumped or consistent, R one rotation ("frame") a
    tet.
-   Arrays u, v, r are [n], ordered by corot_model_dof(), and owned by the caller.
+   Arrays u, v, r are [n], ordered by corot_model_dof(), and owned by the caller. COROT_EINVAL of
+   corot_residual, corot_rhs, corot_jacobian, corot_jvp, corot_energy, corot_elastic_force and
+   corot_frames_update: model or state is NULL, or the state is another model's.
 
    Strain measures (Hauth & Strasser 2004; F gradient of the deformation, F = R S its polar
    decomposition). Each is a choice of basis B = R or F for the pressure (lambda) term and for the
@@ -54,7 +56,8 @@ typedef enum corot_frames {
    to one thread at a time; any number of states share a model. */
 typedef struct corot_state corot_state;
 
-/* Frames exact; the held frames are those of u = 0. The model must outlive the state. COROT_ENOMEM. */
+/* Frames exact; the held frames are those of u = 0. The model must outlive the state. COROT_ENOMEM;
+   COROT_EINVAL: there is no model. */
 COROT_API corot_status corot_state_create(const corot_model *model, corot_state **state);
 
 /* Takes NULL. */

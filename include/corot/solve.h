@@ -16,6 +16,10 @@
 #include <sundials/sundials_matrix.h>
 #include <sundials/sundials_nvector.h>
 
+#ifndef SUNDIALS_DOUBLE_PRECISION
+#error "corot needs a SUNDIALS of double precision: its sunrealtype is corot's double"
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -49,11 +53,11 @@ COROT_API corot_linear_def corot_linear_defaults(void);
 typedef struct corot_pencil corot_pencil;
 
 /* `linear` NULL: the defaults. Model and state must outlive the pencil. COROT_EINVAL: there is no
-   solver, ordering ... of that name, or not in this build; the tolerance is not positive; the
-   refinement is not there, or not of the model's mesh; the matrix has more entries than an int
-   counts. COROT_ENOMEM. */
+   model or no state, or the state is another model's; there is no solver, ordering ... of that name,
+   or not in this build; the tolerance is not positive; the refinement is not there, or not of the
+   model's mesh; the matrix has more entries than an int counts. COROT_ENOMEM. */
 COROT_API corot_status corot_pencil_create(const corot_model *model, corot_state *state,
-                                           const corot_linear_def *linear, corot_pencil **pencil);
+                                 const corot_linear_def *linear, corot_pencil **pencil);
 
 /* Takes NULL. */
 COROT_API void corot_pencil_destroy(corot_pencil *pencil);
@@ -132,9 +136,8 @@ COROT_API corot_pencil_counts corot_pencil_statistics(const corot_pencil *pencil
 /* M^-1: a division where M is lumped, a factor computed once where it is consistent. */
 typedef struct corot_mass_solver corot_mass_solver;
 
-/* The model must outlive it. COROT_ENOMEM; a lumped mass needs hardly any. */
-COROT_API corot_status corot_mass_solver_create(const corot_model *model,
-                                                corot_mass_solver **solver);
+/* The model must outlive it. COROT_ENOMEM; a lumped mass needs hardly any. COROT_EINVAL: no model. */
+COROT_API corot_status corot_mass_solver_create(const corot_model *model, corot_mass_solver **solver);
 
 /* Takes NULL. */
 COROT_API void corot_mass_solver_destroy(corot_mass_solver *solver);
@@ -151,13 +154,15 @@ COROT_API const char *corot_sundials_version(void);
 /* A SUNMatrix (SUNMATRIX_CUSTOM) and a SUNLinearSolver (SUNLINEARSOLVER_DIRECT) that stand for the
    Newton matrix I - gamma J of y = (u, v) [2n] by way of the pencil. Give both to
    CVodeSetLinearSolver, and corot_sun_linsys to CVodeSetLinSysFn; free them by SUNMatDestroy and
-   SUNLinSolFree. NULL where memory ran out or ctx is NULL. The pencil must outlive them. */
+   SUNLinSolFree. NULL where memory ran out or pencil or ctx is NULL. The pencil must outlive them. */
 COROT_API SUNMatrix corot_sun_matrix(corot_pencil *pencil, SUNContext ctx);
 COROT_API SUNLinearSolver corot_sun_linsol(corot_pencil *pencil, SUNContext ctx);
 
 /* What the functions below return to an integrator: 0, or as its manual asks a number > 0 where a
    shorter step may help (a tet is inverted, the matrix has no factor), or a corot_status < 0 where
-   nothing helps (COROT_ENOMEM, COROT_EINVAL). corot_error() tells more.
+   nothing helps (COROT_ENOMEM, COROT_EINVAL: user_data is NULL, or has a state of another model; a
+   vector is of another length, or has no array in this process's memory; the matrix is none of
+   corot_sun_matrix). corot_error() tells more.
 
    A CVLsLinSysFn. Its user_data is not looked at: the pencil comes from A. */
 COROT_API int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A,

@@ -169,9 +169,130 @@ static void a_host_takes_the_steps_of_our_own(void **state) {
     }
 }
 
+/* Frames that are held, and found anew every tenth of a second: r jumps there, and the host says
+   so. At most 1.2 times the steps of our own, to the same answer. */
+static void a_host_feels_changes_as_our_own(void **state) {
+  (void)state;
+  const double every = 0.1, t_end = 2;
+  const corot_amplitude at_once = {.n = 0};
+  for (int k = 0; k < NHOST; k++) {
+    bar b = paper_bar((double[]){20, 10, 0}, &at_once);
+    corot_integrator_def def = corot_integrator_defaults();
+    corot_frame_policy policy = corot_frame_policy_defaults();
+    def.method = hosts[k].name;
+    policy.frames = COROT_FRAMES_HELD, policy.interval = every;
+    corot_integrator *ours = start(&b, &def);
+    corot_frame_clock *clock;
+    corot_frame_event event;
+    corot_state_enter(b.state, 0);
+    assert_ok(corot_frame_clock_create(&policy, b.model, b.state, ours, 0, b.u, b.v, &clock));
+    for (corot_step step = {0}; step.t < t_end;) {
+      assert_ok(corot_integrator_step(ours, fmin(t_end, corot_frame_clock_stop(clock)), &step));
+      assert_ok(corot_frame_clock_tick(clock, step.t, &event));
+    }
+    double *u = malloc(b.n * sizeof *u);
+    assert_ok(corot_integrator_at(ours, t_end, u, NULL));
+    long nst = corot_integrator_statistics(ours).nst;
+    corot_frame_clock_destroy(clock);
+    corot_integrator_destroy(ours);
+
+    machine m;
+    assert_ok(corot_frames_update(b.model, b.state, 0, b.u, NULL));
+    start_host(&m, k, &b, 1e-4);
+    for (int window = 1; window * every <= t_end * (1 + 1e-12); window++) {
+      assert_ok(corot_sun_host_advance(&m.host, window * every, m.y));
+      assert_ok(corot_frames_update(b.model, b.state, m.host.t, N_VGetArrayPointer(m.y), NULL));
+      assert_ok(corot_sun_host_changed(&m.host, m.y));
+    }
+    if (m.host.nst > 1.2 * nst) fail_msg("%s: %ld steps, ours %ld", hosts[k].name, m.host.nst, nst);
+    double off = m.host.api->method == COROT_SUN_ARKODE ? 0.05 : 1e-3;
+    assert_close(N_VGetArrayPointer(m.y)[b.tip], u[b.tip], off, 0);
+    free(u);
+    end_host(&m, k);
+    bar_destroy(&b);
+  }
+}
+
+/* Where nothing has changed nothing is lost: a multistep method keeps its history, and K and D stay
+   where only loads may have changed; else they are made anew at the next set-up. */
+static void what_does_not_change_costs_nothing(void **state) {
+  (void)state;
+  bar b = bar_create(&example2);
+  for (int k = 0; k < NHOST; k++)
+    for (int matrices = 0; matrices < 2; matrices++) {
+      long nassembly[2], nst[2];
+      for (int told = 0; told < 2; told++) {
+        machine m;
+        start_host(&m, k, &b, 1e-4);
+        assert_ok(corot_sun_host_advance(&m.host, 0.3, m.y));
+        for (int window = 1; window <= 10; window++) {
+          if (told)
+            assert_ok(matrices ? corot_sun_host_changed(&m.host, m.y)
+                               : corot_sun_host_loaded(&m.host, m.y));
+          assert_ok(corot_sun_host_advance(&m.host, 0.3 + 0.01 * window, m.y));
+        }
+        assert_int_equal(m.host.nrestart, 0);
+        nassembly[told] = corot_pencil_statistics(m.pencil).nassembly;
+        nst[told] = m.host.nst;
+        end_host(&m, k);
+      }
+      assert_true(nst[1] <= 1.2 * nst[0]);
+      if (!matrices && k < 2) assert_int_equal(nassembly[1], nassembly[0]);
+    }
+  bar_destroy(&b);
+}
+
+/* A window that is gone through twice, as by a partner who iterates, comes out the same to the last
+   bit: a restart forgets all that was. */
+static void a_window_can_be_repeated(void **state) {
+  (void)state;
+  bar b = bar_create(&example2);
+  for (int k = 0; k < NHOST; k++) {
+    machine m;
+    start_host(&m, k, &b, 1e-4);
+    assert_ok(corot_sun_host_advance(&m.host, 0.2, m.y));
+    N_Vector kept = N_VClone(m.y), once = N_VClone(m.y);
+    N_VScale(1, m.y, kept);
+    for (int pass = 0; pass < 2; pass++) {
+      N_VScale(1, kept, m.y);
+      corot_pencil_invalidate(m.pencil);
+      assert_ok(corot_sun_host_restart(&m.host, 0.2, m.y, 1e-3));
+      assert_ok(corot_sun_host_advance(&m.host, 0.3, m.y));
+      if (pass == 0) N_VScale(1, m.y, once);
+    }
+    const double *first = N_VGetArrayPointer(once), *second = N_VGetArrayPointer(m.y);
+    assert_memory_equal(first, second, 2 * b.n * sizeof *first);
+    N_VDestroy(kept), N_VDestroy(once);
+    end_host(&m, k);
+  }
+  bar_destroy(&b);
+}
+
+/* A cube under a weight that it cannot bear: elements turn inside out, beyond which there is no
+   step. SUNDIALS would take ever shorter ones. */
+static void a_host_gives_up_where_an_element_inverts(void **state) {
+  (void)state;
+  for (int k = 0; k < NHOST; k++) {
+    bar_def def = example2;
+    def.cells[2] = 1, def.ramp = 0, def.traction[0] = 0, def.traction[2] = -2e6;
+    bar b = bar_create(&def);
+    machine m;
+    start_host(&m, k, &b, 1e-4);
+    assert_fails(corot_sun_host_advance(&m.host, 10, m.y), COROT_EINTEGRATE, "is inverted");
+    assert_below(m.host.t, 10);
+    assert_below(m.host.nst, 20000);
+    end_host(&m, k);
+    bar_destroy(&b);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_host_takes_the_steps_of_our_own),
+      cmocka_unit_test(a_host_feels_changes_as_our_own),
+      cmocka_unit_test(what_does_not_change_costs_nothing),
+      cmocka_unit_test(a_window_can_be_repeated),
+      cmocka_unit_test(a_host_gives_up_where_an_element_inverts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

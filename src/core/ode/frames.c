@@ -10,6 +10,7 @@ corot_status corot_frames_drift(const corot_model *m, corot_state *s, double t, 
 
 corot_status corot_frames_update(const corot_model *m, corot_state *s, double t, const double *u,
                                  corot_frames_change *change) {
+  COROT_TRY(corot_state_check(m, s, "corot_frames_update"));
   const instant now = corot_state_at(s, t);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
   COROT_TRY(corot_system_update_frames(system_of(m, s), &s->system, age_of(s, t), all_u, change));

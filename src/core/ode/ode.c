@@ -80,12 +80,14 @@ static corot_status blame_nan(const corot_model *m, const double *u, const doubl
 
 corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, double *r) {
+  COROT_TRY(corot_state_check(m, s, "corot_residual"));
   corot_status status = corot_residual_trial(m, s, t, u, v, r);
   return status ? blame_nan(m, u, s->still ? NULL : v, status) : COROT_OK;
 }
 
 corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
                        double *ydot) {
+  COROT_TRY(corot_state_check(m, s, "corot_rhs"));
   return blame_nan(m, y, y + m->ndof, corot_rhs_trial(m, s, t, y, ydot));
 }
 
@@ -105,6 +107,7 @@ corot_status corot_rhs_trial(const corot_model *m, corot_state *s, double t, con
 corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
+  COROT_TRY(corot_state_check(m, s, "corot_jacobian"));
   const instant now = corot_state_at(s, t);
   const solid *body = body_of(m, s);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
@@ -136,6 +139,7 @@ static nodal_field spread(const corot_model *m, const double *direction, double 
 corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const double *u,
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
+  COROT_TRY(corot_state_check(m, s, "corot_jvp"));
   const instant now = corot_state_at(s, t);
   bool damped = body_of(m, s)->damped && now.moving, feeds_back = inputs_feed_back(&now);
   nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = spread(m, du, s->du);
@@ -231,6 +235,7 @@ double corot_carried(const corot_model *m, corot_state *s, double t, const doubl
 
 corot_status corot_energy(const corot_model *m, corot_state *s, double t, const double *u,
                           const double *v, corot_energies *energies) {
+  COROT_TRY(corot_state_check(m, s, "corot_energy"));
   const instant now = corot_state_at(s, t);
   corot_energies e = {0};
   rigid_motion g;
@@ -271,6 +276,7 @@ static void negate(const corot_state *s, double (*f)[3]) {
 
 corot_status corot_elastic_force(const corot_model *m, corot_state *s, double t, const double *u,
                                  double (*f)[3]) {
+  COROT_TRY(corot_state_check(m, s, "corot_elastic_force"));
   const instant now = corot_state_at(s, t);
   corot_frames frames = s->system.frames;
   nodal_field all_u = corot_state_displace(m, s, &now, u);

@@ -51,7 +51,7 @@ static corot_status slow_jump(corot_pencil *pencil, N_Vector jump, N_Vector weig
 
 corot_status corot_sun_felt(corot_pencil *pencil, N_Vector jump, N_Vector weight, double t,
                             double h_last, double h_next, bool *felt, double *h_first) {
-  COROT_TRY(corot_seam_pencil(pencil, "corot_sun_felt"));
+  COROT_TRY(corot_seam_pencil(pencil, NULL, "corot_sun_felt"));
   COROT_TRY(corot_seam_vectors("corot_sun_felt", 2 * pencil->n, 2, (N_Vector[]){jump, weight}));
   double all = N_VWrmsNorm(jump, weight), slow = 0;
   bool is_felt = h_next * all >= 0.5;

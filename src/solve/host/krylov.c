@@ -14,7 +14,7 @@ static double *values(N_Vector x) { return N_VGetArrayPointer(x); }
 static corot_status check(const char *who, const corot_sun_data *data, bool pencil, int share,
                           int count, const N_Vector *x) {
   COROT_TRY(corot_seam_data(data, who));
-  if (pencil) COROT_TRY(corot_seam_pencil(data->pencil, who));
+  if (pencil) COROT_TRY(corot_seam_pencil(data->pencil, data, who));
   return corot_seam_vectors(who, share * corot_model_ndof(data->model), count, x);
 }
 

@@ -90,7 +90,7 @@ corot_status corot_sun_force_scale(const corot_sun_data *d, const double *u, dou
                                    double *rounding) {
   double force = 0, rest = 0;
   COROT_TRY(check("corot_sun_force_scale", d, 0, NULL));
-  COROT_TRY(corot_seam_pencil(d->pencil, "corot_sun_force_scale"));
+  COROT_TRY(corot_seam_pencil(d->pencil, d, "corot_sun_force_scale"));
   double *r = malloc(d->pencil->n * sizeof *r);
   double(*f)[3] = malloc(corot_model_mesh(d->model)->nnode * sizeof *f);
   corot_status status =
@@ -107,9 +107,7 @@ corot_status corot_sun_force_scale(const corot_sun_data *d, const double *u, dou
 static corot_status open_rest(corot_sun_rest *rest, N_Vector u) {
   const corot_sun_data *d = &rest->data;
   COROT_TRY(corot_seam_data(d, "corot_sun_rest_open"));
-  COROT_TRY(corot_seam_pencil(d->pencil, "corot_sun_rest_open"));
-  if (d->pencil->model != d->model || d->pencil->state != d->state)
-    return corot_fail(COROT_EINVAL, "corot_sun_rest_open: the pencil is another state's");
+  COROT_TRY(corot_seam_pencil(d->pencil, d, "corot_sun_rest_open"));
   if (d->pencil->role != COROT_ROLE_STATIC)
     return corot_fail(COROT_EINVAL, "corot_sun_rest_open: the pencil's role is not static");
   COROT_TRY(corot_seam_vectors("corot_sun_rest_open", d->pencil->n, 1, &u));
@@ -151,7 +149,6 @@ void corot_sun_rest_close(corot_sun_rest *rest) {
 /* --- Direct ----------------------------------------------------------------------------------- */
 
 static corot_status make_jacobian(corot_pencil *p, N_Vector u) {
-  COROT_TRY(corot_seam_pencil(p, "corot_sun_jacobian_static"));
   COROT_TRY(corot_seam_vectors("corot_sun_jacobian_static", p->n, 1, &u));
   return assemble(p, values(u));
 }
@@ -159,7 +156,9 @@ static corot_status make_jacobian(corot_pencil *p, N_Vector u) {
 int corot_sun_jacobian_static(N_Vector u, N_Vector F, SUNMatrix A, void *user_data, N_Vector tmp1,
                               N_Vector tmp2) {
   (void)F, (void)user_data, (void)tmp1, (void)tmp2;
-  return sun_callback_code(make_jacobian(A ? A->content : NULL, u));
+  corot_pencil *pencil = NULL;
+  corot_status status = corot_seam_matrix(A, "corot_sun_jacobian_static", &pencil);
+  return sun_callback_code(status ? status : make_jacobian(pencil, u));
 }
 
 /* Where K is not positive definite, a clamped one takes its place: it leads downhill in the energy,
@@ -177,9 +176,14 @@ static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
   return sun_callback_code(factor_downhill(LS->content));
 }
 
+static corot_status solve(corot_pencil *p, N_Vector x, N_Vector b) {
+  COROT_TRY(corot_seam_vectors("corot_sun_linsol_static", p->n, 2, (N_Vector[]){x, b}));
+  return corot_pencil_solve(p, values(b), values(x));
+}
+
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
   (void)A, (void)tol;
-  return sun_solve_code(corot_pencil_solve(LS->content, values(b), values(x)));
+  return sun_solve_code(solve(LS->content, x, b));
 }
 
 SUNLinearSolver corot_sun_linsol_static(corot_pencil *pencil, SUNContext ctx) {
@@ -209,6 +213,7 @@ int corot_sun_jtimes_static(N_Vector v, N_Vector Jv, N_Vector u, sunbooleantype 
 
 static corot_status set_up(const corot_sun_data *d, N_Vector u) {
   COROT_TRY(check("corot_sun_psetup_static", d, 1, &u));
+  COROT_TRY(corot_seam_pencil(d->pencil, d, "corot_sun_psetup_static"));
   COROT_TRY(make_jacobian(d->pencil, u));
   return factor_downhill(d->pencil);
 }
@@ -221,7 +226,7 @@ int corot_sun_psetup_static(N_Vector u, N_Vector uscale, N_Vector F, N_Vector fs
 
 static corot_status precondition(const corot_sun_data *d, N_Vector v) {
   COROT_TRY(check("corot_sun_psolve_static", d, 1, &v));
-  COROT_TRY(corot_seam_pencil(d->pencil, "corot_sun_psolve_static"));
+  COROT_TRY(corot_seam_pencil(d->pencil, d, "corot_sun_psolve_static"));
   return corot_pencil_solve(d->pencil, values(v), values(v));
 }
 

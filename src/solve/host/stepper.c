@@ -26,9 +26,7 @@ corot_status corot_sun_judge(int flag, const char *call) {
 static corot_status check(const corot_sun_host *h, double t, N_Vector y) {
   const corot_sun_data *d = &h->data;
   COROT_TRY(corot_seam_data(d, h->api->name));
-  COROT_TRY(corot_seam_pencil(h->pencil, h->api->name));
-  if (h->pencil->model != d->model || h->pencil->state != d->state)
-    return corot_fail(COROT_EINVAL, "%s: the pencil is another state's", h->api->name);
+  COROT_TRY(corot_seam_pencil(h->pencil, d, h->api->name));
   COROT_TRY(corot_seam_vectors(h->api->name, 2 * h->pencil->n, 1, &y));
   if (!isfinite(t)) return corot_fail(COROT_EINVAL, "%s: cannot start at t = %g", h->api->name, t);
   if (corot_model_mass_kind(d->model) == COROT_MASS_CONSISTENT && !d->mass)
@@ -140,6 +138,11 @@ static corot_status change(corot_sun_host *h, N_Vector y, bool matrices) {
 corot_status corot_sun_host_changed(corot_sun_host *h, N_Vector y) {
   COROT_TRY(corot_seam_vectors(h->api->name, 2 * h->pencil->n, 1, &y));
   return change(h, y, true);
+}
+
+corot_status corot_sun_host_loaded(corot_sun_host *h, N_Vector y) {
+  COROT_TRY(corot_seam_vectors(h->api->name, 2 * h->pencil->n, 1, &y));
+  return change(h, y, false);
 }
 
 /* --- A step ----------------------------------------------------------------------------------- */

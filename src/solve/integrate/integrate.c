@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/names.h"
+#include "core/ode/state.h"
 #include "integrator.h"
 #include "solve/pencil/wall_clock.h"
 
@@ -130,8 +131,7 @@ void corot_integrator_take_advice(corot_integrator *self, corot_sun_method metho
 static void choose(corot_integrator *self) {
   corot_integrator_def *d = &self->def;
   if (d->atol_displacement == 0)
-    d->atol_displacement =
-        corot_advise(self->model, COROT_SUN_CVODE, d->rtol, 0, false).atol_displacement;
+    d->atol_displacement = 0.01 * d->rtol * corot_model_length(self->model);
   if (d->atol_velocity == 0)
     d->atol_velocity = d->atol_displacement * corot_model_frequency(self->model);
   self->ops->choose(self);
@@ -141,6 +141,7 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
                                      corot_state *state, double t, const double *u, const double *v,
                                      corot_integrator **integrator) {
   const integrator_ops *ops;
+  COROT_TRY(corot_state_check(model, state, "corot_integrator_create"));
   COROT_TRY(check(def));
   COROT_TRY(find_method(def->method, &ops));
   COROT_TRY(check_start(t, corot_model_ndof(model), u, v));

@@ -16,6 +16,7 @@
 
 /* Whether S is the matrix of a step. */
 static corot_status check_step(const corot_pencil *p) {
+  COROT_TRY(corot_pencil_check(p, "corot_pencil_newton"));
   if (p->a == 1 && p->c == p->b * p->b) return COROT_OK;
   return corot_fail(COROT_EINVAL,
                     "pencil: S = %g M + %g D + %g K is not M + g D + g^2 K, the matrix of a step",

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/ode/state.h"
 #include "wall_clock.h"
 
 /* What is in p->chosen. */
@@ -30,6 +31,7 @@ static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
 
 corot_status corot_pencil_create(const corot_model *model, corot_state *state,
                                  const corot_linear_def *linear, corot_pencil **pencil) {
+  COROT_TRY(corot_state_check(model, state, "corot_pencil_create"));
   corot_linear_def def = linear ? *linear : corot_linear_defaults();
   corot_pencil *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for a pencil");
@@ -59,16 +61,28 @@ void corot_pencil_destroy(corot_pencil *p) {
   free(p);
 }
 
-const char *corot_pencil_solver(const corot_pencil *p) { return p->chosen.name; }
-void corot_pencil_use(corot_pencil *p, corot_tangent tangent) { p->tangent = tangent; }
-void corot_pencil_invalidate(corot_pencil *p) { p->dirty = true; }
+corot_status corot_pencil_check(const corot_pencil *p, const char *who) {
+  return p ? COROT_OK : corot_fail(COROT_EINVAL, "%s: there is no pencil", who);
+}
+
+const char *corot_pencil_solver(const corot_pencil *p) { return p ? p->chosen.name : ""; }
+
+void corot_pencil_use(corot_pencil *p, corot_tangent tangent) {
+  if (p) p->tangent = tangent;
+}
+
+void corot_pencil_invalidate(corot_pencil *p) {
+  if (p) p->dirty = true;
+}
 
 corot_pencil_parts corot_pencil_view(const corot_pencil *p) {
+  if (!p) return (corot_pencil_parts){0};
   return (corot_pencil_parts){
       .K = (const double(*)[9])p->K, .D = (const double(*)[9])p->D, .csc = p->csc, .S = p->S};
 }
 
 corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
+  if (!p) return (corot_pencil_counts){0};
   corot_pencil_counts counts = p->counts;
   const linsol *s = &p->chosen;
   counts.niteration = p->niteration;
@@ -77,6 +91,7 @@ corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
 }
 
 corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, const double *v) {
+  COROT_TRY(corot_pencil_check(p, "corot_pencil_assemble"));
   double start = clock_wall();
   corot_status status = corot_jacobian(p->model, p->state, t, u, v, p->tangent, p->K, p->D);
   p->dirty = status != COROT_OK;
@@ -109,6 +124,7 @@ static void combine(corot_pencil *p, linsol *s) {
 }
 
 void corot_pencil_combine(corot_pencil *p, double a, double b, double c) {
+  if (!p) return;
   p->a = a, p->b = b, p->c = c;
   p->gamma = b;
   combine(p, &p->chosen);
@@ -204,6 +220,7 @@ static bool chosen_in_vain(const corot_pencil *p) {
 }
 
 corot_status corot_pencil_factor(corot_pencil *p) {
+  COROT_TRY(corot_pencil_check(p, "corot_pencil_factor"));
   if (!chosen_in_vain(p)) return factor_chosen(p);
   corot_status status = choose_again(p);
   if (status != COROT_ENOMEM || !p->tentative) return status;
@@ -223,6 +240,7 @@ corot_status corot_pencil_factor_definite(corot_pencil *p) {
 }
 
 corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
+  COROT_TRY(corot_pencil_check(p, "corot_pencil_solve"));
   if (x != b) memcpy(x, b, p->n * sizeof *x);
   corot_status status = solve(p, x);
   if (status != COROT_RETRY || !p->tentative || p->solver != &p->chosen) return status;

@@ -30,6 +30,9 @@ struct corot_pencil {
   corot_pencil_counts counts;
 };
 
+/* COROT_EINVAL: it is NULL. `who` is the function that a host called. */
+corot_status corot_pencil_check(const corot_pencil *pencil, const char *who);
+
 /* K once more, where it was assembled, with another derivative of the frames. */
 COROT_SISTERS corot_status corot_pencil_assemble_again(corot_pencil *pencil, corot_tangent tangent);
 

@@ -11,8 +11,12 @@ corot_status corot_seam_data(const corot_sun_data *data, const char *who) {
   return corot_fail(COROT_EINVAL, "%s: user_data is NULL, and no corot_sun_data", who);
 }
 
-corot_status corot_seam_pencil(const corot_pencil *pencil, const char *who) {
-  return pencil ? COROT_OK : corot_fail(COROT_EINVAL, "%s: there is no pencil", who);
+corot_status corot_seam_pencil(const corot_pencil *pencil, const corot_sun_data *data,
+                               const char *who) {
+  COROT_TRY(corot_pencil_check(pencil, who));
+  if (data && (pencil->model != data->model || pencil->state != data->state))
+    return corot_fail(COROT_EINVAL, "%s: the pencil is of another model or state", who);
+  return COROT_OK;
 }
 
 /* A vector on another device, or in parts, has no array that we could read. */

@@ -8,8 +8,12 @@
 /* COROT_EINVAL: it is NULL, or has no model or no state, or a state of another model. */
 corot_status corot_seam_data(const corot_sun_data *data, const char *who);
 
-/* COROT_EINVAL: it is NULL. */
-corot_status corot_seam_pencil(const corot_pencil *pencil, const char *who);
+/* COROT_EINVAL: it is NULL, or not of the model and state of `data` (NULL: any will do). */
+corot_status corot_seam_pencil(const corot_pencil *pencil, const corot_sun_data *data,
+                               const char *who);
+
+/* The pencil of a matrix that corot_sun_matrix has made. COROT_EINVAL: it is no such matrix. */
+corot_status corot_seam_matrix(SUNMatrix A, const char *who, corot_pencil **pencil);
 
 /* COROT_EINVAL: one of the x [count] is NULL, has no array of doubles in this process's memory, or
    not n of them. */

@@ -7,6 +7,7 @@
 
 #include "core/ode/trial.h"
 #include "pencil.h"
+#include "seam.h"
 #include "solve/sundials/sun_status.h"
 #include "wall_clock.h"
 
@@ -28,13 +29,20 @@ static void matrix_destroy(SUNMatrix A) {
 }
 
 SUNMatrix corot_sun_matrix(corot_pencil *pencil, SUNContext ctx) {
-  SUNMatrix A = ctx ? SUNMatNewEmpty(ctx) : NULL;
+  SUNMatrix A = pencil && ctx ? SUNMatNewEmpty(ctx) : NULL;
   if (!A) return NULL;
   A->content = pencil;
   A->ops->getid = matrix_id;
   A->ops->zero = matrix_zero;
   A->ops->destroy = matrix_destroy;
   return A;
+}
+
+corot_status corot_seam_matrix(SUNMatrix A, const char *who, corot_pencil **pencil) {
+  if (!A || !A->ops || A->ops->getid != matrix_id || !A->content)
+    return corot_fail(COROT_EINVAL, "%s: the matrix is none of corot_sun_matrix", who);
+  *pencil = A->content;
+  return COROT_OK;
 }
 
 static SUNLinearSolver_Type solver_type(SUNLinearSolver LS) {
@@ -47,10 +55,14 @@ static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
   return sun_callback_code(corot_pencil_factor(LS->content));
 }
 
+static corot_status solve(corot_pencil *pencil, N_Vector x, N_Vector b) {
+  COROT_TRY(corot_seam_vectors("corot_sun_linsol", 2 * pencil->n, 2, (N_Vector[]){x, b}));
+  return corot_pencil_newton(pencil, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+}
+
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
   (void)A, (void)tol;
-  return sun_solve_code(
-      corot_pencil_newton(LS->content, N_VGetArrayPointer(b), N_VGetArrayPointer(x)));
+  return sun_solve_code(solve(LS->content, x, b));
 }
 
 static sun_status solver_free(SUNLinearSolver LS) {
@@ -61,7 +73,7 @@ static sun_status solver_free(SUNLinearSolver LS) {
 }
 
 SUNLinearSolver corot_sun_linsol(corot_pencil *pencil, SUNContext ctx) {
-  SUNLinearSolver LS = ctx ? SUNLinSolNewEmpty(ctx) : NULL;
+  SUNLinearSolver LS = pencil && ctx ? SUNLinSolNewEmpty(ctx) : NULL;
   if (!LS) return NULL;
   LS->content = pencil;
   LS->ops->gettype = solver_type;
@@ -82,11 +94,19 @@ corot_status corot_pencil_linsys(corot_pencil *p, double t, N_Vector y, bool kee
   return COROT_OK;
 }
 
+static corot_status linsys(double t, N_Vector y, SUNMatrix A, bool keep, sunbooleantype *made,
+                           double gamma) {
+  corot_pencil *pencil = NULL;
+  COROT_TRY(corot_seam_matrix(A, "corot_sun_linsys", &pencil));
+  COROT_TRY(corot_seam_vectors("corot_sun_linsys", 2 * pencil->n, 1, &y));
+  return corot_pencil_linsys(pencil, t, y, keep, made, gamma);
+}
+
 int corot_sun_linsys(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, sunbooleantype jok,
                      sunbooleantype *jcur, sunrealtype gamma, void *user_data, N_Vector tmp1,
                      N_Vector tmp2, N_Vector tmp3) {
   (void)fy, (void)user_data, (void)tmp1, (void)tmp2, (void)tmp3;
-  return sun_callback_code(corot_pencil_linsys(A->content, t, y, jok, jcur, gamma));
+  return sun_callback_code(linsys(t, y, A, jok, jcur, gamma));
 }
 
 int corot_sun_linsys_ark(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix A, SUNMatrix M,
@@ -110,8 +130,15 @@ corot_status corot_rate(const corot_sun_data *data, double t, N_Vector y, N_Vect
   return corot_mass_solve(data->mass, dv, dv);
 }
 
+static corot_status rhs(const corot_sun_data *data, double t, N_Vector y, N_Vector ydot) {
+  COROT_TRY(corot_seam_data(data, "corot_sun_rhs"));
+  COROT_TRY(corot_seam_vectors("corot_sun_rhs", 2 * corot_model_ndof(data->model), 2,
+                               (N_Vector[]){y, ydot}));
+  return corot_rate(data, t, y, ydot);
+}
+
 int corot_sun_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user_data) {
-  return sun_callback_code(corot_rate(user_data, t, y, ydot));
+  return sun_callback_code(rhs(user_data, t, y, ydot));
 }
 
 const char *corot_sundials_version(void) {

@@ -3,13 +3,18 @@
 
 #include "core/ode/trial.h"
 #include "pencil.h"
+#include "seam.h"
 #include "solve/sundials/sun_status.h"
 #include "wall_clock.h"
 
+static corot_status solve(corot_pencil *pencil, N_Vector x, N_Vector b) {
+  COROT_TRY(corot_seam_vectors("corot_sun_linsol_dae", 2 * pencil->n, 2, (N_Vector[]){x, b}));
+  return corot_pencil_newton_dae(pencil, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+}
+
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
   (void)A, (void)tol;
-  return sun_solve_code(
-      corot_pencil_newton_dae(LS->content, N_VGetArrayPointer(b), N_VGetArrayPointer(x)));
+  return sun_solve_code(solve(LS->content, x, b));
 }
 
 SUNLinearSolver corot_sun_linsol_dae(corot_pencil *pencil, SUNContext ctx) {
@@ -42,6 +47,14 @@ corot_status corot_defect(const corot_sun_data *data, double t, N_Vector y, N_Ve
   return COROT_OK;
 }
 
+static corot_status residual(const corot_sun_data *data, double t, N_Vector y, N_Vector yp,
+                             N_Vector F) {
+  COROT_TRY(corot_seam_data(data, "corot_sun_residual"));
+  COROT_TRY(corot_seam_vectors("corot_sun_residual", 2 * corot_model_ndof(data->model), 3,
+                               (N_Vector[]){y, yp, F}));
+  return corot_defect(data, t, y, yp, F);
+}
+
 int corot_sun_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector F, void *user_data) {
-  return sun_callback_code(corot_defect(user_data, t, y, yp, F));
+  return sun_callback_code(residual(user_data, t, y, yp, F));
 }
