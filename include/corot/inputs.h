@@ -12,7 +12,8 @@
    integrator afterwards, by corot_integrator_changed: it takes over what has changed, keeps the
    matrices if only forces or paths have, and begins again only if r jumps by more than the next
    step forgives. So a loop of windows does not cost a restart a window if the forces are continuous,
-   as those of corot_inputs_ramp_force are. What you want to know of the inside of a step, ask before
+   as those of corot_inputs_ramp_force are; where each window has a constant one, whose jumps are felt, it
+   takes about half as much again, and is a window's half behind. What you want to know of the inside of a step, ask before
    you change its inputs.
 
    A function that refuses leaves the inputs as they were. Inputs, and all states that use them,
@@ -76,8 +77,8 @@ typedef struct corot_material_factors {
 } corot_material_factors;
 
 /* From now on material k of the model's definition has so many times its coefficients; NULL: its own.
-   Density and damping_mass stay. A strained body whose stiffness changes gains or loses energy: an
-   integrator that is told counts that as external work. What is chosen by the scales of the model
+   Density and damping_mass stay. A strained body whose stiffness changes gains or loses energy: the
+   integrator that is told (the first, if there are several) counts that as external work. What is chosen by the scales of the model
    (tolerances, orders) goes by its own coefficients.
    COROT_EINVAL: there is no such material, a factor is out of range, or lambda, of which a model with
    averaged dilatation leaves so many mu to the tets, would begin to be averaged. COROT_ENOMEM, the
@@ -156,7 +157,8 @@ typedef corot_status corot_feedback_change(void *data, double t, const double (*
 
 /* A force that depends on the motion: contact, foundation, muscle, controller. It must be a function
    of (t, u, v) alone: evaluations come in any order, and steps are tried and given up. What it
-   remembers, change between steps, and call corot_integrator_changed. A stiff one needs its blocks:
+   remembers, change between steps; then set it once more, or the matrices stay, and call
+   corot_integrator_changed. A stiff one needs its blocks:
    without them Newton's iteration does not converge but for tiny steps. Its work counts as external;
    a potential of its own is not in corot_energies.elastic. On held components its force is taken up
    by the supports.

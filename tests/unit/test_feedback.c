@@ -243,6 +243,28 @@ static void a_spring_may_hold_a_free_body(void **state) {
   drop_with(&b, in);
 }
 
+/* As its own status. */
+static void an_equilibrium_ends_with_its_failure(void **state) {
+  (void)state;
+  body b = make_bar("polar", 1, 1, loads);
+  corot_inputs *in = give_inputs(&b);
+  int node = b.mesh->nnode - 1;
+  foundation s = {.n = 1, .node = &node, .k = 1};
+  corot_feedback of = feedback_of_foundation(&s);
+  corot_statics_def how = corot_statics_defaults();
+  corot_statics *statics;
+  corot_load_step step;
+  how.inputs = in;
+  assert_ok(corot_inputs_set_feedback(in, &of));
+  assert_ok(corot_statics_create(&how, b.model, 0, NULL, &statics));
+  s.status = COROT_EIO, s.bad = -1, s.good = 2, s.why = "the valve is stuck";
+  assert_fails(corot_statics_step(statics, &step), COROT_EIO, "the valve is stuck");
+  s.status = COROT_OK;
+  assert_ok(corot_statics_solve(statics));
+  corot_statics_destroy(statics);
+  drop_with(&b, in);
+}
+
 /* --- Integrators ------------------------------------------------------------------------------ */
 
 /* A spring of 1e5 N/m, some three hundred times as stiff as the bar, at a corner of its end, on
@@ -446,6 +468,7 @@ int main(void) {
       cmocka_unit_test(its_power_is_external_and_its_force_a_load),
       cmocka_unit_test(a_spring_at_the_end_of_a_bar),
       cmocka_unit_test(a_spring_may_hold_a_free_body),
+      cmocka_unit_test(an_equilibrium_ends_with_its_failure),
       cmocka_unit_test(a_stiff_spring_costs_no_failure),
       cmocka_unit_test(without_its_blocks_it_does),
       cmocka_unit_test(blocks_off_the_pattern_are_refused),

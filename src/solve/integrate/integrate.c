@@ -280,6 +280,7 @@ corot_status corot_integrator_changed(corot_integrator *self, corot_history hist
   bool others = now.frames != before.frames || now.matrices != before.matrices;
   if (now.matrices != before.matrices) COROT_TRY(take_gain(self));
   self->seen = now;
+  if (loads || paths || now.matrices != before.matrices) self->t_energies = NAN;
   if (loads && !paths && !others && self->ops->loaded) return self->ops->loaded(self, history);
   if (self->pencil && (others || !(loads || paths))) corot_pencil_invalidate(self->pencil);
   return self->ops->changed(self, history);
