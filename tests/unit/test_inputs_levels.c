@@ -56,8 +56,9 @@ static void a_feedback_is_that_of_its_nodes(void **state) {
     corot_inputs *in;
     tie of = {.node = {s.mesh->tet[3][0], s.mesh->tet[3][1]}, .k = 300, .q = 2e3, .c = 4};
     corot_feedback feedback = feedback_of_tie(&of, false);
-    double *u = calloc(7 * s.n, sizeof *u), *v = u + s.n, *y = v + s.n, h = 1e-4;
+    double *u = calloc(9 * s.n, sizeof *u), *v = u + s.n, *y = v + s.n, *rate = v + 6 * s.n;
     double *jv[] = {v + 2 * s.n, v + 3 * s.n}, *r = v + 4 * s.n, *fd = v + 5 * s.n;
+    const double h = 1e-4;
     assert_ok(corot_inputs_create(s.model, &in));
     assert_ok(corot_state_use_inputs(s.state, in));
     bend(&s, 0.3, 0.01, u), bend(&s, 0.1, 0.5, v);
@@ -66,11 +67,9 @@ static void a_feedback_is_that_of_its_nodes(void **state) {
       assert_ok(corot_jvp(s.model, s.state, 0, u, v, COROT_TANGENT_EXACT, v, v, jv[with]));
       for (int side = -1; side <= 1; side += 2) { /* along (v, v), u and v at once */
         for (int i = 0; i < s.n; i++) y[i] = u[i] + side * h * v[i];
-        double *rate = calloc(s.n, sizeof *rate);
         for (int i = 0; i < s.n; i++) rate[i] = (1 + side * h) * v[i];
         assert_ok(corot_residual(s.model, s.state, 0, y, rate, r));
         for (int i = 0; i < s.n; i++) fd[i] += (with ? 1 : -1) * side * r[i] / (2 * h);
-        free(rate);
       }
     }
     for (int i = 0; i < s.n; i++) jv[1][i] -= jv[0][i];

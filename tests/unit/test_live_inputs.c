@@ -303,6 +303,51 @@ static void windows_cost_what_stopping_costs(void **state) {
     }
 }
 
+/* A force that jumps begins a multistep method anew where the next step feels it, unless it is told
+   to keep its past; and by every method the books close over it. */
+static void a_jump_is_felt_or_not(void **state) {
+  (void)state;
+  const struct {
+    double part; /* of the force that is added */
+    corot_history history;
+    bool restarts;
+  } jump[] = {
+      {1, COROT_HISTORY_AUTO, true},
+      {1e-9, COROT_HISTORY_AUTO, false},
+      {1e-9, COROT_HISTORY_RESTART, true},
+      {1, COROT_HISTORY_KEEP, false},
+  };
+  for (int i = 0; corot_method_at(i); i++)
+    for (size_t k = 0; k < sizeof jump / sizeof *jump; k++) {
+      body with = make_bar("polar", 1, 1, loads), b = make_bar("polar", 1, 0, NULL);
+      corot_inputs *in = give_inputs(&b);
+      int nnode = b.mesh->nnode;
+      double(*f)[3] = force_of_load(&with, 0), *u = malloc(2 * b.n * sizeof *u);
+      assert_ok(corot_inputs_set_force(in, nnode, (const double(*)[3])f));
+      corot_integrator *integrator = integrate_by(i, &b, 1e-6);
+      go_to(integrator, 0.05);
+      scale(nnode, 1 + jump[k].part, (const double(*)[3])f, f);
+      assert_ok(corot_inputs_set_force(in, nnode, (const double(*)[3])f));
+      assert_ok(corot_integrator_changed(integrator, jump[k].history));
+      bool multistep = corot_method_at(i)->multistep;
+      if (multistep)
+        assert_int_equal(corot_integrator_statistics(integrator).nrestart, jump[k].restarts);
+      go_to(integrator, 0.1);
+
+      double dissipated, external;
+      corot_energies e;
+      assert_ok(corot_integrator_at(integrator, 0.1, u, u + b.n));
+      assert_ok(corot_integrator_energy(integrator, u, u + b.n, &e));
+      assert_ok(corot_integrator_work(integrator, 0.1, &dissipated, &external));
+      /* of a constant step of a millisecond backward Euler is the worst */
+      assert_below(fabs(e.kinetic + e.elastic + dissipated - external),
+                   (corot_method_at(i)->controls_error ? 1e-4 : 0.1) * external);
+      free(f), free(u);
+      corot_integrator_destroy(integrator);
+      drop_body(&with), drop_with(&b, in);
+    }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_force_is_the_load_of_a_model),
@@ -312,6 +357,7 @@ int main(void) {
       cmocka_unit_test(what_makes_no_sense_is_refused),
       cmocka_unit_test(memory_may_run_out),
       cmocka_unit_test(every_integrator_takes_a_force_for_a_load),
+      cmocka_unit_test(a_jump_is_felt_or_not),
       cmocka_unit_test(windows_cost_what_stopping_costs),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

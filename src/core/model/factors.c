@@ -32,7 +32,7 @@ static corot_status create(const corot_model *m, other_system **other) {
   bool room = o && (o->material = malloc(nmaterial * sizeof *o->material));
   for (int k = 0; room && k < m->system.nterm; k++) {
     int npool = m->system.term[k].body.dilatation.npool;
-    room = npool == 0 || (o->averaged[k] = malloc(npool * sizeof **o->averaged));
+    room = npool <= 0 || (o->averaged[k] = malloc(npool * sizeof **o->averaged));
   }
   if (!room) {
     corot_other_system_destroy(o);
