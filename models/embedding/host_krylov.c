@@ -8,10 +8,6 @@
 #include "bar.h"
 #include "sun.h"
 
-#ifndef SUN_PREC_LEFT /* SUNDIALS before 6 */
-#define SUN_PREC_LEFT PREC_LEFT
-#endif
-
 int main(void) {
   /* the solid, and all of it in one pointer */
   corot_model *model = bar_create();
