@@ -17,6 +17,7 @@
 
 #include <arkode/arkode_arkstep.h>
 #include <corot/host.h>
+#include <corot/solve.h>
 #include <stdio.h>
 #include <sundials/sundials_version.h>
 #if SUNDIALS_VERSION_MAJOR >= 7

@@ -173,7 +173,7 @@ static void a_host_takes_the_steps_of_our_own(void **state) {
    so. At most 1.2 times the steps of our own, to the same answer. */
 static void a_host_feels_changes_as_our_own(void **state) {
   (void)state;
-  const double every = 0.1, t_end = 2;
+  const double every = 0.1, t_end = 1;
   const corot_amplitude at_once = {.n = 0};
   for (int k = 0; k < NHOST; k++) {
     bar b = paper_bar((double[]){20, 10, 0}, &at_once);
