@@ -158,8 +158,8 @@ COROT_API corot_status corot_sun_host_loaded(corot_sun_host *host, N_Vector y);
    Failures as of corot_sun_host_step. */
 COROT_API corot_status corot_sun_host_restart(corot_sun_host *host, double t, N_Vector y, double h);
 
-/* COROT_OK where flag >= 0; else COROT_EINTEGRATE (COROT_ENOMEM, where that is what corot saw),
-   with `call`, the flag, and what corot_error() said last. */
+/* COROT_OK where flag >= 0; else COROT_EINTEGRATE, with `call`, the flag, and what corot_error() said
+   last, which is the reason if a function of ours was it that failed. */
 COROT_API corot_status corot_sun_judge(int flag, const char *call);
 
 /* --- Krylov methods --------------------------------------------------------------------------- */

@@ -12,13 +12,13 @@
 #define COROT_SOLVE_H
 
 #include <corot/ode.h>
-#include <sundials/sundials_linearsolver.h>
-#include <sundials/sundials_matrix.h>
-#include <sundials/sundials_nvector.h>
-
+#include <sundials/sundials_config.h>
 #ifndef SUNDIALS_DOUBLE_PRECISION
 #error "corot needs a SUNDIALS of double precision: its sunrealtype is corot's double"
 #endif
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+#include <sundials/sundials_nvector.h>
 
 #ifdef __cplusplus
 extern "C" {

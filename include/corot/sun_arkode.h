@@ -7,9 +7,7 @@
 
    as in corot/sun_cvode.h (a file for errors, of SUNDIALS 6, is the host's to set afterwards). A
    step whose end cannot be evaluated is repeated with a shorter one, which ARKODE by itself takes
-   for the end. What corot's own does beside: at a jump of a load it takes a first step that
-   resolves the vibration which the jump excites; here ARKStepSetInitStep after such a kink is the
-   host's.
+   for the end.
 
    A complete program: models/embedding/host_arkode.c. */
 #ifndef COROT_SUN_ARKODE_H
@@ -17,6 +15,7 @@
 
 #include <arkode/arkode_arkstep.h>
 #include <corot/host.h>
+#include <corot/solve.h>
 #include <stdio.h>
 #include <sundials/sundials_version.h>
 #if SUNDIALS_VERSION_MAJOR >= 7

@@ -17,6 +17,7 @@
 #define COROT_SUN_CVODE_H
 
 #include <corot/host.h>
+#include <corot/solve.h>
 #if !defined(_CVODE_H) && !defined(_CVODES_H)
 #include <cvode/cvode.h>
 #endif

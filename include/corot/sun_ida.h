@@ -14,6 +14,7 @@
 #define COROT_SUN_IDA_H
 
 #include <corot/host.h>
+#include <corot/solve.h>
 #if !defined(_IDA_H) && !defined(_IDAS_H)
 #include <ida/ida.h>
 #endif

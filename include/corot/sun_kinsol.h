@@ -18,6 +18,7 @@
 #define COROT_SUN_KINSOL_H
 
 #include <corot/host.h>
+#include <corot/solve.h>
 #include <kinsol/kinsol.h>
 #include <math.h>
 
@@ -39,7 +40,8 @@ static inline corot_status corot_sun_kinsol_open(corot_sun_rest *rest, void *kin
   if ((f = KINSetUserData(kinsol, rest)) || (f = KINSetLinearSolver(kinsol, rest->LS, rest->A)) ||
       (f = KINSetJacFn(kinsol, corot_sun_jacobian_static)) ||
       (f = KINSetMaxSetupCalls(kinsol, 1)) || (f = KINSetNoResMon(kinsol, 1)) ||
-      (f = KINSetNumMaxIters(kinsol, 20)) || (f = KINSetMaxNewtonStep(kinsol, n > 1 ? sqrt(n) : 1)) ||
+      (f = KINSetNumMaxIters(kinsol, 20)) ||
+      (f = KINSetMaxNewtonStep(kinsol, n > 1 ? sqrt(n) : 1)) ||
       (f = KINSetScaledStepTol(kinsol, 1e-15))) {
     corot_sun_rest_close(rest);
     return corot_sun_judge(f > 0 ? -f : f, "corot_sun_kinsol_open: a setting");

@@ -1,6 +1,6 @@
-/* A host with threads: a model never changes and is shared, each thread has a state of its own, and
-   whatever else it integrates with. Two threads run the same bar at two tolerances, and the second
-   the first one's again: what they share does not show in a single bit. */
+/* A host with threads: a model never changes and is shared; each thread has a state of its own, and
+   whatever integrates it. Two threads run the same bar at the same time, at two tolerances; then
+   the first run is repeated in another thread, and comes out the same to the last bit. */
 #include <corot/integrate.h>
 #include <pthread.h>
 #include <string.h>

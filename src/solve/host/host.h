@@ -30,6 +30,13 @@ COROT_SISTERS double corot_sight(const corot_model *model, double t, double h_la
    the ratio of the steps. */
 COROT_SISTERS bool corot_sets_out(double t, double h, double sight, double t_stop);
 
+/* A radian [s] of the transient that a change of r excites in modes too fast for a step, if it is
+   more than the tolerance; else infinity. v, a = M^-1 r, change = M^-1 dr/dt [n] after it; weight:
+   of a displacement; room: three arrays [n]. Failures as of corot_pencil_solve. */
+COROT_SISTERS corot_status corot_transient(corot_pencil *pencil, const double *v, const double *a,
+                                           const double *change, double weight,
+                                           double *const room[3], double *radian);
+
 /* The largest force on a node where the residual at u is r: internal, a load, or a support's [N]. f
    [nnode] is room for the internal ones. COROT_RETRY when a tet is inverted. */
 COROT_SISTERS corot_status corot_largest_force(const corot_model *model, corot_state *state,

@@ -101,6 +101,11 @@ corot_status corot_sun_host_restart(corot_sun_host *h, double t, N_Vector y, dou
   return corot_sun_judge(h->api->set_first_step(h->memory, first), h->api->name);
 }
 
+/* y' at (t, y). */
+static corot_status judge_rate(corot_sun_host *h, double t, N_Vector y, N_Vector rate) {
+  return corot_sun_judge(-abs(corot_sun_rhs(t, y, rate, &h->data)), "after a change of r");
+}
+
 /* Whether a multistep method feels a jump of y' at the time reached. */
 static corot_status look(corot_sun_host *h, N_Vector y, bool *felt, double *first) {
   sunrealtype h_last = 0, h_next = 0;
@@ -114,10 +119,31 @@ static corot_status look(corot_sun_host *h, N_Vector y, bool *felt, double *firs
   return corot_sun_felt(h->pencil, h->jump, h->weight, h->t, h_last, h_next, felt, first);
 }
 
+/* *h, the first step after a change, is shortened to a radian of what this excites in modes too
+   fast for it, as error control may not see that. */
+static corot_status resolve_transient(corot_sun_host *h, N_Vector y, double *step) {
+  int n = h->pencil->n;
+  double delta = 1e-4 * *step, radian = INFINITY;
+  COROT_TRY(judge_rate(h, h->t, y, h->jump));
+  COROT_TRY(judge_rate(h, h->t + delta, y, h->old));
+  if (h->api->error_weights(h->memory, h->weight)) return corot_sun_judge(-1, h->api->name);
+  double *a = N_VGetArrayPointer(h->jump) + n, *change = N_VGetArrayPointer(h->old) + n;
+  double *w = N_VGetArrayPointer(h->weight), weight = w[0];
+  double *const room[] = {N_VGetArrayPointer(h->old), w, w + n};
+  for (int i = 0; i < n; i++) change[i] = (change[i] - a[i]) / delta;
+  corot_status status =
+      corot_transient(h->pencil, N_VGetArrayPointer(y) + n, a, change, weight, room, &radian);
+  if (status == COROT_OK) *step = fmin(*step, radian);
+  return sun_is_fatal(status) ? status : COROT_OK;
+}
+
 /* A Runge-Kutta method has no history to lose but the rate at the start of its step. */
 static corot_status begin_step_anew(corot_sun_host *h, N_Vector y) {
   sunrealtype next = 0;
-  if (!h->fresh && h->api->next_step(h->memory, &next)) return corot_sun_judge(-1, h->api->name);
+  if (!h->fresh) {
+    if (h->api->next_step(h->memory, &next)) return corot_sun_judge(-1, h->api->name);
+    COROT_TRY(resolve_transient(h, y, &next));
+  }
   return corot_sun_host_restart(h, h->t, y, next);
 }
 
