@@ -27,6 +27,13 @@ extern "C" {
 #define COROT_API
 #endif
 
+/* Definitions, which a host fills, may grow from one version to the next. Their size is their first
+   member, `bytes`; corot_X_defaults() sets it, as the host's own headers have it, by way of
+   corot_X_set_defaults(), which writes no more than that (for hosts in other languages). A definition
+   of another size than the library's is refused with COROT_EINVAL. One that is written down without
+   defaults may leave it 0, and goes unrecognised. Where a pointer that must be given is NULL, what
+   makes or reads something returns COROT_EINVAL, too. */
+
 /* Status of a call: 0 ok, >0 recoverable (retry with a smaller step), <0 fatal.
    The signs are those of a SUNDIALS callback, so a status can be returned by one as is; but not by
    the solve of a SUNLinearSolver, of which the integrators take values they do not know (and all of

@@ -47,6 +47,7 @@ COROT_API const corot_method_kind *corot_method_traits(const char *name);
      backward-euler, bdf2, bdf3, midpoint, newmark, hht, generalized-alpha
                         of constant step, without error control: baselines */
 typedef struct corot_integrator_def {
+  size_t bytes; /* sizeof of this, as the defaults set it: see corot/base.h */
   const char *method;
   corot_linear_def linear;
   double rtol;               /* relative tolerance, > 0 */
@@ -76,7 +77,12 @@ typedef struct corot_integrator_def {
 
 /* cvode, rtol 1e-4, everything that can be chosen left to choose; Newton of the methods of constant
    step to 1e-9 in 50 iterations, spectral radius 0.8. */
-COROT_API corot_integrator_def corot_integrator_defaults(void);
+COROT_API void corot_integrator_set_defaults(corot_integrator_def *def, size_t bytes);
+static inline corot_integrator_def corot_integrator_defaults(void) {
+  corot_integrator_def def;
+  corot_integrator_set_defaults(&def, sizeof def);
+  return def;
+}
 
 /* Whether the method of that name controls its error (and so chooses its own steps). */
 COROT_API bool corot_integrator_controls_error(const char *method);
@@ -173,6 +179,7 @@ typedef bool corot_frame_hook(void *data, double t, const double *u, const doubl
 
 /* When held or extrapolated frames are found anew. Any of the conditions suffices. */
 typedef struct corot_frame_policy {
+  size_t bytes; /* sizeof of this, as the defaults set it: see corot/base.h */
   corot_frames frames;   /* exact: none of the rest matters */
   bool every_step;
   double interval;       /* [s] at its multiples; 0: no */
@@ -183,7 +190,12 @@ typedef struct corot_frame_policy {
 } corot_frame_policy;
 
 /* Exact frames; history auto. */
-COROT_API corot_frame_policy corot_frame_policy_defaults(void);
+COROT_API void corot_frame_policy_set_defaults(corot_frame_policy *def, size_t bytes);
+static inline corot_frame_policy corot_frame_policy_defaults(void) {
+  corot_frame_policy def;
+  corot_frame_policy_set_defaults(&def, sizeof def);
+  return def;
+}
 
 /* Extrapolated frames are never turned further than this from where they were found, but for the
    rest of a constant step: an update is forced there [rad]. */

@@ -213,6 +213,7 @@ typedef enum corot_coupling {
    level 0 does to the finer nodes. Not with consistent mass, nor under a pressure, which acts on a
    surface that level 0 does not have. */
 typedef struct corot_hierarchy_def {
+  size_t bytes; /* sizeof of this, as the defaults set it: see corot/base.h */
   const corot_refinement *refinement; /* how the model's mesh was made, by corot_mesh_refine from
                                          one of order 1, and raised by corot_refinement_raise or
                                          not; the descendants of a tet of level 0 have one material */
@@ -230,10 +231,16 @@ typedef struct corot_hierarchy_def {
 
 /* As in the paper, coarse strain green and frame level 0; conservative, coupling MEAN; no
    refinement. */
-COROT_API corot_hierarchy_def corot_hierarchy_defaults(void);
+COROT_API void corot_hierarchy_set_defaults(corot_hierarchy_def *def, size_t bytes);
+static inline corot_hierarchy_def corot_hierarchy_defaults(void) {
+  corot_hierarchy_def def;
+  corot_hierarchy_set_defaults(&def, sizeof def);
+  return def;
+}
 
 /* What a model is made of; everything in it is copied. */
 typedef struct corot_model_def {
+  size_t bytes; /* sizeof of this, as the defaults set it: see corot/base.h */
   const corot_mesh *mesh;
   const char *strain; /* cauchy | warp | polar | hybrid | green; see corot/ode.h */
   int nmaterial;
@@ -258,7 +265,12 @@ typedef struct corot_model_def {
 } corot_model_def;
 
 /* Strain polar, viscosity and mass AUTO, dilatation local (if nodal, with one mu left), nothing else. */
-COROT_API corot_model_def corot_model_defaults(void);
+COROT_API void corot_model_set_defaults(corot_model_def *def, size_t bytes);
+static inline corot_model_def corot_model_defaults(void) {
+  corot_model_def def;
+  corot_model_set_defaults(&def, sizeof def);
+  return def;
+}
 
 /* What a strain measure is like. */
 typedef struct corot_strain_kind {

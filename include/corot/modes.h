@@ -26,6 +26,7 @@ extern "C" {
 #endif
 
 typedef struct corot_modes_def {
+  size_t bytes; /* sizeof of this, as the defaults set it: see corot/base.h */
   int count;               /* modes wanted, > 0 and less than the degrees of freedom */
   corot_linear_def linear; /* "auto": the best direct solver; else a direct one */
   double tolerance;        /* of 1/(w^2 - s) in ARPACK, relative, > 0 */
@@ -36,7 +37,12 @@ typedef struct corot_modes_def {
 } corot_modes_def;
 
 /* Ten modes, the linear solver "auto", tolerance 1e-12, 300 restarts. */
-COROT_API corot_modes_def corot_modes_defaults(void);
+COROT_API void corot_modes_set_defaults(corot_modes_def *def, size_t bytes);
+static inline corot_modes_def corot_modes_defaults(void) {
+  corot_modes_def def;
+  corot_modes_set_defaults(&def, sizeof def);
+  return def;
+}
 
 /* Whether this build has ARPACK. */
 COROT_API bool corot_modes_available(void);

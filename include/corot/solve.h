@@ -47,7 +47,12 @@ typedef struct corot_linear_def {
 } corot_linear_def;
 
 /* All "auto", 1e-10, dynamic, no refinement. */
-COROT_API corot_linear_def corot_linear_defaults(void);
+COROT_API void corot_linear_set_defaults(corot_linear_def *def, size_t bytes);
+static inline corot_linear_def corot_linear_defaults(void) {
+  corot_linear_def def;
+  corot_linear_set_defaults(&def, sizeof def);
+  return def;
+}
 
 /* K, D, S and a factor of S: one for each run. */
 typedef struct corot_pencil corot_pencil;

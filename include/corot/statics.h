@@ -29,6 +29,7 @@ extern "C" {
 #endif
 
 typedef struct corot_statics_def {
+  size_t bytes; /* sizeof of this, as the defaults set it: see corot/base.h */
   corot_linear_def linear; /* its role is taken to be static */
   corot_frames frames;     /* EXACT; or HELD: the paper's linear systems, solved for frames that are
                               held, found anew, and so on until nothing changes: the same
@@ -53,7 +54,12 @@ typedef struct corot_statics_def {
 
 /* Everything about the linear solver "auto", frames exact, tolerance 1e-10, 20 iterations, the
    whole load at once, min_step 1e-4, max_step 1. */
-COROT_API corot_statics_def corot_statics_defaults(void);
+COROT_API void corot_statics_set_defaults(corot_statics_def *def, size_t bytes);
+static inline corot_statics_def corot_statics_defaults(void) {
+  corot_statics_def def;
+  corot_statics_set_defaults(&def, sizeof def);
+  return def;
+}
 
 typedef struct corot_statics corot_statics;
 

@@ -5,6 +5,7 @@
 set -eu
 variant=$1 source=$2
 here=$(cd "$(dirname "$0")" && pwd)
+examples=$here/../../models/embedding
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cc=${CC:-cc}
@@ -16,7 +17,7 @@ fail() { echo "FAILED: $*"; exit 1; }
 quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log"; fail "$*"; }; }
 
 mkdir "$work/host"
-cp "$here"/variant/* "$here"/host_rk4.c "$here"/host_integrate.c "$here"/bar.h \
+cp "$here"/variant/* "$examples"/host_rk4.c "$examples"/host_integrate.c "$examples"/bar.h \
   "$here"/../examples/solve.c "$work/host"
 
 # build OPTION...: corot, with a packager's flags, installed into $work/prefix and moved from there.

@@ -32,6 +32,9 @@ corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet, const 
                                corot_mesh **mesh) {
   corot_mesh *m;
   COROT_TRY(corot_mesh_check_counts(nnode, ntet));
+  COROT_TRY(COROT_GIVEN(x));
+  COROT_TRY(COROT_GIVEN(tet));
+  COROT_TRY(COROT_GIVEN(mesh));
   COROT_TRY(COROT_ALLOC(m, 1));
   return finish(copy_arrays(m, nnode, x, ntet, tet), m, mesh);
 }
@@ -55,6 +58,9 @@ corot_status corot_mesh_create_order_2(int nnode, const double (*x)[3], int ntet
                                        const int (*tet)[10], corot_mesh **mesh) {
   corot_mesh *m;
   COROT_TRY(corot_mesh_check_counts(nnode, ntet));
+  COROT_TRY(COROT_GIVEN(x));
+  COROT_TRY(COROT_GIVEN(tet));
+  COROT_TRY(COROT_GIVEN(mesh));
   COROT_TRY(COROT_ALLOC(m, 1));
   return finish(copy_arrays_2(m, nnode, x, ntet, tet), m, mesh);
 }

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "core/base/sisters.h"
+#include "core/base/sized.h"
 
 /* p = zeroed array of n >= 0 items; the value is a status. An empty array is not NULL. */
 #define COROT_ALLOC(p, n)                                 \

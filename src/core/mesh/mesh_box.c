@@ -132,6 +132,8 @@ corot_box corot_box_defaults(void) { return (corot_box){.split = COROT_BOX_SYMME
 
 corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh) {
   corot_mesh *m;
+  COROT_TRY(COROT_GIVEN(box));
+  COROT_TRY(COROT_GIVEN(mesh));
   COROT_TRY(check_box(box));
   COROT_TRY(COROT_ALLOC(m, 1));
   corot_status status = fill(box, m);

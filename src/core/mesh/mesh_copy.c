@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/sized.h"
+
 /* malloc'd copy of count * size bytes; NULL for none. */
 static void *copy_array(const void *from, size_t count, size_t size, bool *failed) {
   if (!count) return NULL;
@@ -15,6 +17,8 @@ static void *copy_array(const void *from, size_t count, size_t size, bool *faile
 
 corot_status corot_mesh_copy(const corot_mesh *mesh, corot_mesh **copy) {
   bool failed = false;
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(copy));
   corot_mesh *m = calloc(1, sizeof *m);
   if (!m) goto no_memory;
   m->nnode = mesh->nnode;

@@ -4,19 +4,22 @@
 #include <corot/hierarchy.h>
 
 #include "core/base/fault.h"
+#include "core/base/sized.h"
 #include "core/solid/measures.h"
 #include "definition.h"
 #include "model.h"
 
-corot_model_def corot_model_defaults(void) {
-  return (corot_model_def){.viscosity = COROT_VISCOSITY_AUTO,
-                           .strain = "polar",
-                           .mass = COROT_MASS_AUTO,
-                           .dilatation_local = 1};
+void corot_model_set_defaults(corot_model_def *def, size_t bytes) {
+  const corot_model_def ours = {.viscosity = COROT_VISCOSITY_AUTO,
+                                .strain = "polar",
+                                .mass = COROT_MASS_AUTO,
+                                .dilatation_local = 1};
+  corot_sized_fill(def, bytes, &ours, sizeof ours);
 }
 
-corot_hierarchy_def corot_hierarchy_defaults(void) {
-  return (corot_hierarchy_def){.coarse_strain = "green", .conservative = true};
+void corot_hierarchy_set_defaults(corot_hierarchy_def *def, size_t bytes) {
+  const corot_hierarchy_def ours = {.coarse_strain = "green", .conservative = true};
+  corot_sized_fill(def, bytes, &ours, sizeof ours);
 }
 
 corot_status corot_model_restrict(const corot_model_def *def, int nnode, double (*nodal)[3]) {
@@ -215,7 +218,28 @@ static corot_status build(const corot_model_def *def, corot_model *m) {
   return COROT_OK;
 }
 
+/* That what is there to read is there, and of our size. */
+static corot_status check_arguments(const corot_model_def *def) {
+  COROT_TRY(COROT_DEFINED(def, corot_model_def));
+  if (def->hierarchy) COROT_TRY(COROT_DEFINED(def->hierarchy, corot_hierarchy_def));
+  const struct {
+    const char *name;
+    int n;
+    const void *list;
+  } lists[] = {{"material", def->nmaterial, def->material},
+               {"fix", def->nfix, def->fix},
+               {"motion", def->nmotion, def->motion},
+               {"load", def->nload, def->load}};
+  for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+    if (lists[i].n < 0 || (lists[i].n > 0 && !lists[i].list))
+      return corot_fail(COROT_EINVAL, "the model has n%s = %d, and %s", lists[i].name, lists[i].n,
+                        lists[i].list ? "a list" : "no list");
+  return COROT_OK;
+}
+
 corot_status corot_model_create(const corot_model_def *def, corot_model **model) {
+  COROT_TRY(check_arguments(def));
+  COROT_TRY(COROT_GIVEN(model));
   corot_model *m = calloc(1, sizeof *m);
   if (!m) return corot_fail(COROT_ENOMEM, "no memory for a model");
   corot_status status = build(def, m);

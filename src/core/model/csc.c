@@ -3,6 +3,7 @@
 
 #include <limits.h>
 
+#include "core/base/sized.h"
 #include "model.h"
 
 int corot_model_nblock(const corot_model *m) { return solid_of(m)->pattern.nblock; }
@@ -111,6 +112,8 @@ static corot_status fill(const corot_model *m, corot_triangle triangle, const up
 }
 
 corot_status corot_csc_create(const corot_model *m, corot_triangle triangle, corot_csc **csc) {
+  COROT_TRY(COROT_GIVEN(m));
+  COROT_TRY(COROT_GIVEN(csc));
   upper_lists u = {0};
   corot_csc *made = calloc(1, sizeof *made);
   corot_status status = COROT_OK;

@@ -1,6 +1,7 @@
 /* Fields at places between nodes and points of integration, W of them at a time. */
 #include <stdlib.h>
 
+#include "core/base/sized.h"
 #include "core/mesh/mesh.h"
 #include "core/solid/kernel.h"
 #include "shown.h"
@@ -113,6 +114,8 @@ static corot_status fill(const int *tet, const double (*at)[4], corot_points *p)
 
 corot_status corot_points_create(const corot_model *m, int n, const int *tet, const double (*at)[4],
                                  corot_points **points) {
+  COROT_TRY(COROT_GIVEN(m));
+  COROT_TRY(COROT_GIVEN(points));
   corot_points *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for %d points", n);
   p->model = m;

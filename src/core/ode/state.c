@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "core/base/sized.h"
+
 static corot_status allocate(const corot_model *m, corot_state *s) {
   int nnode = m->mesh->nnode;
   s->u = corot_vector_calloc(nnode, sizeof *s->u);
@@ -15,8 +17,10 @@ static corot_status allocate(const corot_model *m, corot_state *s) {
   return corot_system_state_create(&m->system, &s->system);
 }
 
-corot_status corot_state_create(const corot_model *m, corot_state **state) {
-  if (!m || !state) return corot_fail(COROT_EINVAL, "corot_state_create: there is no model");
+corot_status corot_state_create(const corot_model *model, corot_state **state) {
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(state));
+  const corot_model *m = model;
   corot_state *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "no memory for a state");
   s->model = m;

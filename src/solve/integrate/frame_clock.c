@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/base/sized.h"
+
 struct corot_frame_clock {
   corot_frame_policy policy;
   const corot_model *model;
@@ -13,8 +15,9 @@ struct corot_frame_clock {
   double cap;    /* when extrapolated frames will have turned as far as they may [s] */
 };
 
-corot_frame_policy corot_frame_policy_defaults(void) {
-  return (corot_frame_policy){.frames = COROT_FRAMES_EXACT, .history = COROT_HISTORY_AUTO};
+void corot_frame_policy_set_defaults(corot_frame_policy *def, size_t bytes) {
+  const corot_frame_policy ours = {.frames = COROT_FRAMES_EXACT, .history = COROT_HISTORY_AUTO};
+  corot_sized_fill(def, bytes, &ours, sizeof ours);
 }
 
 static corot_status check(const corot_frame_policy *p) {
@@ -63,6 +66,13 @@ static corot_status start(corot_frame_clock *c, double t, const double *u, const
 corot_status corot_frame_clock_create(const corot_frame_policy *policy, const corot_model *model,
                                       corot_state *state, corot_integrator *integrator, double t,
                                       const double *u, const double *v, corot_frame_clock **clock) {
+  COROT_TRY(COROT_DEFINED(policy, corot_frame_policy));
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(state));
+  COROT_TRY(COROT_GIVEN(integrator));
+  COROT_TRY(COROT_GIVEN(u));
+  COROT_TRY(COROT_GIVEN(v));
+  COROT_TRY(COROT_GIVEN(clock));
   COROT_TRY(check(policy));
   corot_frame_clock *c = calloc(1, sizeof *c);
   if (!c) return corot_fail(COROT_ENOMEM, "no memory for a frame clock");

@@ -5,19 +5,21 @@
 #include <string.h>
 
 #include "core/base/names.h"
+#include "core/base/sized.h"
 #include "core/ode/state.h"
 #include "integrator.h"
 #include "solve/pencil/wall_clock.h"
 
-corot_integrator_def corot_integrator_defaults(void) {
-  return (corot_integrator_def){.method = "cvode",
-                                .linear = corot_linear_defaults(),
-                                .rtol = 1e-4,
-                                .predictor = -1,
-                                .tangent = COROT_TANGENT_AUTO,
-                                .newton_tolerance = 1e-9,
-                                .newton_iterations = 50,
-                                .spectral_radius = 0.8};
+void corot_integrator_set_defaults(corot_integrator_def *def, size_t bytes) {
+  const corot_integrator_def ours = {.method = "cvode",
+                                     .linear = corot_linear_defaults(),
+                                     .rtol = 1e-4,
+                                     .predictor = -1,
+                                     .tangent = COROT_TANGENT_AUTO,
+                                     .newton_tolerance = 1e-9,
+                                     .newton_iterations = 50,
+                                     .spectral_radius = 0.8};
+  corot_sized_fill(def, bytes, &ours, sizeof ours);
 }
 
 static const integrator_ops *const controlled[] = {&corot_integrator_cvode, &corot_integrator_ida,
@@ -141,6 +143,12 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
                                      corot_state *state, double t, const double *u, const double *v,
                                      corot_integrator **integrator) {
   const integrator_ops *ops;
+  COROT_TRY(COROT_DEFINED(def, corot_integrator_def));
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(state));
+  COROT_TRY(COROT_GIVEN(u));
+  COROT_TRY(COROT_GIVEN(v));
+  COROT_TRY(COROT_GIVEN(integrator));
   COROT_TRY(corot_state_check(model, state, "corot_integrator_create"));
   COROT_TRY(check(def));
   COROT_TRY(find_method(def->method, &ops));

@@ -2,14 +2,31 @@
 #include "linsol.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-corot_linear_def corot_linear_defaults(void) {
-  return (corot_linear_def){.solver = "auto",
-                            .ordering = "auto",
-                            .factor = "auto",
-                            .preconditioner = "auto",
-                            .tolerance = 1e-10,
-                            .role = COROT_ROLE_DYNAMIC};
+#include "core/base/sized.h"
+
+/* The solver of a definition whose size is not ours, which has no first member to say so. */
+static const char other_version[] = "of another version";
+
+void corot_linear_set_defaults(corot_linear_def *def, size_t bytes) {
+  const corot_linear_def ours = {.solver = bytes == sizeof ours ? "auto" : other_version,
+                                 .ordering = "auto",
+                                 .factor = "auto",
+                                 .preconditioner = "auto",
+                                 .tolerance = 1e-10,
+                                 .role = COROT_ROLE_DYNAMIC};
+  memset(def, 0, bytes);
+  memcpy(def, &ours, bytes < sizeof ours ? bytes : sizeof ours);
+}
+
+corot_status corot_linear_check(const corot_linear_def *def) {
+  if (def->solver != other_version) return COROT_OK;
+  return corot_fail(
+      COROT_EINVAL,
+      "a corot_linear_def of another size than corot %s has: the program was compiled "
+      "with headers of another version",
+      corot_version());
 }
 
 static corot_status check_refinement(const corot_model *model, const corot_refinement *r) {
@@ -37,6 +54,7 @@ static corot_status make(const corot_model *model, const linsol_plan *plan, lins
 corot_status corot_linsol_create(const corot_model *model, const corot_linear_def *def, linsol *s) {
   linsol_plan plan = {0};
   *s = (linsol){0};
+  COROT_TRY(corot_linear_check(def));
   COROT_TRY(check_refinement(model, def->refinement));
   corot_status status = corot_csc_create(model, COROT_LOWER, &s->csc);
   if (!status) status = corot_linsol_choose(def, s->csc, &plan);

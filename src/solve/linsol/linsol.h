@@ -85,6 +85,9 @@ typedef struct linsol {
 } linsol;
 
 /* On the model's pattern. What is half made is released by clear. */
+/* COROT_EINVAL: the definition was filled for a host with headers of another version. */
+corot_status corot_linear_check(const corot_linear_def *def);
+
 COROT_SISTERS corot_status corot_linsol_create(const corot_model *model,
                                                const corot_linear_def *def, linsol *s);
 COROT_SISTERS void corot_linsol_clear(linsol *s);

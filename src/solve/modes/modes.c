@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/sized.h"
 #include "core/model/model.h"
 #include "eigenproblem.h"
 #include "solve/pencil/wall_clock.h"
@@ -21,9 +22,10 @@ struct corot_modes {
   bool rest;
 };
 
-corot_modes_def corot_modes_defaults(void) {
-  return (corot_modes_def){
+void corot_modes_set_defaults(corot_modes_def *def, size_t bytes) {
+  const corot_modes_def ours = {
       .count = 10, .linear = corot_linear_defaults(), .tolerance = 1e-12, .max_restarts = 300};
+  corot_sized_fill(def, bytes, &ours, sizeof ours);
 }
 
 bool corot_modes_available(void) {
@@ -79,6 +81,8 @@ static corot_status check_stiffness(const corot_model *model, bool rest) {
 
 corot_status corot_modes_check(const corot_modes_def *d, const corot_model *model, double t,
                                bool rest) {
+  COROT_TRY(COROT_DEFINED(d, corot_modes_def));
+  COROT_TRY(COROT_GIVEN(model));
   if (!corot_modes_available())
     return corot_fail(COROT_EINVAL,
                       "modes: this corot was built without ARPACK, which finds "
@@ -216,6 +220,7 @@ corot_status corot_modes_find(const corot_modes_def *def, const corot_model *mod
                               const double *u, corot_modes **modes) {
   double start = clock_wall(), *rigid = NULL;
   int nrigid = 0;
+  COROT_TRY(COROT_GIVEN(modes));
   COROT_TRY(corot_modes_check(def, model, t, !u));
   corot_modes *m = calloc(1, sizeof *m);
   if (!m) return corot_fail(COROT_ENOMEM, "no memory for modes");

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/sized.h"
 #include "solve/linsol/linsol.h"
 
 /* The matrix of one component. */
@@ -137,7 +138,8 @@ static corot_status factor_consistent(corot_mass_solver *s, const corot_model *m
 }
 
 corot_status corot_mass_solver_create(const corot_model *model, corot_mass_solver **solver) {
-  if (!model) return corot_fail(COROT_EINVAL, "corot_mass_solver_create: there is no model");
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(solver));
   corot_mass_solver *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "no memory for a mass");
   s->n = corot_model_ndof(model);

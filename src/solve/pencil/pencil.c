@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/sized.h"
 #include "core/ode/state.h"
 #include "wall_clock.h"
 
@@ -31,6 +32,10 @@ static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
 
 corot_status corot_pencil_create(const corot_model *model, corot_state *state,
                                  const corot_linear_def *linear, corot_pencil **pencil) {
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(state));
+  COROT_TRY(COROT_GIVEN(pencil));
+  if (linear) COROT_TRY(corot_linear_check(linear));
   COROT_TRY(corot_state_check(model, state, "corot_pencil_create"));
   corot_linear_def def = linear ? *linear : corot_linear_defaults();
   corot_pencil *p = calloc(1, sizeof *p);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/sized.h"
 #include "core/mesh/mesh.h"
 #include "core/model/model.h"
 #include "core/ode/state.h"
@@ -271,6 +272,9 @@ static corot_status indicate(indication *s, const corot_linear_def *linear, doub
 corot_status corot_space_indicators(const corot_model *model, const corot_space_moment *at,
                                     const double *goal, const corot_linear_def *linear,
                                     double *indicator, corot_space_total *total) {
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(at));
+  COROT_TRY(COROT_GIVEN(indicator));
   if (!at->u) return corot_fail(COROT_EINVAL, "space indicators: the state has no u");
   if (model->system.nterm > 1)
     return corot_fail(COROT_EINVAL, "space indicators: not of a hierarchy of two strain measures");

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/sized.h"
 #include "raised.h"
 #include "rigid_fit.h"
 #include "rigid_modes.h"
@@ -170,6 +171,10 @@ static corot_status estimate_error(estimation *s, const corot_model_def *def,
 corot_status corot_space_error(const corot_model_def *def, const corot_model *model,
                                const corot_space_moment *at, const corot_linear_def *linear,
                                double (*correction)[3], corot_space_estimate *estimate) {
+  COROT_TRY(COROT_DEFINED(def, corot_model_def));
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(at));
+  COROT_TRY(COROT_GIVEN(estimate));
   COROT_TRY(check(def, model, at));
   estimation s = {.at = at};
   corot_status status = estimate_error(&s, def, model, linear);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/sized.h"
 #include "core/ode/stamp.h"
 #include "equilibrium.h"
 #include "rigid.h"
@@ -21,8 +22,8 @@ struct corot_statics {
   double all_s;
 };
 
-corot_statics_def corot_statics_defaults(void) {
-  return (corot_statics_def){
+void corot_statics_set_defaults(corot_statics_def *def, size_t bytes) {
+  const corot_statics_def ours = {
       .linear = corot_linear_defaults(),
       .frames = COROT_FRAMES_EXACT,
       .tolerance = 1e-10,
@@ -31,6 +32,7 @@ corot_statics_def corot_statics_defaults(void) {
       .min_step = 1e-4,
       .max_step = 1,
   };
+  corot_sized_fill(def, bytes, &ours, sizeof ours);
 }
 
 static corot_status check(const corot_statics_def *d, const corot_model *model, double t) {
@@ -75,6 +77,9 @@ static corot_status allocate(corot_statics *s, const corot_model *model, double 
 
 corot_status corot_statics_create(const corot_statics_def *def, const corot_model *model, double t,
                                   const double *u0, corot_statics **statics) {
+  COROT_TRY(COROT_DEFINED(def, corot_statics_def));
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(statics));
   COROT_TRY(check(def, model, t));
   corot_statics *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "no memory for statics");

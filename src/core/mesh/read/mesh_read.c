@@ -51,6 +51,8 @@ static corot_status read_any(const char *path, const char *data, size_t size, co
 corot_status corot_mesh_read(const char *path, corot_mesh **mesh) {
   char *data;
   size_t size;
+  COROT_TRY(COROT_GIVEN(path));
+  COROT_TRY(COROT_GIVEN(mesh));
   COROT_TRY(corot_file_load(path, &data, &size));
   corot_c_locale locale = corot_c_locale_enter();
   corot_status status = read_any(path, data, size, mesh);

@@ -130,6 +130,8 @@ static corot_status check_place(const char *path) {
 
 corot_status corot_mesh_write(const corot_mesh *mesh, const char *path) {
   char *temporary;
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(path));
   size_t size = strlen(path) + 16;
   COROT_TRY(check_place(path));
   COROT_TRY(COROT_ALLOC(temporary, size));
