@@ -104,8 +104,8 @@ COROT_API corot_status corot_pencil_solve(corot_pencil *pencil, const double *b,
 
    and _dae of F(t, y, y') = (u' - v, M v' - r): x = (dF/dy + dF/dy' / g)^-1 F. x may be r, or F.
    COROT_EINVAL: S is of another combination; else as corot_pencil_solve. */
-corot_status corot_pencil_newton(corot_pencil *pencil, const double *r, double *x);
-corot_status corot_pencil_newton_dae(corot_pencil *pencil, const double *F, double *x);
+COROT_API corot_status corot_pencil_newton(corot_pencil *pencil, const double *r, double *x);
+COROT_API corot_status corot_pencil_newton_dae(corot_pencil *pencil, const double *F, double *x);
 
 /* What the pencil is made of, for a host that solves, preconditions or couples by itself: read it
    only, until the pencil changes it or is destroyed. */
@@ -116,7 +116,7 @@ typedef struct corot_pencil_parts {
 } corot_pencil_parts;
 
 /* The solver may change in a run where it was left to choose, and the pattern with it. */
-corot_pencil_parts corot_pencil_view(const corot_pencil *pencil);
+COROT_API corot_pencil_parts corot_pencil_view(const corot_pencil *pencil);
 
 /* Marks K and D as out of date, so that the next set-up reassembles them whatever the integrator
    thinks. For a host that has called corot_frames_update. */

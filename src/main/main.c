@@ -70,30 +70,45 @@ static bool is_limited(void) {
   return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
+_Noreturn static void cannot_begin(const char *what) {
+  fprintf(stderr, "corot: cannot begin: %s: %s\n", what, strerror(errno));
+  _exit(EXIT_SYSTEM); /* with no handler of a library that has not been told */
+}
+
+static void tell(const char *name, const char *value) {
+  if (setenv(name, value, 0) != 0) cannot_begin(name);
+}
+
 /* Where address space is limited, each thread takes a large part of it; OpenBLAS waits for ever for
    those it cannot start, and OpenMP, of which CHOLMOD asks for four, ends the program with exit
    code 1. */
 static bool keep_to_one_thread(void) {
   if (!is_limited() || (getenv("OPENBLAS_NUM_THREADS") && getenv("OMP_THREAD_LIMIT"))) return false;
-  setenv("OPENBLAS_NUM_THREADS", "1", 0);
-  setenv("OMP_THREAD_LIMIT", "1", 0);
+  tell("OPENBLAS_NUM_THREADS", "1");
+  tell("OMP_THREAD_LIMIT", "1");
   return true;
 }
 
-/* Of commands that make many runs: to begin once more costs as much as a small one. */
+/* Of every command that factors, or a run would have other last digits by itself than in a study.
+ */
 static bool ask_for_better_kernels(const char *name) {
-  static const char *const many[] = {"study", "budget", "solve", "find-limit"};
+  static const char *const factoring[] = {"run",    "static", "modes",     "study",
+                                          "budget", "solve",  "find-limit"};
   bool wanted = false;
-  for (size_t i = 0; i < sizeof many / sizeof *many; i++) wanted |= strcmp(name, many[i]) == 0;
+  for (size_t i = 0; i < sizeof factoring / sizeof *factoring; i++)
+    wanted |= strcmp(name, factoring[i]) == 0;
   const char *core = wanted ? corot_blas_better_core() : NULL;
-  return core && setenv("OPENBLAS_CORETYPE", core, 0) == 0;
+  if (core) tell("OPENBLAS_CORETYPE", core);
+  return core;
 }
 
 /* These libraries read their environment before main: what they are told here they see only when
-   the program begins once more. Where that fails, it goes on as it is. */
+   the program begins once more. Where there is no /proc it goes on as it is. */
 static void tell_libraries(int argc, char **argv) {
   bool threads = keep_to_one_thread(), kernels = ask_for_better_kernels(argc > 1 ? argv[1] : "");
-  if (threads || kernels) execv("/proc/self/exe", argv);
+  if (!threads && !kernels) return;
+  execv("/proc/self/exe", argv);
+  if (errno != ENOENT) cannot_begin("exec");
 }
 
 /* OpenBLAS may wait for ever in its exit handler for threads that had no room to start. */

@@ -176,7 +176,7 @@ class State:
 def environment(state, home):
     kept = {name: value for name, value in os.environ.items() if "OMP" not in name}
     return dict(kept, LD_PRELOAD=setting.library, FAULTS_STATE=state.path, FAULTS_HOME=home,
-                OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", LC_ALL="C")
+                FAULTS_OFF="no", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", LC_ALL="C")
 
 
 def start(command, folder, state, **more):

@@ -270,7 +270,7 @@ static bool serve(int64_t k) {
     state->trial = getpid();
     counting = false;
     is_trial = true;
-    setenv("FAULTS_OFF", "1", 1);
+    *strstr(getenv("FAULTS_OFF"), "no") = 'y'; /* not by setenv, whose lock may be held */
     close(TO_DRIVER);
     close(FROM_DRIVER);
     move_into_copy();
@@ -368,7 +368,7 @@ __attribute__((constructor)) static void begin(void) {
   state = map;
   watch_for_crashes();
   if (state->root == 0) state->root = getpid();
-  counting = state->mode != OFF && !getenv("FAULTS_OFF");
+  counting = state->mode != OFF && strcmp(getenv("FAULTS_OFF"), "no") == 0;
   inside = 0;
 }
 

@@ -144,13 +144,13 @@ static void models_states_and_pencils_that_do_not_belong_together_are_refused(vo
     d.state = p.other.state; /* of an equal model */
     expect(name, callbacks[k].call(y, &d), "the state is another model's");
     d.state = NULL;
-    expect(name, callbacks[k].call(y, &d), "there is no state");
+    expect(name, callbacks[k].call(y, &d), "'state' is NULL");
     d = right_data();
     d.model = NULL;
-    expect(name, callbacks[k].call(y, &d), "there is no model");
+    expect(name, callbacks[k].call(y, &d), "'model' is NULL");
     d = right_data();
     d.pencil = NULL;
-    if (callbacks[k].pencil) expect(name, callbacks[k].call(y, &d), "there is no pencil");
+    if (callbacks[k].pencil) expect(name, callbacks[k].call(y, &d), "'pencil' is NULL");
     d = (corot_sun_data){.model = p.other.model, .state = p.other.state, .pencil = p.pencil};
     if (callbacks[k].pencil)
       expect(name, callbacks[k].call(y, &d), "the pencil is of another model or state");
@@ -217,14 +217,14 @@ static void the_pencil_does_without_nothing(void **state) {
   (void)state;
   corot_pencil *none = NULL;
   double x[1] = {0};
-  assert_fails(corot_pencil_create(NULL, p.b.state, NULL, &none), COROT_EINVAL, "no model");
-  assert_fails(corot_pencil_create(p.b.model, NULL, NULL, &none), COROT_EINVAL, "no state");
+  assert_fails(corot_pencil_create(NULL, p.b.state, NULL, &none), COROT_EINVAL, "'model' is NULL");
+  assert_fails(corot_pencil_create(p.b.model, NULL, NULL, &none), COROT_EINVAL, "'state' is NULL");
   assert_fails(corot_pencil_create(p.b.model, p.other.state, NULL, &none), COROT_EINVAL, "another");
-  assert_fails(corot_pencil_assemble(NULL, 0, x, x), COROT_EINVAL, "no pencil");
-  assert_fails(corot_pencil_factor(NULL), COROT_EINVAL, "no pencil");
-  assert_fails(corot_pencil_solve(NULL, x, x), COROT_EINVAL, "no pencil");
-  assert_fails(corot_pencil_newton(NULL, x, x), COROT_EINVAL, "no pencil");
-  assert_fails(corot_pencil_newton_dae(NULL, x, x), COROT_EINVAL, "no pencil");
+  assert_fails(corot_pencil_assemble(NULL, 0, x, x), COROT_EINVAL, "'pencil' is NULL");
+  assert_fails(corot_pencil_factor(NULL), COROT_EINVAL, "'pencil' is NULL");
+  assert_fails(corot_pencil_solve(NULL, x, x), COROT_EINVAL, "'pencil' is NULL");
+  assert_fails(corot_pencil_newton(NULL, x, x), COROT_EINVAL, "'pencil' is NULL");
+  assert_fails(corot_pencil_newton_dae(NULL, x, x), COROT_EINVAL, "'pencil' is NULL");
   corot_pencil_combine(NULL, 1, 1, 1);
   corot_pencil_use(NULL, COROT_TANGENT_EXACT);
   corot_pencil_invalidate(NULL);
@@ -245,7 +245,9 @@ static void functions_of_the_ode_refuse_a_state_of_another_model(void **state) {
     const corot_model *model;
     corot_state *state;
     const char *words;
-  } bad[] = {{NULL, p.b.state, "no model"}, {m, NULL, "no state"}, {m, p.other.state, "another"}};
+  } bad[] = {{NULL, p.b.state, "'model' is NULL"},
+             {m, NULL, "'state' is NULL"},
+             {m, p.other.state, "another"}};
   for (int k = 0; k < 3; k++) {
     const corot_model *model = bad[k].model;
     corot_state *s = bad[k].state;
@@ -263,15 +265,15 @@ static void functions_of_the_ode_refuse_a_state_of_another_model(void **state) {
   }
   corot_state *none;
   corot_mass_solver *mass;
-  assert_fails(corot_state_create(NULL, &none), COROT_EINVAL, "no model");
-  assert_fails(corot_mass_solver_create(NULL, &mass), COROT_EINVAL, "no model");
+  assert_fails(corot_state_create(NULL, &none), COROT_EINVAL, "'model' is NULL");
+  assert_fails(corot_mass_solver_create(NULL, &mass), COROT_EINVAL, "'model' is NULL");
   free(out), free(K), free(f);
 }
 
 static void advice_is_for_models_and_tolerances(void **state) {
   (void)state;
   corot_sun_advice a;
-  assert_fails(corot_sun_advise(NULL, COROT_SUN_IDA, 1e-4, &a), COROT_EINVAL, "no model");
+  assert_fails(corot_sun_advise(NULL, COROT_SUN_IDA, 1e-4, &a), COROT_EINVAL, "'model' is NULL");
   assert_fails(corot_sun_advise(p.b.model, 7, 1e-4, &a), COROT_EINVAL, "method 7");
   const double bad[] = {0, -1, NAN, INFINITY};
   for (int k = 0; k < 4; k++)
@@ -288,7 +290,7 @@ static void opening_refuses_and_can_be_tried_again(void **state) {
   loose.rtol = NAN;
   assert_int_equal(CVodeInit(cvode, corot_sun_rhs, 0, p.y), 0);
   assert_fails(corot_sun_cvode_open(&h, NULL, p.pencil, &d, p.y), COROT_EINVAL, "no integrator");
-  assert_fails(corot_sun_cvode_open(&h, cvode, NULL, &d, p.y), COROT_EINVAL, "no pencil");
+  assert_fails(corot_sun_cvode_open(&h, cvode, NULL, &d, p.y), COROT_EINVAL, "'pencil' is NULL");
   assert_fails(corot_sun_cvode_open(&h, cvode, p.pencil, NULL, p.y), COROT_EINVAL,
                "corot_sun_data");
   assert_fails(corot_sun_cvode_open(&h, cvode, p.pencil, &strange, p.y), COROT_EINVAL, "another");

@@ -6,6 +6,8 @@
 #include <corot/inputs.h>
 #include <stdbool.h>
 
+#include "core/base/sisters.h"
+
 /* Counts of changes: equal where nothing has changed. */
 typedef struct state_stamp {
   bool inputs;   /* there are some, */
@@ -17,18 +19,18 @@ typedef struct state_stamp {
   long matrices; /* of what else is in K and D */
 } state_stamp;
 
-state_stamp corot_state_stamp(const corot_state *state);
+COROT_SISTERS state_stamp corot_state_stamp(const corot_state *state);
 
 /* *gain = the elastic energy that the body has gained by changes of its materials since this was
    last asked [J]. COROT_RETRY when a tet is inverted. */
-corot_status corot_materials_gain(const corot_model *model, corot_state *state, double t,
-                                  const double *u, double *gain);
+COROT_SISTERS corot_status corot_materials_gain(const corot_model *model, corot_state *state,
+                                                double t, const double *u, double *gain);
 
 /* What has changed so far is where a run starts. */
-void corot_materials_settle(corot_state *state);
+COROT_SISTERS void corot_materials_settle(corot_state *state);
 
 /* Whether they may hold a body that no support holds: there is a feedback with blocks. Takes NULL.
  */
-bool corot_inputs_may_hold(const corot_inputs *inputs);
+COROT_SISTERS bool corot_inputs_may_hold(const corot_inputs *inputs);
 
 #endif

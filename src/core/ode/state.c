@@ -49,7 +49,7 @@ void corot_state_destroy(corot_state *s) {
 }
 
 corot_status corot_state_check(const corot_model *m, const corot_state *s, const char *who) {
-  if (!m || !s) return corot_fail(COROT_EINVAL, "%s: there is no %s", who, m ? "state" : "model");
+  if (!m || !s) return corot_fail(COROT_EINVAL, "%s: '%s' is NULL", who, m ? "state" : "model");
   if (s->model != m) return corot_fail(COROT_EINVAL, "%s: the state is another model's", who);
   return COROT_OK;
 }

@@ -25,7 +25,8 @@ struct corot_state {
 
 /* COROT_EINVAL: there is no model or no state, or the state is another model's. `who` is the
    function that a host called. */
-corot_status corot_state_check(const corot_model *model, const corot_state *state, const char *who);
+COROT_SISTERS corot_status corot_state_check(const corot_model *model, const corot_state *state,
+                                             const char *who);
 
 /* What deforms: the model's system, or with the factors of inputs; and the solid on the mesh. */
 static inline const solid_system *system_of(const corot_model *m, const corot_state *s) {

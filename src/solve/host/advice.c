@@ -1,6 +1,7 @@
 /* Settings of SUNDIALS' integrators that suit an elastic body. */
 #include <math.h>
 
+#include "core/base/sized.h"
 #include "host.h"
 
 /* Order 2 unless higher orders are stable or cheap. BDF 3, 4, 5 of step h are stable for all modes
@@ -75,8 +76,8 @@ corot_sun_advice corot_advise(const corot_model *model, corot_sun_method method,
 
 corot_status corot_sun_advise(const corot_model *model, corot_sun_method method, double rtol,
                               corot_sun_advice *advice) {
-  if (!model || !advice)
-    return corot_fail(COROT_EINVAL, "corot_sun_advise: no model, or no advice");
+  COROT_TRY(COROT_GIVEN(model));
+  COROT_TRY(COROT_GIVEN(advice));
   if (method < COROT_SUN_CVODE || method > COROT_SUN_ARKODE)
     return corot_fail(COROT_EINVAL, "corot_sun_advise: method %d is none", (int)method);
   if (!(rtol > 0) || !isfinite(rtol))

@@ -144,8 +144,6 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
                                      corot_integrator **integrator) {
   const integrator_ops *ops;
   COROT_TRY(COROT_DEFINED(def, corot_integrator_def));
-  COROT_TRY(COROT_GIVEN(model));
-  COROT_TRY(COROT_GIVEN(state));
   COROT_TRY(COROT_GIVEN(u));
   COROT_TRY(COROT_GIVEN(v));
   COROT_TRY(COROT_GIVEN(integrator));

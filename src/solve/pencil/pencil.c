@@ -32,8 +32,6 @@ static corot_status allocate(const corot_linear_def *linear, corot_pencil *p) {
 
 corot_status corot_pencil_create(const corot_model *model, corot_state *state,
                                  const corot_linear_def *linear, corot_pencil **pencil) {
-  COROT_TRY(COROT_GIVEN(model));
-  COROT_TRY(COROT_GIVEN(state));
   COROT_TRY(COROT_GIVEN(pencil));
   if (linear) COROT_TRY(corot_linear_check(linear));
   COROT_TRY(corot_state_check(model, state, "corot_pencil_create"));
@@ -67,7 +65,7 @@ void corot_pencil_destroy(corot_pencil *p) {
 }
 
 corot_status corot_pencil_check(const corot_pencil *p, const char *who) {
-  return p ? COROT_OK : corot_fail(COROT_EINVAL, "%s: there is no pencil", who);
+  return p ? COROT_OK : corot_fail(COROT_EINVAL, "%s: 'pencil' is NULL", who);
 }
 
 const char *corot_pencil_solver(const corot_pencil *p) { return p ? p->chosen.name : ""; }

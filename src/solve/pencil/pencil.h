@@ -34,7 +34,7 @@ struct corot_pencil {
 corot_status corot_pencil_check(const corot_pencil *pencil, const char *who);
 
 /* K once more, where it was assembled, with another derivative of the frames. */
-COROT_SISTERS corot_status corot_pencil_assemble_again(corot_pencil *pencil, corot_tangent tangent);
+corot_status corot_pencil_assemble_again(corot_pencil *pencil, corot_tangent tangent);
 
 /* corot_pencil_factor, and COROT_RETRY from a solver, too, that does not mind what is not positive
    definite. */

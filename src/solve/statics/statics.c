@@ -45,7 +45,6 @@ static corot_status check(const corot_statics_def *d, const corot_model *model, 
       {"min_step", d->min_step, 1},
       {"max_step", d->max_step, 1},
   };
-  if (!model) return corot_fail(COROT_EINVAL, "statics: there is no model");
   for (int k = 0; k < 4; k++)
     if (!(field[k].value > 0 && field[k].value <= field[k].most))
       return corot_fail(COROT_EINVAL, "statics: %s = %g is not above 0 and at most 1",
