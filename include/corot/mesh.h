@@ -47,7 +47,9 @@ typedef struct corot_mesh {
   corot_group *group; /* [ngroup] distinct names */
 } corot_mesh;
 
-/* Copies `x` [nnode] and `tet` [ntet] into a new mesh without groups.
+/* Copies `x` [nnode] and `tet` [ntet] into a new mesh without groups. The mesh owns the copies until
+   corot_mesh_destroy; a model copies what it needs of a mesh in its turn, and so does each function
+   that adds a group: the caller's arrays may go at once.
    COROT_EINVAL names the first node or tet that is not sound. COROT_ENOMEM. */
 COROT_API corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet,
                                          const int (*tet)[4], corot_mesh **mesh);
@@ -165,6 +167,20 @@ COROT_API corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name
    COROT_EINVAL if min is not at most max. */
 COROT_API corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
                                             const double max[3], double tol);
+
+/* Add a group of listed tets, with all their nodes and no triangles: what a material fills.
+   COROT_EINVAL: no tet is listed, or one that does not exist; of the name as above. COROT_ENOMEM.
+   In this and the next a repeated entry counts once. */
+COROT_API corot_status corot_mesh_group_tets(corot_mesh *mesh, const char *name, int ntet,
+                                             const int *tet);
+
+/* Add a group of listed triangles, with all their nodes, at order 2 those on the edges too, and no
+   tets: what a traction or a pressure acts on. `tri` [ntri] are corners; each triangle is the face
+   of a tet. On the boundary it is turned to wind outward, inside the mesh it stays as it is.
+   COROT_EINVAL: none is listed, or one (which is named) is no face of a tet; of the name as above.
+   COROT_ENOMEM. */
+COROT_API corot_status corot_mesh_group_triangles(corot_mesh *mesh, const char *name, int ntri,
+                                                  const int (*tri)[3]);
 
 /* The faces that belong to one tet only, winding outward. *tri [*ntri] is the caller's to free.
    COROT_ENOMEM. */

@@ -245,6 +245,11 @@ typedef struct corot_model_def {
   const char *strain; /* cauchy | warp | polar | hybrid | green; see corot/ode.h */
   int nmaterial;
   const corot_material *material; /* [nmaterial] every tet must be covered exactly once */
+  const int *tet_material; /* [mesh->ntet] the entry of `material` that fills each tet, as from an
+                              image or a table; no entry then names a group. NULL: groups say it.
+                              Tets are computed eight at a time, of one material: thousands of
+                              materials of a few tets each cost several times as much, which bins
+                              of equal ones avoid */
   int nfix;
   const corot_fix *fix; /* [nfix] none: a free body */
   int nmotion;

@@ -36,6 +36,17 @@ int corot_face_compare(const corot_face *a, const corot_face *b);
 /* The nodes of a face, winding outward from its tet. */
 void corot_face_outward(const corot_face *face, const int (*tet)[4], int tri[3]);
 
+/* Of sorted faces, the first that has a triangle's nodes; -1: there is none. */
+int corot_face_find(int nface, const corot_face *face, const int tri[3]);
+
+/* A triangle that is face f of the sorted faces, as a group has it: on the boundary outward, inside
+   the mesh as it is, or the other way round if it is `reversed`. */
+void corot_face_orient(const corot_mesh *mesh, const corot_face *face, int f, bool reversed,
+                       int tri[3]);
+
+/* Sorts `a` [*n] and drops what occurs again. */
+void corot_ints_unique(int *n, int *a);
+
 /* Of the mesh and all it holds. */
 size_t corot_mesh_bytes(const corot_mesh *mesh);
 
@@ -76,6 +87,14 @@ corot_status corot_mesh_check_volumes(const corot_mesh *mesh);
 
 /* Whether a group may be called so: 1 to 127 bytes, no double quotes, no control characters. */
 corot_status corot_group_name_check(const char *name);
+
+/* Whether a group may be added by that name. */
+corot_status corot_mesh_check_new_group(const corot_mesh *mesh, const char *name);
+
+/* Unless `status` is a failure already, `g`, which has no name yet, becomes the mesh's last group;
+   after a failure it is cleared. */
+corot_status corot_mesh_add_group(corot_status status, corot_mesh *mesh, const char *name,
+                                  corot_group *g);
 
 /* Adds the group of the marked nodes (`mark` [nnode], non-zero), with the triangles among
    `boundary` [ntri] and the tets whose nodes are all marked. */

@@ -69,6 +69,45 @@ int corot_face_compare(const corot_face *a, const corot_face *b) {
   return 0;
 }
 
+static int compare_ints(const void *a, const void *b) {
+  int p = *(const int *)a, q = *(const int *)b;
+  return (p > q) - (p < q);
+}
+
+void corot_ints_unique(int *n, int *a) {
+  int m = 0;
+  qsort(a, (size_t)*n, sizeof *a, compare_ints);
+  for (int i = 0; i < *n; i++)
+    if (i == 0 || a[i] != a[i - 1]) a[m++] = a[i];
+  *n = m;
+}
+
+int corot_face_find(int nface, const corot_face *face, const int tri[3]) {
+  corot_face key = {{tri[0], tri[1], tri[2]}, 0};
+  int low = 0, high = nface;
+  qsort(key.v, 3, sizeof *key.v, compare_ints);
+  while (low < high) {
+    int middle = low + (high - low) / 2;
+    if (corot_face_compare(&face[middle], &key) < 0)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < nface && corot_face_compare(&face[low], &key) == 0 ? low : -1;
+}
+
+void corot_face_orient(const corot_mesh *mesh, const corot_face *face, int f, bool reversed,
+                       int tri[3]) {
+  int n = 4 * mesh->ntet, outward[3];
+  bool inside = f + 1 < n && corot_face_compare(&face[f], &face[f + 1]) == 0;
+  corot_face_outward(&face[f], (const int(*)[4])mesh->tet, outward);
+  if (inside ? reversed : corot_tri_ascends(tri) != corot_tri_ascends(outward)) {
+    int swap = tri[1];
+    tri[1] = tri[2];
+    tri[2] = swap;
+  }
+}
+
 static bool is_single(int i, int nface, const corot_face *face) {
   return (i == 0 || corot_face_compare(&face[i - 1], &face[i]) != 0) &&
          (i + 1 == nface || corot_face_compare(&face[i], &face[i + 1]) != 0);

@@ -24,6 +24,32 @@ corot_status corot_group_name_check(const char *name) {
   return COROT_OK;
 }
 
+corot_status corot_mesh_check_new_group(const corot_mesh *mesh, const char *name) {
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(name));
+  COROT_TRY(corot_group_name_check(name));
+  if (corot_mesh_find_group(mesh, name))
+    return corot_fail(COROT_EINVAL, "group '%s' exists already", name);
+  return COROT_OK;
+}
+
+static corot_status append(corot_mesh *mesh, const char *name, corot_group *g) {
+  corot_group *more = realloc(mesh->group, ((size_t)mesh->ngroup + 1) * sizeof *more);
+  if (!more) return corot_fail(COROT_ENOMEM, "out of memory: group '%s'", name);
+  mesh->group = more;
+  COROT_TRY(COROT_ALLOC(g->name, strlen(name) + 1));
+  strcpy(g->name, name);
+  mesh->group[mesh->ngroup++] = *g;
+  return COROT_OK;
+}
+
+corot_status corot_mesh_add_group(corot_status status, corot_mesh *mesh, const char *name,
+                                  corot_group *g) {
+  if (!status) status = append(mesh, name, g);
+  if (status) corot_group_clear(g);
+  return status;
+}
+
 static bool all_marked(int n, const int *node, const char *mark) {
   for (int i = 0; i < n; i++)
     if (!mark[node[i]]) return false;
@@ -55,24 +81,12 @@ static corot_status collect(const corot_mesh *mesh, const char *mark, int ntri,
 corot_status corot_mesh_group_marked(corot_mesh *mesh, const char *name, const char *mark, int ntri,
                                      const int (*boundary)[3]) {
   corot_group g = {0};
-  COROT_TRY(corot_group_name_check(name));
-  if (corot_mesh_find_group(mesh, name))
-    return corot_fail(COROT_EINVAL, "group '%s' exists already", name);
+  COROT_TRY(corot_mesh_check_new_group(mesh, name));
   if (!memchr(mark, 1, (size_t)mesh->nnode))
     return corot_fail(COROT_EINVAL, "group '%s' has no nodes", name);
-  corot_group *more = realloc(mesh->group, ((size_t)mesh->ngroup + 1) * sizeof *more);
-  if (!more) return corot_fail(COROT_ENOMEM, "out of memory: group '%s'", name);
-  mesh->group = more;
-
-  corot_status status = COROT_ALLOC(g.name, strlen(name) + 1);
-  if (!status) strcpy(g.name, name);
-  if (!status) status = collect(mesh, mark, ntri, boundary, &g);
+  corot_status status = collect(mesh, mark, ntri, boundary, &g);
   if (!status && mesh->mid) status = corot_group_add_middles(mesh, ntri, boundary, &g);
-  if (status)
-    corot_group_clear(&g);
-  else
-    mesh->group[mesh->ngroup++] = g;
-  return status;
+  return corot_mesh_add_group(status, mesh, name, &g);
 }
 
 static corot_status add_marked(corot_mesh *mesh, const char *name, const char *mark) {
@@ -86,6 +100,8 @@ static corot_status add_marked(corot_mesh *mesh, const char *name, const char *m
 corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnode,
                                     const int *node) {
   char *mark;
+  COROT_TRY(corot_mesh_check_new_group(mesh, name));
+  COROT_TRY(COROT_GIVEN(node));
   for (int i = 0; i < nnode; i++)
     if (node[i] < 0 || node[i] >= mesh->nnode)
       return corot_fail(COROT_EINVAL, "group '%s': node %d does not exist, the last is %d", name,

@@ -32,9 +32,15 @@ static corot_status check_ranges(const corot_material *m, int k) {
   return COROT_OK;
 }
 
-/* One entry may go without a group, and each group has one. */
+/* One entry may go without a group, and each group has one; of tets that are told by number, none.
+ */
 static corot_status check_group(const corot_model_def *def, int k) {
   const char *group = def->material[k].group;
+  if (def->tet_material)
+    return group ? corot_fail_at("material", k, "group",
+                                 "group '%s' is named, but tet_material says which tets it fills",
+                                 group)
+                 : COROT_OK;
   for (int i = 0; i < k; i++) {
     const char *other = def->material[i].group;
     const corot_fault at = {
@@ -80,6 +86,34 @@ static corot_status fill_group(const corot_mesh *mesh, const char *name, int k, 
   return COROT_OK;
 }
 
+/* of_tet = the entries that the definition lists. */
+static corot_status take_list(const corot_model_def *def, int ntet, int *of_tet) {
+  for (int e = 0; e < ntet; e++) {
+    of_tet[e] = def->tet_material[e];
+    if (of_tet[e] < 0 || of_tet[e] >= def->nmaterial)
+      return corot_fail_at("model", 0, "tet_material",
+                           "tet %d is of material %d, of which there are %d", e, of_tet[e],
+                           def->nmaterial);
+  }
+  return COROT_OK;
+}
+
+/* of_tet = each material on the tets of its group; one without a group has the rest. */
+static corot_status fill_groups(const corot_model_def *def, const corot_mesh *mesh, int *of_tet) {
+  int rest = -1;
+  for (int e = 0; e < mesh->ntet; e++) of_tet[e] = -1;
+  for (int k = 0; k < def->nmaterial; k++)
+    if (def->material[k].group)
+      COROT_TRY(fill_group(mesh, def->material[k].group, k, of_tet));
+    else
+      rest = k;
+  for (int e = 0; e < mesh->ntet; e++) {
+    if (of_tet[e] < 0) of_tet[e] = rest;
+    if (of_tet[e] < 0) return corot_fail_at("model", 0, "material", "tet %d has no material", e);
+  }
+  return COROT_OK;
+}
+
 void corot_material_share(const corot_model *m, material *a) {
   double local = m->local_moduli < INFINITY ? m->local_moduli * a->mu : INFINITY;
   bool averaged = a->lambda > local;
@@ -94,10 +128,6 @@ corot_status corot_materials_create(const corot_model_def *def, corot_model *m, 
   m->material = calloc(def->nmaterial + 1, sizeof *m->material);
   if (!m->material) return corot_fail(COROT_ENOMEM, "no memory for %d materials", def->nmaterial);
 
-  int ntet = m->mesh->ntet, rest = -1;
-  for (int e = 0; e < ntet; e++) of_tet[e] = -1;
-
-  /* each with the tets of its group; one without a group has the rest */
   for (int k = 0; k < def->nmaterial; k++) {
     const corot_material *from = &def->material[k];
     m->material[k] = (material){.lambda = from->lambda,
@@ -110,14 +140,7 @@ corot_status corot_materials_create(const corot_model_def *def, corot_model *m, 
                                 .own_share = 1};
     *damped |= from->damping_lambda > 0 || from->damping_mu > 0;
     m->mass_damped |= from->damping_mass > 0;
-    if (from->group)
-      COROT_TRY(fill_group(m->mesh, from->group, k, of_tet));
-    else
-      rest = k;
   }
-  for (int e = 0; e < ntet; e++) {
-    if (of_tet[e] < 0) of_tet[e] = rest;
-    if (of_tet[e] < 0) return corot_fail_at("model", 0, "material", "tet %d has no material", e);
-  }
-  return COROT_OK;
+  return def->tet_material ? take_list(def, m->mesh->ntet, of_tet)
+                           : fill_groups(def, m->mesh, of_tet);
 }

@@ -173,38 +173,6 @@ static int take_nodes(gather *g, const part *p, size_t npart, int *node) {
   return n;
 }
 
-static int compare_ints(const void *a, const void *b) {
-  int p = *(const int *)a, q = *(const int *)b;
-  return (p > q) - (p < q);
-}
-
-/* The first face with a triangle's nodes; -1: it is no face of a tet. */
-static int find_face(const gather *g, const int tri[3]) {
-  corot_face key = {{tri[0], tri[1], tri[2]}, 0};
-  qsort(key.v, 3, sizeof *key.v, compare_ints);
-  int n = 4 * g->mesh->ntet, low = 0, high = n;
-  while (low < high) {
-    int middle = low + (high - low) / 2;
-    if (corot_face_compare(&g->face[middle], &key) < 0)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < n && corot_face_compare(&g->face[low], &key) == 0 ? low : -1;
-}
-
-/* A triangle in its group's orientation: outward on the boundary, elsewhere as the file has it. */
-static void orient(const gather *g, int f, bool reversed, int tri[3]) {
-  int n = 4 * g->mesh->ntet, outward[3];
-  bool inside = f + 1 < n && corot_face_compare(&g->face[f], &g->face[f + 1]) == 0;
-  corot_face_outward(&g->face[f], (const int(*)[4])g->mesh->tet, outward);
-  if (inside ? reversed : corot_tri_ascends(tri) != corot_tri_ascends(outward)) {
-    int swap = tri[1];
-    tri[1] = tri[2];
-    tri[2] = swap;
-  }
-}
-
 /* The node of a tet on the edge between two of its corners. */
 static int tet_middle(const corot_mesh *mesh, int e, int a, int b) {
   const int *v = mesh->tet[e];
@@ -233,7 +201,7 @@ static corot_status check_middles(const gather *g, const corot_draft_element *t,
 static corot_status take_triangles(gather *g, const part *p, corot_group *group) {
   for (size_t i = 0; i < p->count; i++) {
     const corot_draft_element *e = element(g, p, i);
-    int f = find_face(g, e->node), *tri = group->tri[group->ntri];
+    int f = corot_face_find(4 * g->mesh->ntet, g->face, e->node), *tri = group->tri[group->ntri];
     if (f < 0)
       return corot_reader_fail(g->d->element_file, e->at,
                                "element %lld: the triangle is no face of a tet", (long long)e->tag);
@@ -241,7 +209,8 @@ static corot_status take_triangles(gather *g, const part *p, corot_group *group)
     if (g->face_seen[f] == g->pass) continue;
     g->face_seen[f] = g->pass;
     memcpy(tri, e->node, sizeof *group->tri);
-    orient(g, f, g->d->member[p->first + i].physical < 0, tri);
+    bool reversed = g->d->member[p->first + i].physical < 0;
+    corot_face_orient(g->mesh, g->face, f, reversed, tri);
     group->ntri++;
   }
   return COROT_OK;
@@ -250,14 +219,6 @@ static corot_status take_triangles(gather *g, const part *p, corot_group *group)
 static void take_tets(const gather *g, const part *p, corot_group *group) {
   for (size_t i = 0; i < p->count; i++)
     group->tet[group->ntet++] = g->tet[g->d->member[p->first + i].element];
-}
-
-static void make_unique(int *n, int *a) {
-  int m = 0;
-  qsort(a, (size_t)*n, sizeof *a, compare_ints);
-  for (int i = 0; i < *n; i++)
-    if (i == 0 || a[i] != a[i - 1]) a[m++] = a[i];
-  *n = m;
 }
 
 /* Fills a zeroed group from its parts. */
@@ -274,12 +235,12 @@ static corot_status fill_group(gather *g, const part *p, size_t npart, corot_gro
   COROT_TRY(COROT_ALLOC(group->tet, ntet));
   strcpy(group->name, p->name);
   take_nodes(g, p, npart, group->node);
-  qsort(group->node, (size_t)group->nnode, sizeof *group->node, compare_ints);
+  corot_ints_unique(&group->nnode, group->node);
   for (size_t k = 0; k < npart; k++) {
     if (p[k].dim == 2) COROT_TRY(take_triangles(g, &p[k], group));
     if (p[k].dim == 3) take_tets(g, &p[k], group);
   }
-  make_unique(&group->ntet, group->tet);
+  corot_ints_unique(&group->ntet, group->tet);
   return COROT_OK;
 }
 
