@@ -335,7 +335,7 @@ typedef struct maker {
 static corot_status make_schedule(void *context) {
   maker *m = context;
   schedule *s = NULL;
-  corot_status status = schedule_create(m->model, 2, 0.1, &s);
+  corot_status status = schedule_create(m->model, 2, 0.1, 0, NULL, &s);
   if (status == COROT_OK) assert_int_equal(s->nkink, 1);
   schedule_destroy(s);
   return status;

@@ -78,6 +78,7 @@ static corot_status find_modes(modal_run *r) {
 static corot_status prepare(modal_run *r) {
   const scenario *s = r->scenario;
   modes_about what = r->options->about;
+  COROT_TRY(scenario_refuse_inputs(s, "corot modes"));
   COROT_TRY(scenario_build(s, &r->mesh, &r->refinement, &r->model));
   COROT_TRY(run_warn_before(s, r->model, true, r->options, &r->warnings));
   r->rest = what == MODES_ABOUT_REST || (what == MODES_ABOUT_START && !s->start_at_equilibrium);

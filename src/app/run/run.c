@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "app/text/say.h"
+#include "live.h"
 #include "outputs.h"
 #include "progress.h"
 #include "quantities.h"
@@ -24,6 +25,7 @@ typedef struct run {
   corot_refinement *refinement; /* or NULL */
   corot_model *model;
   corot_state *state;
+  live *live;
   corot_integrator *integrator;
   corot_frame_clock *clock;
   schedule *schedule;
@@ -43,6 +45,18 @@ typedef struct run {
 
 /* Before the first step: nothing is written yet. */
 
+static corot_status make_schedule(run *r) {
+  const scenario *s = r->scenario;
+  int n = live_times(r->live, s->t_end, 0, NULL);
+  double *change = malloc(((size_t)n + 1) * sizeof *change);
+  if (!change) return corot_fail(COROT_ENOMEM, "the times of the inputs: out of memory");
+  live_times(r->live, s->t_end, n, change);
+  corot_status status =
+      schedule_create(r->model, s->t_end, s->output_step, n, change, &r->schedule);
+  free(change);
+  return status;
+}
+
 static corot_status start_integrator(run *r) {
   const scenario *s = r->scenario;
   size_t n = (size_t)corot_model_ndof(r->model);
@@ -54,7 +68,9 @@ static corot_status start_integrator(run *r) {
   if (s->start_at_equilibrium) COROT_TRY(static_start(s, r->refinement, r->model, r->u));
   scenario_start(s, r->model, r->u, r->v);
   corot_state_enter(r->state, 0);
-  COROT_TRY(schedule_create(r->model, s->t_end, s->output_step, &r->schedule));
+  COROT_TRY(live_create(s, r->model, 0, &r->live));
+  COROT_TRY(corot_state_use_inputs(r->state, live_inputs(r->live)));
+  COROT_TRY(make_schedule(r));
   corot_integrator_def def = s->integrator;
   def.linear.refinement = r->refinement;
   COROT_TRY(corot_integrator_create(&def, r->model, r->state, 0, r->u, r->v, &r->integrator));
@@ -78,6 +94,7 @@ static void release(run *r) {
   corot_integrator_destroy(r->integrator);
   schedule_destroy(r->schedule);
   corot_state_destroy(r->state);
+  live_destroy(r->live);
   corot_model_destroy(r->model);
   corot_refinement_destroy(r->refinement);
   corot_mesh_destroy(r->mesh);
@@ -170,15 +187,22 @@ static void prepare_step(run *r) {
     corot_state_enter(r->state, NAN);
 }
 
-/* The integrator has stopped at a kink, and is told. At constant step it keeps its factor, in which
-   no velocity stands. */
+/* The integrator has stopped at a kink, or where inputs change, and is told. At constant step it
+   keeps its factor, in which no velocity stands. */
 static corot_status pass_kinks(run *r, step_row *row) {
   long before = corot_integrator_statistics(r->integrator).nrestart;
+  bool changed = false;
   for (double kink; schedule_take_kink(r->schedule, row->t, &kink);) {
+    bool here;
     row->events |= EVENT_KINK;
     corot_state_enter(r->state, fmax(kink, row->t));
+    COROT_TRY(live_enter(r->live, kink, &here));
+    changed |= here;
   }
-  if (row->events & EVENT_KINK) COROT_TRY(corot_integrator_kink(r->integrator));
+  if (changed)
+    COROT_TRY(corot_integrator_changed(r->integrator, COROT_HISTORY_AUTO));
+  else if (row->events & EVENT_KINK)
+    COROT_TRY(corot_integrator_kink(r->integrator));
   if (corot_integrator_statistics(r->integrator).nrestart > before) row->events |= EVENT_RESTART;
   return COROT_OK;
 }

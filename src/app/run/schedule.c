@@ -11,14 +11,29 @@ void schedule_destroy(schedule *s) {
   free(s);
 }
 
-corot_status schedule_create(const corot_model *model, double end, double output_step,
-                             schedule **out) {
+static int compare(const void *a, const void *b) {
+  double p = *(const double *)a, q = *(const double *)b;
+  return (p > q) - (p < q);
+}
+
+/* Ascending, each once. */
+static void merge(schedule *s) {
+  int n = 0;
+  qsort(s->kink, (size_t)s->nkink, sizeof *s->kink, compare);
+  for (int i = 0; i < s->nkink; i++)
+    if (i == 0 || s->kink[i] != s->kink[i - 1]) s->kink[n++] = s->kink[i];
+  s->nkink = n;
+}
+
+corot_status schedule_create(const corot_model *model, double end, double output_step, int nchange,
+                             const double *change, schedule **out) {
+  int nkink = corot_model_kinks(model, 0, end, 0, NULL);
   schedule *s = malloc(sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "the times of the run: out of memory");
   *s = (schedule){
       .end = end,
       .output_step = output_step,
-      .nkink = corot_model_kinks(model, 0, end, 0, NULL),
+      .nkink = nkink + nchange,
       .near = 1e-12 * end,
   };
   s->kink = malloc(((size_t)s->nkink + 1) * sizeof *s->kink);
@@ -26,7 +41,9 @@ corot_status schedule_create(const corot_model *model, double end, double output
     schedule_destroy(s);
     return corot_fail(COROT_ENOMEM, "the kinks of loads and motions: out of memory");
   }
-  corot_model_kinks(model, 0, end, s->nkink, s->kink);
+  corot_model_kinks(model, 0, end, nkink, s->kink);
+  for (int i = 0; i < nchange; i++) s->kink[nkink + i] = change[i];
+  merge(s);
   *out = s;
   return COROT_OK;
 }

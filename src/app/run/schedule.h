@@ -1,9 +1,9 @@
 /* What is due when, in a run from 0 to its end.
 
-   Kinks of loads and motions stop the integrator, if it can be stopped: one of constant step keeps
-   to its grid, and a kink is due at the end of the step it falls into. Output times are read off
-   the integrator's interpolant and leave its steps alone. The k-th output stands at
-   k * output_step: times do not add up their rounding. */
+   Kinks of loads and motions, and changes of inputs, stop the integrator, if it can be stopped: one
+   of constant step keeps to its grid, and a kink is due at the end of the step it falls into.
+   Output times are read off the integrator's interpolant and leave its steps alone. The k-th output
+   stands at k * output_step: times do not add up their rounding. */
 #ifndef COROT_APP_RUN_SCHEDULE_H
 #define COROT_APP_RUN_SCHEDULE_H
 
@@ -13,15 +13,17 @@ typedef struct schedule {
   double end;         /* [s] */
   double output_step; /* [s]; 0: at the start and the end only */
   int nkink;
-  double *kink; /* [nkink] ascending, within (0, end) */
-  double near;  /* times closer than this are the same: an interval of 0.1 meets a kink at 0.3 */
+  double
+      *kink;   /* [nkink] ascending, each once, within (0, end); changes of inputs are among them */
+  double near; /* times closer than this are the same: an interval of 0.1 meets a kink at 0.3 */
 
   int next_kink;
   long next_output; /* counting from 0 */
 } schedule;
 
-corot_status schedule_create(const corot_model *model, double end, double output_step,
-                             schedule **out);
+/* `change` [nchange] are the times of the inputs, within (0, end), in any order. */
+corot_status schedule_create(const corot_model *model, double end, double output_step, int nchange,
+                             const double *change, schedule **out);
 void schedule_destroy(schedule *s);
 
 /* The first of the next kink, `other` and the end. */

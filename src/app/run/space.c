@@ -36,6 +36,7 @@ static bool is_cheap(const space_question *q) {
 static const char *find_reason(const space_question *q) {
   const scenario *s = q->scenario;
   if (s->space_error == SPACE_ERROR_OFF) return "output.space_error is false";
+  if (s->ninput) return "there is no estimate beside inputs";
   if (s->model.hierarchy) return "there is no estimate for a hierarchy";
   if (corot_mesh_order(corot_model_mesh(q->model)) != 1)
     return "there is no estimate for ten-node tets";

@@ -8,6 +8,7 @@
 
 #include "app/text/json_text.h"
 #include "app/text/say.h"
+#include "live.h"
 #include "quantities.h"
 #include "run_clock.h"
 #include "run_common.h"
@@ -20,6 +21,7 @@ typedef struct equilibrium_run {
   corot_refinement *refinement; /* or NULL */
   corot_model *model;
   corot_state *state; /* for outputs; it stands still */
+  live *live;         /* as they are at the end */
   corot_statics *statics;
   outputs *outputs;
   double *u, *v;                         /* [n] v is zero */
@@ -50,7 +52,9 @@ static corot_status allocate(equilibrium_run *r) {
   r->x = r->nodal, r->f = r->nodal + nnode;
   r->x_before = r->nodal + 2 * nnode, r->f_before = r->nodal + 3 * nnode;
   r->velocity = r->nodal + 4 * nnode;
-  return corot_state_create(r->model, &r->state);
+  COROT_TRY(corot_state_create(r->model, &r->state));
+  COROT_TRY(live_create(r->scenario, r->model, r->scenario->t_end, &r->live));
+  return corot_state_use_inputs(r->state, live_inputs(r->live));
 }
 
 static bool is_stopped(void *data) {
@@ -67,6 +71,7 @@ static corot_status prepare(equilibrium_run *r) {
   COROT_TRY(run_warn_before(s, r->model, true, r->options, &r->warnings));
   def.linear.refinement = r->refinement;
   COROT_TRY(allocate(r));
+  def.inputs = live_inputs(r->live);
   corot_status status = corot_statics_create(&def, r->model, s->t_end, NULL, &r->statics);
   if (status) return corot_fail(status, "%s: %s", s->path, corot_error());
   corot_statics_counts n = corot_statics_statistics(r->statics); /* of K at rest */
@@ -86,6 +91,7 @@ static void release(equilibrium_run *r) {
   outputs_destroy(r->outputs);
   corot_statics_destroy(r->statics);
   corot_state_destroy(r->state);
+  live_destroy(r->live);
   corot_model_destroy(r->model);
   corot_refinement_destroy(r->refinement);
   corot_mesh_destroy(r->mesh);
@@ -307,13 +313,19 @@ static corot_status solve_at(const scenario *s, const corot_refinement *refineme
   def.stop = is_stopped;
   def.linear.refinement = refinement;
   def.follow_unstable = follow;
-  corot_status status = corot_statics_create(&def, model, t, NULL, &statics);
+  live *l = NULL;
+  corot_status status = live_create(s, model, t, &l);
+  if (status == COROT_OK) {
+    def.inputs = live_inputs(l);
+    status = corot_statics_create(&def, model, t, NULL, &statics);
+  }
   if (status == COROT_OK) {
     status = corot_statics_solve(statics);
     corot_statics_critical(statics, &stable, &unstable);
   }
   if (status == COROT_OK) corot_statics_at(statics, u);
   corot_statics_destroy(statics);
+  live_destroy(l);
   *lost = !isnan(unstable);
   return status;
 }

@@ -206,6 +206,12 @@ static void print_load(const corot_load *l, FILE *out) {
   print_amplitude(&l->amplitude, out);
 }
 
+static void print_input(const input_def *in, FILE *out) {
+  fprintf(out, "input          %s: factor of %s[%d]", in->name,
+          in->of == INPUT_LOAD ? "loads" : "material", in->index);
+  print_amplitude(&in->values, out);
+}
+
 static void print_motion(const corot_motion *m, FILE *out) {
   fprintf(out, "motion         of %s: ", m->group);
   switch (m->kind) {
@@ -241,6 +247,7 @@ static void print_start(const start_def *start, FILE *out) {
 static void print_inputs(const scenario *s, FILE *out) {
   for (int i = 0; i < s->model.nload; i++) print_load(&s->model.load[i], out);
   for (int i = 0; i < s->model.nmotion; i++) print_motion(&s->model.motion[i], out);
+  for (int i = 0; i < s->ninput; i++) print_input(&s->input[i], out);
   if (s->start_at_equilibrium) fputs("start          in equilibrium\n", out);
   for (int i = 0; i < s->nstart; i++) print_start(&s->start[i], out);
 }
@@ -390,6 +397,10 @@ static json_t *amplitudes_json(const scenario *s) {
     if (s->model.motion[i].kind != COROT_MOVE && s->model.motion[i].kind != COROT_TURN) continue;
     snprintf(key, sizeof key, "motion of %.20s", s->model.motion[i].group);
     add_amplitude(list, key, &s->model.motion[i].amplitude);
+  }
+  for (int i = 0; i < s->ninput; i++) {
+    snprintf(key, sizeof key, "inputs.%.20s", s->input[i].name);
+    add_amplitude(list, key, &s->input[i].values);
   }
   return list;
 }

@@ -46,6 +46,17 @@ typedef struct quantity_def {
   const struct config_node *node;
 } quantity_def;
 
+typedef enum input_of { INPUT_LOAD, INPUT_MATERIAL } input_of;
+
+/* A factor that comes in while a run goes on. */
+typedef struct input_def {
+  const char *name;
+  input_of of;
+  int index;              /* into model.load or model.material */
+  corot_amplitude values; /* LINEAR, of at least one point; of a material they count stepwise */
+  const struct config_node *node;
+} input_def;
+
 /* A velocity some nodes start with. */
 typedef struct start_def {
   const char *group;  /* NULL: the whole body */
@@ -87,6 +98,9 @@ typedef struct scenario {
   bool start_at_equilibrium; /* of the loads at t = 0; else undeformed */
   int nstart;
   const start_def *start; /* [nstart] a later one takes the place of an earlier on its nodes */
+
+  int ninput;
+  const input_def *input; /* [ninput] each of another load or material */
 
   int ncompare;
   const char *const *compare; /* measures whose forces are held against those of green */
@@ -134,6 +148,9 @@ void scenario_describe_amplitude(const corot_amplitude *a, size_t size, char *te
 
 /* Takes NULL. */
 void scenario_destroy(scenario *s);
+
+/* COROT_EFORMAT at the inputs, if there are any: `what` knows nothing of them. */
+corot_status scenario_refuse_inputs(const scenario *s, const char *what);
 
 /* The mesh with its groups, its refinement if the linear solver is to know it, else NULL, and the
    model; all the caller's to destroy. Who has no use for the refinement passes NULL. COROT_EFORMAT:

@@ -49,6 +49,7 @@ static const struct {
     {.field = "amplitude", .key = "amplitude.smooth"},
     {.field = "amplitude.time", .key = "amplitude.smooth"},
     {.field = "amplitude.time", .key = "amplitude"},
+    {.field = "amplitude.time", .key = "values"},
     {.field = "amplitude.frequency", .key = "amplitude.sine.frequency"},
     {.field = "amplitude.phase", .key = "amplitude.sine.phase"},
     {.field = "conservative", .key = "force"},
@@ -82,7 +83,8 @@ static config_node *find_key(config_node *entry, const char *key) {
 /* Entry `index` of those in `list`: of boundary, of the maps that fix or of those that do not. */
 static config_node *find_entry(config_node *list, int index, const char *entry) {
   bool fix = strcmp(entry, "fix") == 0, motion = strcmp(entry, "motion") == 0;
-  config_node *c = list->kind == CONFIG_LIST ? list->child : NULL;
+  bool named = strcmp(entry, "input") == 0;
+  config_node *c = list->kind == CONFIG_LIST || named ? list->child : NULL;
   for (; c; c = c->next) {
     bool fixes = config_find(c, "fix") != NULL;
     if ((fix && !fixes) || (motion && fixes)) continue;
@@ -94,11 +96,8 @@ static config_node *find_entry(config_node *list, int index, const char *entry) 
 static config_node *entry_of(const scenario *s, const char *entry, int index) {
   static const struct {
     const char *entry, *key;
-  } lists[] = {{"material", "material"},
-               {"fix", "boundary"},
-               {"motion", "boundary"},
-               {"load", "loads"},
-               {"hierarchy", "hierarchy"}};
+  } lists[] = {{"material", "material"}, {"fix", "boundary"}, {"motion", "boundary"},
+               {"load", "loads"},        {"input", "inputs"}, {"hierarchy", "hierarchy"}};
   config_node *root = s->source->root;
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
     if (strcmp(lists[i].entry, entry) == 0)

@@ -120,6 +120,13 @@ static const schema_key keys[] = {
   {"loads[].amplitude",       SCHEMA_CURVE,    OPTIONAL, ANY,          "s, 1",    0, 0, "factor as [[time, value], ...], linear between, constant beyond, two points at one time: a jump; or a map of one of sine, smooth, file"},
   AMPLITUDE("loads[].amplitude"),
 
+  {"inputs",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        0, 0, "what changes while the run goes on beside the amplitudes of loads and of moving supports, by name; not together with compare; at a constant step, times are those of steps"},
+  {"inputs.NAME.load",        INTEGER,         ONE_OF,   NOT_NEGATIVE, "",        0, 0, "the load, counted from 0, which the values multiply beside its own amplitude: linear between, constant beyond, two points at one time a jump"},
+  {"inputs.NAME.material",    INTEGER,         ONE_OF,   NOT_NEGATIVE, "",        0, 0, "the material, counted from 0, whose lambda, mu, damping.lambda and damping.mu the values multiply, each from its time to the next, the first before it, too; above 0; energy that a strained body gains so is external work"},
+  {"inputs.NAME.values",      SCHEMA_CURVE,    REQUIRED, ANY,          "s, 1",    0, 0, "[[time, value], ...] or {file: ...}"},
+  {"inputs.NAME.values.file", TEXT,            REQUIRED, ANY,          "s, 1",    0, 0, "a table as amplitude.file"},
+  {"inputs.NAME.values.sha256", TEXT,          OPTIONAL, ANY,          "",        0, 0, "as amplitude.sha256"},
+
   {"time",                    MAP,             REQUIRED, ANY,          "",        0, 0, "the span of the run, from t = 0"},
   {"time.end",                NUMBER,          REQUIRED, POSITIVE,     "s",       0, 0, "the last time"},
   {"time.output",             NUMBER,          OPTIONAL, POSITIVE,     "s",       0, 0, "time between outputs; default: end / 100"},
@@ -199,6 +206,12 @@ static const schema_key keys[] = {
 /* clang-format on */
 
 static const schema_synonym synonyms[] = {
+    {.path = "", .key = "input", .name = "inputs"},
+    {.path = "inputs.NAME", .key = "file", .name = "values.file"},
+    {.path = "inputs.NAME", .key = "amplitude", .name = "values"},
+    {.path = "inputs.NAME", .key = "factor", .name = "values"},
+    {.path = "inputs.NAME", .key = "force", .name = "loads[].amplitude.file"},
+    {.path = "inputs.NAME", .key = "path", .name = "boundary[].move.amplitude.file"},
     {.path = "", .key = "initial", .name = "start"},
     {.path = "", .key = "initial_conditions", .name = "start"},
     {.path = "", .key = "initial_velocity", .name = "start.velocity"},

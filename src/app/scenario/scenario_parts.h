@@ -47,6 +47,9 @@ corot_status scenario_read_quantities(scenario *s);
 /* A name becomes the head of columns of a CSV file, or a key of result.json. */
 bool scenario_is_column_name(const char *name);
 
+/* inputs, after time, integrator and compare */
+corot_status scenario_read_inputs(scenario *s);
+
 /* An amplitude; its memory is the tree's. */
 corot_status scenario_read_amplitude(scenario *s, config_node *node, corot_amplitude *a);
 

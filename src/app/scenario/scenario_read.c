@@ -216,6 +216,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_statics(s));
   COROT_TRY(scenario_read_start(s));
   COROT_TRY(read_compare(s));
+  COROT_TRY(scenario_read_inputs(s));
   COROT_TRY(scenario_read_probes(s));
   COROT_TRY(scenario_read_quantities(s));
   read_output(s);
