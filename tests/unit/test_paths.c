@@ -217,6 +217,8 @@ typedef struct trace {
   double missing;
 } trace;
 
+static const double RTOL = 1e-5;
+
 static trace run(int i, int order, bool led) {
   enum { NWINDOW = 20 };
   body moves = make_moved("polar", order, &motions[1]),
@@ -231,7 +233,7 @@ static trace run(int i, int order, bool led) {
     if (led && k == 0) assert_ok(corot_inputs_start_path(in, &first));
     if (led) assert_ok(corot_inputs_reach(in, t0, &path));
     if (!integrator)
-      integrator = integrate_by(i, &b, 1e-5);
+      integrator = integrate_by(i, &b, RTOL);
     else if (led)
       assert_ok(corot_integrator_changed(integrator, COROT_HISTORY_AUTO));
     go_to(integrator, t1);
@@ -260,7 +262,8 @@ static void every_integrator_follows(void **state) {
       trace moved = run(i, order, false), led = run(i, order, true);
       assert_below(difference_of(led.n, led.u, moved.u), 1e-4 * norm_max(led.n, led.u));
       assert_true(led.cost <= 1.2 * moved.cost);
-      assert_below(led.missing, 4 * moved.missing); /* the noise of other steps */
+      /* the noise of other steps; what is missing below the tolerance is so by chance */
+      assert_below(led.missing, 4 * fmax(moved.missing, RTOL));
       free(moved.u), free(led.u);
     }
 }
