@@ -89,15 +89,17 @@ static bool keep_to_one_thread(void) {
   return true;
 }
 
-/* Of every command that factors, or a run would have other last digits by itself than in a study.
- */
-static bool ask_for_better_kernels(const char *name) {
+/* The commands that factor: a run has the same last digits by itself as in a study. */
+static bool is_factoring(const char *name) {
   static const char *const factoring[] = {"run",    "static", "modes",     "study",
                                           "budget", "solve",  "find-limit"};
-  bool wanted = false;
   for (size_t i = 0; i < sizeof factoring / sizeof *factoring; i++)
-    wanted |= strcmp(name, factoring[i]) == 0;
-  const char *core = wanted ? corot_blas_better_core() : NULL;
+    if (strcmp(name, factoring[i]) == 0) return true;
+  return false;
+}
+
+static bool ask_for_better_kernels(void) {
+  const char *core = corot_blas_better_core();
   if (core) tell("OPENBLAS_CORETYPE", core);
   return core;
 }
@@ -105,10 +107,13 @@ static bool ask_for_better_kernels(const char *name) {
 /* These libraries read their environment before main: what they are told here they see only when
    the program begins once more. Where there is no /proc it goes on as it is. */
 static void tell_libraries(int argc, char **argv) {
-  bool threads = keep_to_one_thread(), kernels = ask_for_better_kernels(argc > 1 ? argv[1] : "");
-  if (!threads && !kernels) return;
-  execv("/proc/self/exe", argv);
-  if (errno != ENOENT) cannot_begin("exec");
+  bool factors = argc > 1 && is_factoring(argv[1]);
+  bool threads = keep_to_one_thread(), kernels = factors && ask_for_better_kernels();
+  if (threads || kernels) {
+    execv("/proc/self/exe", argv);
+    if (errno != ENOENT) cannot_begin("exec");
+  }
+  if (factors) corot_blas_keep_to_one_thread();
 }
 
 /* OpenBLAS may wait for ever in its exit handler for threads that had no room to start. */

@@ -18,6 +18,11 @@ is_told() {
 for command in run static; do
   expect 0 $command model.yaml -o single --quiet; is_told single/result.json
 done
+# OpenBLAS is kept to one thread, unless somebody asks for more.
+expect 0 run model.yaml -o single --quiet --force
+cp single/result.json stdout && json "d['provenance']['blas']['threads'] in (None, 1)"
+OPENBLAS_NUM_THREADS=2 "$corot" run model.yaml -o two --quiet
+cp two/result.json stdout && json "d['provenance']['blas']['threads'] in (None, 2)"
 expect 4 run model.yaml -o gave-up --quiet --set integrator.max_steps=2; is_told gave-up/result.json
 expect 0 report single; grep -q '>kernels</th>' single/report.html || complain "the page of a run does not tell"
 

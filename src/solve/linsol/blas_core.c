@@ -1,4 +1,5 @@
-/* Compares the kernels that OpenBLAS has chosen with what the processor can do. */
+/* Compares the kernels that OpenBLAS has chosen with what the processor can do; and holds its
+   threads. */
 #define _GNU_SOURCE /* RTLD_DEFAULT */
 #include "blas_core.h"
 
@@ -33,4 +34,15 @@ const char *corot_blas_better_core(void) {
   if (getenv("OPENBLAS_CORETYPE")) return NULL;
   const char *core = core_in_use();
   return core && strcasecmp(core, FALLBACK) == 0 ? best_core() : NULL;
+}
+
+void corot_blas_keep_to_one_thread(void) {
+  static const char *const said[] = {"OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS"};
+  union {
+    void *object;
+    void (*function)(int n);
+  } found = {dlsym(RTLD_DEFAULT, "openblas_set_num_threads")};
+  for (size_t i = 0; i < sizeof said / sizeof *said; i++)
+    if (getenv(said[i])) return;
+  if (found.object) found.function(1);
 }
