@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "app/command/cli.h"
@@ -17,6 +16,7 @@
 
 #include "crash.h"
 #include "first_signals.h"
+#include "limited.h"
 
 static const char help[] =
     "corot: deformable solids as ordinary differential equations, integrated with error control\n"
@@ -65,11 +65,6 @@ static void hold_standard_streams(void) {
     if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDONLY) != fd) _exit(5);
 }
 
-static bool is_limited(void) {
-  struct rlimit limit;
-  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-}
-
 _Noreturn static void cannot_begin(const char *what) {
   fprintf(stderr, "corot: cannot begin: %s: %s\n", what, strerror(errno));
   _exit(EXIT_SYSTEM); /* with no handler of a library that has not been told */
@@ -77,16 +72,6 @@ _Noreturn static void cannot_begin(const char *what) {
 
 static void tell(const char *name, const char *value) {
   if (setenv(name, value, 0) != 0) cannot_begin(name);
-}
-
-/* Where address space is limited, each thread takes a large part of it; OpenBLAS waits for ever for
-   those it cannot start, and OpenMP, of which CHOLMOD asks for four, ends the program with exit
-   code 1. */
-static bool keep_to_one_thread(void) {
-  if (!is_limited() || (getenv("OPENBLAS_NUM_THREADS") && getenv("OMP_THREAD_LIMIT"))) return false;
-  tell("OPENBLAS_NUM_THREADS", "1");
-  tell("OMP_THREAD_LIMIT", "1");
-  return true;
 }
 
 /* The commands that factor: a run has the same last digits by itself as in a study. */
@@ -104,16 +89,15 @@ static bool ask_for_better_kernels(void) {
   return core;
 }
 
-/* These libraries read their environment before main: what they are told here they see only when
-   the program begins once more. Where there is no /proc it goes on as it is. */
-static void tell_libraries(int argc, char **argv) {
-  bool factors = argc > 1 && is_factoring(argv[1]);
-  bool threads = keep_to_one_thread(), kernels = factors && ask_for_better_kernels();
-  if (threads || kernels) {
+/* OpenBLAS chooses its kernels as it is loaded: what it is told here it sees only when the program
+   begins once more. Where there is no /proc it goes on as it is. */
+static void prepare_blas(int argc, char **argv) {
+  if (argc < 2 || !is_factoring(argv[1])) return;
+  if (ask_for_better_kernels()) {
     execv("/proc/self/exe", argv);
     if (errno != ENOENT) cannot_begin("exec");
   }
-  if (factors) corot_blas_keep_to_one_thread();
+  corot_blas_keep_to_one_thread();
 }
 
 /* OpenBLAS may wait for ever in its exit handler for threads that had no room to start. */
@@ -135,7 +119,7 @@ int main(int argc, char **argv) {
   };
   first_signals_restore();
   hold_standard_streams();
-  tell_libraries(argc, argv);
+  prepare_blas(argc, argv);
   crash_watch();
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
   signal(SIGXFSZ, SIG_IGN); /* so is a file that may not grow further */
