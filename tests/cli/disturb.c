@@ -31,6 +31,13 @@ static int number, inside;
 static char *folder, *count_file;
 
 __attribute__((constructor)) static void begin(void) {
+  /* the program itself, should it begin once more, too; its children are left alone */
+  char self[24];
+  const char *who = getenv("DISTURB_PROCESS");
+  snprintf(self, sizeof self, "%ld", (long)getpid());
+  if (who && strcmp(who, self) != 0) return;
+  setenv("DISTURB_PROCESS", self, 1);
+
   const char *kill_text = getenv("DISTURB_KILL"), *clock_text = getenv("DISTURB_CLOCK");
   const char *vanish_text = getenv("DISTURB_VANISH"), *file = getenv("DISTURB_COUNT");
   if (kill_text) sscanf(kill_text, "%d:%ld", &number, &kill_at);
@@ -40,7 +47,6 @@ __attribute__((constructor)) static void begin(void) {
   if (vanish_text) vanish_at = atol(vanish_text);
   if (file) count_file = strdup(file);
   if (getenv("DISTURB_FOLDER")) folder = strdup(getenv("DISTURB_FOLDER"));
-  unsetenv("LD_PRELOAD");
   changes = looks = 0; /* without those of libraries that are loaded with the program */
 }
 
