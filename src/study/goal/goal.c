@@ -77,6 +77,10 @@ static corot_status refine(goal_search *s) {
     if (s->attempts.signal_number) break;
     COROT_TRY(goal_find_tail(s));
     goal_sum_up(s);
+    if (!made || s->nlevel != 2) continue;
+    COROT_TRY(goal_settle_time_again(s));
+    if (s->attempts.signal_number) break;
+    goal_sum_up(s);
   }
   return COROT_OK;
 }
@@ -108,6 +112,7 @@ static goal_search begin(const goal_request *r, const scenario *s, goal_result *
                        .until = end_of(r, s),
                        .window = end_of(r, s),
                        .coarse = -1,
+                       .timed = -1,
                        .check = -1,
                        .algebra = -1,
                        .model = -1,

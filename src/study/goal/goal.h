@@ -5,7 +5,8 @@
 
    * time: on four-node tets as given, where runs are cheap, the scenario's method and a second one
      at falling tolerances, until one is good enough by both; on the first mesh of ten-node tets it
-     is checked: a multistep method beside a Runge-Kutta one, that at ten times the tolerance.
+     is checked: a multistep method beside a Runge-Kutta one, that at ten times the tolerance;
+     and once more on the second mesh, as finer meshes carry waves that coarser ones do not.
    * space: ten-node tets on the same mesh, then finer ones: everywhere (octasection), or where the
      estimator marks them (mesh.marks), of equilibria and of motion that is nearly a row of these.
      The values on the last three meshes tell order and error (goal_rule.h). Of an extreme that is

@@ -84,7 +84,7 @@ static json_t *space_json(const goal_search *s) {
 static json_t *time_json(const goal_search *s) {
   json_t *list = json_array();
   if (s->attempts.still) return list;
-  if (s->nlevel > 0) list = push_label(push_label(list, s, s->level[0]), s, s->check);
+  if (s->nlevel > 0) list = push_label(push_label(list, s, s->timed), s, s->check);
   for (int i = 0; i < s->attempts.n; i++) {
     const attempt_def *def = &s->attempts.all[i].def;
     if (def->order == 1 && !def->tight_algebra && !def->green) list = push_label(list, s, i);

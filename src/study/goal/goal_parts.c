@@ -53,12 +53,6 @@ bool goal_is_sensible(goal_search *s, int i) {
 
 /* --- Algebra, and the measure --- */
 
-attempt_def goal_base_def(const goal_search *s) {
-  attempt_def def = goal_attempt(s, s->level[0])->def;
-  if (s->window < s->until) def.until = s->window;
-  return def;
-}
-
 /* Where runs are cheap: of motion, four-node tets, at the tolerance in use. */
 void goal_plan_algebra(goal_search *s) {
   attempt_def def = goal_attempt(s, s->request->still ? s->level[0] : s->coarse)->def;

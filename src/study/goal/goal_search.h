@@ -21,6 +21,9 @@ enum { GOAL_LEVELS = 12 };
 /* Extremes that differ by so much of what is allowed are alike. */
 #define GOAL_LIKE 0.2
 
+/* Values of two meshes that differ by so much of what is allowed are as good as the same. */
+#define GOAL_SAME 0.1
+
 /* What is read out of a run's steps may differ by so much of what is allowed from what the run
  * found.
  */
@@ -46,7 +49,7 @@ typedef struct goal_search {
   int full;                /* an attempt of the first level that goes to `until` */
   attempt whole;           /* the same with its own value, where it has that within the window */
   int refine, npass;       /* of the last */
-  int check;               /* the first level, by what its error of time is judged; -1: none */
+  int timed, check;        /* whose error of time is known, and by what it is judged; -1: none */
   int algebra, algebra_of; /* an attempt with tight algebra, and the same without; -1: none */
   int model, model_of;     /* an attempt by green, and the same by the scenario's measure */
   double tail;             /* half-width, over the value: of what is not seen in the window */
@@ -76,6 +79,9 @@ corot_status goal_choose_time(goal_search *s);
 void goal_plan_base(goal_search *s);
 void goal_plan_check(goal_search *s);
 corot_status goal_settle_time(goal_search *s);
+
+/* The same on the second mesh, before a third is made, or where waves have passed for settled. */
+corot_status goal_settle_time_again(goal_search *s);
 
 /* Where the extreme is early enough: s->window. */
 corot_status goal_choose_window(goal_search *s);

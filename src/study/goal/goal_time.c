@@ -135,22 +135,35 @@ void goal_plan_base(goal_search *s) {
   s->nlevel = 1;
 }
 
-/* By what the error of time is judged there: a Runge-Kutta method's falls with the tolerance, and
-   shows in ten times as much; that of a multistep method may rise and fall, and shows beside a
-   Runge-Kutta method. */
-void goal_plan_check(goal_search *s) {
-  if (s->request->still) return;
+/* An attempt as far as the window. */
+static attempt_def windowed(const goal_search *s, int i) {
+  attempt_def def = goal_attempt(s, i)->def;
+  if (s->window < s->until) def.until = s->window;
+  return def;
+}
+
+/* By what the error of time of attempt `timed` is judged: a Runge-Kutta method's falls with the
+   tolerance, and shows in ten times as much; that of a multistep method may rise and fall, and
+   shows beside a Runge-Kutta method. */
+static void plan_check(goal_search *s, int timed) {
   bool stages = corot_method_traits(s->method)->stages;
-  attempt_def def = goal_base_def(s);
+  attempt_def def = windowed(s, timed);
   def.method = stages ? s->method : "arkode";
   if (stages) def.rtol = fmin(10 * s->rtol, 0.1);
+  s->timed = timed;
   s->check = attempts_plan(&s->attempts, def);
 }
+
+void goal_plan_check(goal_search *s) {
+  if (!s->request->still) plan_check(s, s->level[0]);
+}
+
+attempt_def goal_base_def(const goal_search *s) { return windowed(s, s->level[0]); }
 
 /* Half-width by the check alone. */
 static double find_time(goal_search *s) {
   goal_result *r = s->result;
-  double value = goal_value(s, s->level[0]), coarse = s->coarse_off * fabs(value);
+  double value = goal_value(s, s->timed), coarse = s->coarse_off * fabs(value);
   double changed = fabs(value - goal_value(s, s->check));
   bool stages = corot_method_traits(s->method)->stages;
   if (isnan(changed)) changed = GOAL_UNCHECKED * coarse; /* the check has failed */
@@ -159,29 +172,81 @@ static double find_time(goal_search *s) {
   return stages ? changed / 2 : changed;
 }
 
+/* All meshes by the method and the tolerance in use, of which there is the attempt on the last one.
+ */
+static void plan_again(goal_search *s, int last) {
+  for (int i = 0; i + 1 < s->nlevel; i++) {
+    attempt_def def = windowed(s, s->level[i]);
+    def.method = s->method, def.rtol = s->rtol;
+    s->level[i] = attempts_plan(&s->attempts, def);
+  }
+  s->level[s->nlevel - 1] = s->timed = last;
+}
+
 /* The check of a multistep method is the better one, and has ten times its tolerance for a check.
  */
 static void tighten(goal_search *s) {
+  int before = s->timed, check = s->check;
   if (corot_method_traits(s->method)->stages) {
-    s->rtol /= 10;
-    s->check = s->level[0];
-    s->level[0] = plan_base(s, s->rtol, s->window);
+    attempt_def def = windowed(s, before);
+    s->rtol = def.rtol /= 10;
+    plan_again(s, attempts_plan(&s->attempts, def));
+    s->check = before;
   } else {
     s->method = "arkode";
-    s->level[0] = s->check;
-    goal_plan_check(s);
+    plan_again(s, check);
+    plan_check(s, check);
   }
 }
 
+static bool all_have_values(const goal_search *s) {
+  bool all = true;
+  for (int i = 0; i < s->nlevel; i++) all = all && !isnan(goal_value(s, s->level[i]));
+  return all;
+}
+
+/* On the last mesh, of which a check has been made. Where a smaller tolerance comes to nothing, the
+   one before it stays. */
 corot_status goal_settle_time(goal_search *s) {
   while (!s->request->still) {
-    double value = goal_value(s, s->level[0]), half = find_time(s);
+    double value = goal_value(s, s->timed), half = find_time(s);
     bool enough = half <= 1.25 * GOAL_TIME_SHARE * goal_allowed(s->request, value);
     if (enough || isnan(value) || s->rtol <= LOWEST_RTOL) break;
-    if (!goal_affords(s, 2 * goal_attempt(s, s->level[0])->cpu)) break;
+    if (!goal_affords(s, (1 + s->nlevel) * goal_attempt(s, s->timed)->cpu)) break;
+    goal_search before = *s;
     tighten(s);
     COROT_TRY(attempts_make(&s->attempts));
     if (s->attempts.signal_number) break;
+    if (s->nlevel > 1 && !all_have_values(s)) {
+      before.attempts = s->attempts;
+      *s = before;
+      break;
+    }
   }
   return COROT_OK;
+}
+
+/* Finer meshes carry waves that coarser ones do not, and whose error of time is another; it would
+   show in the value. */
+corot_status goal_settle_time_again(goal_search *s) {
+  goal_result *r = s->result;
+  if (s->request->still || s->nlevel != 2) return COROT_OK;
+  double changed = fabs(goal_value(s, s->level[1]) - goal_value(s, s->level[0]));
+  bool quiet = goal_attempt(s, s->full)->swing <= GOAL_QUIET;
+  if (r->met && (quiet || changed <= GOAL_SAME * goal_allowed(s->request, r->value)))
+    return COROT_OK;
+  double first = r->time, first_half = r->half_time, rtol = s->rtol;
+  const char *method = s->method;
+  plan_check(s, s->level[1]);
+  COROT_TRY(attempts_make(&s->attempts));
+  if (s->attempts.signal_number) return COROT_OK;
+  COROT_TRY(goal_settle_time(s));
+  if (s->attempts.signal_number) return COROT_OK;
+  if (s->rtol == rtol && s->method == method) { /* the worse of both meshes */
+    r->time = fmax(r->time, first);
+    r->half_time = fmax(r->half_time, first_half);
+    return COROT_OK;
+  }
+  goal_plan_algebra(s);
+  return attempts_make(&s->attempts);
 }
