@@ -32,7 +32,8 @@ extern "C" {
    corot_X_set_defaults(), which writes no more than that (for hosts in other languages). A definition
    of another size than the library's is refused with COROT_EINVAL. One that is written down without
    defaults may leave it 0, and goes unrecognised. Where a pointer that must be given is NULL, what
-   makes or reads something returns COROT_EINVAL, too. */
+   returns a status returns COROT_EINVAL; a function that returns something else, or nothing, takes no
+   NULL unless it says so. */
 
 /* Status of a call: 0 ok, >0 recoverable (retry with a smaller step), <0 fatal.
    The signs are those of a SUNDIALS callback, so a status can be returned by one as is; but not by

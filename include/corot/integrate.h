@@ -89,7 +89,7 @@ COROT_API bool corot_integrator_controls_error(const char *method);
 
 typedef struct corot_integrator corot_integrator;
 
-/* Starts at (t, u, v). Model and state must outlive the integrator; nothing else is kept.
+/* Starts at (t, u, v), and enters t (corot_state_enter), unless a step is to cross a kink. Model and state must outlive the integrator; nothing else is kept.
    COROT_EINVAL: there is no method of that name, a setting is out of its range, t, u or v is not
    finite, or as for corot_pencil_create. COROT_ENOMEM. COROT_EINTEGRATE: SUNDIALS refuses a setting.
    COROT_RETRY: newmark, hht and generalized-alpha, which need the acceleration at the start, find a
@@ -149,7 +149,8 @@ COROT_API corot_status corot_integrator_energy(corot_integrator *integrator, con
 
 /* What to do with the history of the solution when r has jumped between steps. */
 typedef enum corot_history {
-  COROT_HISTORY_AUTO,    /* restart if the jump is felt at the tolerance (see multistep.c) */
+  COROT_HISTORY_AUTO,    /* restart if the jump is felt at the tolerance (see multistep.c); bdf2 and
+                            bdf3, which have none, keep it, and are of first order over the jump */
   COROT_HISTORY_KEEP,
   COROT_HISTORY_RESTART, /* begin again at order 1 */
 } corot_history;
@@ -166,7 +167,8 @@ COROT_API corot_status corot_integrator_changed(corot_integrator *integrator,
    there and after corot_state_enter: COROT_HISTORY_AUTO, with the matrices kept, which know of
    positions only. A multistep method begins again where r has jumped and the next step feels it; a
    Runge-Kutta method takes the new r, and a shorter step where the kink excites vibrations above
-   the tolerance which that step would not resolve. A method of constant step has nothing to do.
+   the tolerance which that step would not resolve. A method of constant step has nothing to do: over
+   a jump of a load the multistep ones and Newmark's family are of first order.
    Failures as of corot_integrator_changed. */
 COROT_API corot_status corot_integrator_kink(corot_integrator *integrator);
 

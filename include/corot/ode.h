@@ -72,13 +72,15 @@ COROT_API corot_frames corot_state_frames(const corot_state *state);
 /* From now on, evaluations belong to the time after t and before the next kink of a load or a motion:
    at a kink itself the velocity of a support, and at a jump a load, has two values, and this says
    which is meant; beyond it the law goes on as it was, so that r is smooth for a step that ends
-   there. Call this at each kink (corot_model_kinks) where a step ends; until the first call, and
-   after t = NaN, which lets a step cross a kink, each time has its own law, at a kink the later. */
+   there. An integrator that is made, and a host that is opened or restarted, at t enters t; who goes
+   back by a loop of their own has to. Call this at each kink (corot_model_kinks) where a step ends;
+   until the first call, and after t = NaN, which lets a step cross a kink, each time has its own law,
+   at a kink the later. It also ends statics, below. */
 COROT_API void corot_state_enter(corot_state *state, double t);
 
 /* From now on evaluations are for statics: the loads are `factor` times those of time t; the time
    of an evaluation says where the supports are, and they have no velocity there, nor has v any
-   effect on r. */
+   effect on r. Until corot_state_enter, or an integrator is made of the state. */
 COROT_API void corot_state_stand_still(corot_state *state, double t, double factor);
 
 /* r(t, u, v) [N]. COROT_RETRY when a tet is inverted (det F <= 0 or not a number; not asked of

@@ -78,7 +78,8 @@ COROT_API void corot_pencil_use(corot_pencil *pencil, corot_tangent tangent);
 COROT_API corot_status corot_pencil_assemble(corot_pencil *pencil, double t, const double *u,
                                              const double *v);
 
-/* S = a M + b D + c K, without reassembly. */
+/* S = a M + b D + c K of the matrices that were assembled last; then it has no factor until the next
+   corot_pencil_factor. The order is: assemble, combine, factor, solve. */
 COROT_API void corot_pencil_combine(corot_pencil *pencil, double a, double b, double c);
 
 /* Factors S. cholmod and pcg need it positive definite. Where it is not, in a time step, K is made
@@ -87,11 +88,12 @@ COROT_API void corot_pencil_combine(corot_pencil *pencil, double a, double b, do
    tell; klu is made when first needed, with memory asked for after creation.
    COROT_RETRY: not positive definite, in statics, where the loss of stability must be seen.
    COROT_ESINGULAR: no pivot; the message names the degree of freedom and its node.
-   COROT_ENOMEM; COROT_EINVAL: the solver's library refuses, for a reason in the message. */
+   COROT_ENOMEM; COROT_EINVAL: there is no S, or the solver's library refuses, for a reason in the
+   message. */
 COROT_API corot_status corot_pencil_factor(corot_pencil *pencil);
 
 /* x = S^-1 b; x may be b. COROT_EINVAL: S has no factor, because factoring it failed or was not
-   asked for. COROT_ENOMEM. COROT_RETRY: pcg met a direction in which S is not positive, or did not
+   asked for since it was combined. COROT_ENOMEM. COROT_RETRY: pcg met a direction in which S is not positive, or did not
    converge. If it was not asked for by name, a direct solver takes its place instead, now and for
    the rest of the run (see corot_pencil_solver), with memory asked for then; and so it does, at a
    factorisation, where the iterations have cost twice as much as it would have. */

@@ -1,4 +1,6 @@
-/* A host's own CVODE, or CVODES, set up as well as corot's "cvode".
+/* A host's own CVODE, or CVODES, set up as well as corot's "cvode". A program that links
+   corot::integrate as well takes CVODES (and IDAS): CVODE and CVODES define the same names, and corot
+   uses the latter.
 
      void *cvode = CVodeCreate(CV_BDF, ctx);
      CVodeInit(cvode, corot_sun_rhs, t0, y);

@@ -127,6 +127,9 @@ corot_status corot_faces_boundary(int nface, const corot_face *face, const int (
 }
 
 corot_status corot_mesh_boundary(const corot_mesh *mesh, int *ntri, int (**tri)[3]) {
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(ntri));
+  COROT_TRY(COROT_GIVEN(tri));
   const int(*tet)[4] = (const int(*)[4])mesh->tet;
   corot_face *face;
   COROT_TRY(corot_faces_sort(mesh->nnode, mesh->ntet, tet, &face));

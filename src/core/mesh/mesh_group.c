@@ -142,6 +142,9 @@ static corot_status no_nodes(const corot_mesh *mesh, const char *name, double to
 corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
                                   const double max[3], double tol) {
   char *mark;
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(min));
+  COROT_TRY(COROT_GIVEN(max));
   if (!(tol >= 0))
     return corot_fail(COROT_EINVAL, "group '%s': the tolerance is %g, not >= 0", name, tol);
   for (int k = 0; k < 3; k++)

@@ -275,6 +275,9 @@ corot_location corot_mesh_locate_node(const corot_mesh *mesh, int node) {
 corot_status corot_mesh_locate(const corot_mesh *mesh, const double point[3],
                                corot_location *location) {
   double min[3], max[3], d[3];
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(point));
+  COROT_TRY(COROT_GIVEN(location));
   if (!isfinite(point[0] + point[1] + point[2]))
     return corot_fail(COROT_EINVAL, "the point (%g, %g, %g) is not finite", point[0], point[1],
                       point[2]);

@@ -235,8 +235,11 @@ static corot_status make(const corot_amplitude *from, const user *of, amplitude 
   if (from->curve != COROT_CURVE_LINEAR && from->curve != COROT_CURVE_SMOOTH)
     return corot_fail_at(of->entry, of->index, "amplitude",
                          "no kind of amplitude has the number %d", (int)from->curve);
+  if (from->n < 0 || (from->n > 0 && (!from->time || !from->value)))
+    return corot_fail_at(of->entry, of->index, "amplitude", "the amplitude has n = %d, and %s",
+                         from->n, from->n < 0 ? "that is negative" : "no times or no values");
   COROT_TRY(check_points(from, of));
-  if (from->n <= 0) return COROT_OK;
+  if (from->n == 0) return COROT_OK;
   COROT_TRY(copy_points(from, to));
   return from->curve == COROT_CURVE_SMOOTH ? make_spline(to, of) : COROT_OK;
 }

@@ -81,6 +81,9 @@ static corot_status check(const corot_inputs *in, int k, const corot_material_fa
                         name[i]);
   const material *a = &m->material[k];
   double lambda = by->lambda * a->lambda, mu = by->mu * a->mu;
+  if (!isfinite(lambda + mu + by->damping_lambda * a->damping_lambda +
+                by->damping_mu * a->damping_mu))
+    return corot_fail(COROT_EINVAL, "inputs: material %d: what the factors make is not finite", k);
   if (!(3 * lambda + 2 * mu > 0))
     return corot_fail(COROT_EINVAL,
                       "inputs: material %d: 3 lambda + 2 mu must be > 0; lambda = %g, mu = %g", k,
@@ -96,6 +99,7 @@ static corot_status check(const corot_inputs *in, int k, const corot_material_fa
 corot_status corot_inputs_set_material(corot_inputs *in, int k,
                                        const corot_material_factors *factors) {
   const corot_material_factors one = {1, 1, 1, 1}, *by = factors ? factors : &one;
+  COROT_TRY(COROT_GIVEN(in));
   COROT_TRY(check(in, k, by));
   COROT_TRY(make_room(in));
   const corot_model *m = in->model;

@@ -5,6 +5,7 @@
 
 #include <corot/inputs.h>
 
+#include "core/base/sized.h"
 #include "model.h"
 
 /* A straight line in time. */

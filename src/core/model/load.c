@@ -273,6 +273,9 @@ void corot_loads_nodal(const corot_model *m, const instant *now, const double (*
 
 corot_status corot_load_force(const corot_model *m, double t, double factor,
                               const double (*displacement)[3], double (*f)[3]) {
+  COROT_TRY(COROT_GIVEN(m));
+  COROT_TRY(COROT_GIVEN(displacement));
+  COROT_TRY(COROT_GIVEN(f));
   int nnode = m->mesh->nnode;
   double(*u)[4] = calloc(nnode, sizeof *u);
   if (!u) return corot_fail(COROT_ENOMEM, "no memory for the displacement of %d nodes", nnode);

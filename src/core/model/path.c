@@ -187,6 +187,8 @@ static void start(corot_inputs *in, const corot_path *path, const corot_group *g
 
 corot_status corot_inputs_start_path(corot_inputs *in, const corot_path *path) {
   const corot_group *group;
+  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN(path));
   COROT_TRY(check(in, path, &group));
   COROT_TRY(make_room(in));
   start(in, path, group);
@@ -195,6 +197,8 @@ corot_status corot_inputs_start_path(corot_inputs *in, const corot_path *path) {
 
 corot_status corot_inputs_set_path(corot_inputs *in, const corot_path *path) {
   const corot_group *group;
+  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN(path));
   COROT_TRY(check(in, path, &group));
   COROT_TRY(make_room(in));
   find_present(in, path->t);
@@ -223,6 +227,8 @@ static void join(double h, double x0, double v0, double a0, double x1, const dou
 
 corot_status corot_inputs_reach(corot_inputs *in, double t0, const corot_path *path) {
   const corot_group *group;
+  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN(path));
   double h = path->t - t0;
   COROT_TRY(check(in, path, &group));
   if (!(h > 0 && isfinite(h)))
@@ -250,6 +256,8 @@ corot_status corot_inputs_reach(corot_inputs *in, double t0, const corot_path *p
 corot_status corot_inputs_release(corot_inputs *in, const char *name, double t) {
   const instant now = {.t = t, .load_t = t, .load_factor = 1, .side = NAN, .moving = true};
   const corot_group *group;
+  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN(name));
   COROT_TRY(find_group(in, name, &group));
   if (in->npath == 0) return COROT_OK;
   find_present(in, t);

@@ -43,6 +43,9 @@ static corot_status add_stresses(const corot_model *m, corot_state *s, double t,
 
 corot_status corot_forces(const corot_model *m, corot_state *s, double t, const double *u,
                           const double *v, const double *a, const corot_nodal_forces *f) {
+  COROT_TRY(corot_state_check(m, s, "corot_forces"));
+  COROT_TRY(COROT_GIVEN(u));
+  COROT_TRY(COROT_GIVEN(f));
   const instant now = corot_state_at(s, t);
   double(*const part[])[3] = {f->internal, f->viscous, f->inertial, f->load};
   for (int k = 0; k < 4; k++) clear(m, part[k]);

@@ -123,6 +123,9 @@ corot_status corot_show_end(const corot_model *m, corot_state *s, int first, cor
 
 corot_status corot_elements(const corot_model *m, corot_state *s, double t, const double *u,
                             const corot_element_fields *fields) {
+  COROT_TRY(corot_state_check(m, s, "corot_elements"));
+  COROT_TRY(COROT_GIVEN(u));
+  COROT_TRY(COROT_GIVEN(fields));
   nodal_field all_u;
   corot_status above = corot_show_begin(m, s, t, u, &all_u);
   if (above && above != COROT_RETRY) return above;

@@ -81,6 +81,9 @@ static corot_status blame_nan(const corot_model *m, const double *u, const doubl
 corot_status corot_residual(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, double *r) {
   COROT_TRY(corot_state_check(m, s, "corot_residual"));
+  COROT_TRY(COROT_GIVEN(u));
+  if (!s->still) COROT_TRY(COROT_GIVEN(v));
+  COROT_TRY(COROT_GIVEN(r));
   corot_status status = corot_residual_trial(m, s, t, u, v, r);
   return status ? blame_nan(m, u, s->still ? NULL : v, status) : COROT_OK;
 }
@@ -88,6 +91,8 @@ corot_status corot_residual(const corot_model *m, corot_state *s, double t, cons
 corot_status corot_rhs(const corot_model *m, corot_state *s, double t, const double *y,
                        double *ydot) {
   COROT_TRY(corot_state_check(m, s, "corot_rhs"));
+  COROT_TRY(COROT_GIVEN(y));
+  COROT_TRY(COROT_GIVEN(ydot));
   return blame_nan(m, y, y + m->ndof, corot_rhs_trial(m, s, t, y, ydot));
 }
 
@@ -108,6 +113,7 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
   COROT_TRY(corot_state_check(m, s, "corot_jacobian"));
+  COROT_TRY(COROT_GIVEN(u));
   const instant now = corot_state_at(s, t);
   const solid *body = body_of(m, s);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
@@ -140,6 +146,9 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
   COROT_TRY(corot_state_check(m, s, "corot_jvp"));
+  COROT_TRY(COROT_GIVEN(u));
+  COROT_TRY(COROT_GIVEN(du));
+  COROT_TRY(COROT_GIVEN(jv));
   const instant now = corot_state_at(s, t);
   bool damped = body_of(m, s)->damped && now.moving, feeds_back = inputs_feed_back(&now);
   nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = spread(m, du, s->du);
@@ -236,6 +245,8 @@ double corot_carried(const corot_model *m, corot_state *s, double t, const doubl
 corot_status corot_energy(const corot_model *m, corot_state *s, double t, const double *u,
                           const double *v, corot_energies *energies) {
   COROT_TRY(corot_state_check(m, s, "corot_energy"));
+  COROT_TRY(COROT_GIVEN(u));
+  COROT_TRY(COROT_GIVEN(energies));
   const instant now = corot_state_at(s, t);
   corot_energies e = {0};
   rigid_motion g;
@@ -277,6 +288,8 @@ static void negate(const corot_state *s, double (*f)[3]) {
 corot_status corot_elastic_force(const corot_model *m, corot_state *s, double t, const double *u,
                                  double (*f)[3]) {
   COROT_TRY(corot_state_check(m, s, "corot_elastic_force"));
+  COROT_TRY(COROT_GIVEN(u));
+  COROT_TRY(COROT_GIVEN(f));
   const instant now = corot_state_at(s, t);
   corot_frames frames = s->system.frames;
   nodal_field all_u = corot_state_displace(m, s, &now, u);
@@ -293,6 +306,10 @@ corot_status corot_elastic_force(const corot_model *m, corot_state *s, double t,
 corot_status corot_internal_force(const corot_model *m, corot_state *s, double t, const double *u,
                                   const char *strain, double lambda_part, double mu_part,
                                   double (*f)[3]) {
+  COROT_TRY(corot_state_check(m, s, "corot_internal_force"));
+  COROT_TRY(COROT_GIVEN(u));
+  COROT_TRY(COROT_GIVEN(strain));
+  COROT_TRY(COROT_GIVEN(f));
   const instant now = corot_state_at(s, t);
   force_sum sum = {.r = s->du[0], .sign = 1};
   int index;

@@ -24,6 +24,7 @@ nodal_field corot_state_displace(const corot_model *m, corot_state *s, const ins
 }
 
 void corot_materials_settle(corot_state *s) {
+  s->in_use = true;
   if (s->inputs) s->inputs->pending = false;
 }
 

@@ -62,8 +62,15 @@ void corot_state_use(corot_state *s, corot_frames frames) {
 }
 
 corot_status corot_state_use_inputs(corot_state *s, corot_inputs *inputs) {
+  if (!s) return corot_fail(COROT_EINVAL, "corot_state_use_inputs: 'state' is NULL");
   if (inputs && inputs->model != s->model)
     return corot_fail(COROT_EINVAL, "the inputs are of another model than the state");
+  bool factors = (s->inputs && s->inputs->other) || (inputs && inputs->other);
+  if (s->in_use && inputs != s->inputs && factors)
+    return corot_fail(COROT_EINVAL,
+                      "inputs: an integrator of this state counts the energy that changes of "
+                      "materials put in, and would miss those: set factors in the inputs that are "
+                      "there");
   s->inputs = inputs;
   s->changes++;
   return COROT_OK;
@@ -71,7 +78,10 @@ corot_status corot_state_use_inputs(corot_state *s, corot_inputs *inputs) {
 
 corot_frames corot_state_frames(const corot_state *s) { return s->system.frames; }
 int corot_state_inverted(const corot_state *s) { return s->system.inverted; }
-void corot_state_enter(corot_state *s, double t) { s->side = t; }
+void corot_state_enter(corot_state *s, double t) {
+  s->side = t;
+  s->still = false;
+}
 
 void corot_state_stand_still(corot_state *s, double t, double factor) {
   s->still = true;

@@ -2,13 +2,14 @@
 #ifndef COROT_CORE_ODE_STATE_H
 #define COROT_CORE_ODE_STATE_H
 
-#include "core/base/sisters.h"
+#include "core/base/sized.h"
 #include "core/model/inputs.h"
 
 struct corot_state {
   const corot_model *model;
   corot_inputs *inputs; /* NULL: none */
   long changes;         /* of frames, or of inputs for others */
+  bool in_use;          /* an integrator has been made of it, which counts the work */
   int nnode;            /* of the model */
   double side;          /* of kinks: see instant.h */
   bool still;           /* nothing has a velocity, and the loads are those */

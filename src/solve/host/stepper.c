@@ -36,6 +36,10 @@ static corot_status check(const corot_sun_host *h, double t, N_Vector y) {
 
 static corot_status take_advice(corot_sun_host *h) {
   corot_sun_data *d = &h->data;
+  if (!(d->atol_displacement >= 0 && isfinite(d->atol_displacement)) ||
+      !(d->atol_velocity >= 0 && isfinite(d->atol_velocity)))
+    return corot_fail(COROT_EINVAL, "%s: an absolute tolerance (%g m, %g m/s) is negative, or none",
+                      h->api->name, d->atol_displacement, d->atol_velocity);
   if (d->rtol == 0) d->rtol = 1e-4;
   COROT_TRY(corot_sun_advise(d->model, h->api->method, d->rtol, &h->advice));
   if (d->atol_displacement == 0) d->atol_displacement = h->advice.atol_displacement;
@@ -93,6 +97,10 @@ void corot_sun_host_close(corot_sun_host *h) {
 
 corot_status corot_sun_host_restart(corot_sun_host *h, double t, N_Vector y, double first) {
   COROT_TRY(corot_seam_vectors(h->api->name, 2 * h->pencil->n, 1, &y));
+  if (!isfinite(t) || !(first >= 0 && isfinite(first)))
+    return corot_fail(COROT_EINVAL, "%s: cannot begin again at t = %g with a step of %g s",
+                      h->api->name, t, first);
+  corot_state_enter(h->data.state, t);
   h->t = t;
   h->fresh = true;
   h->assembled = 0;
@@ -238,7 +246,9 @@ corot_status corot_sun_host_step(corot_sun_host *h, double t_stop, N_Vector y, d
 }
 
 corot_status corot_sun_host_advance(corot_sun_host *h, double t_stop, N_Vector y) {
-  double t = h->t;
-  while (t < t_stop) COROT_TRY(corot_sun_host_step(h, t_stop, y, &t));
+  double t;
+  do {
+    COROT_TRY(corot_sun_host_step(h, t_stop, y, &t));
+  } while (t < t_stop);
   return COROT_OK;
 }

@@ -33,9 +33,13 @@ static int answer_solved(driver *d, corot_status status) {
   return sun_solve_code(corot_driver_refuse_trial(d, status, corot_error()));
 }
 
+/* After a set-up that failed ARKODE may go on as if there had been one: it is to make one. */
+static corot_status no_factor(void) { return corot_fail(COROT_RETRY, "there is no factor"); }
+
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
   (void)A, (void)tol;
   driver *d = LS->content;
+  if (!d->self->pencil->factored) return answer_solved(d, no_factor());
   return answer_solved(
       d, corot_pencil_newton(d->self->pencil, N_VGetArrayPointer(b), N_VGetArrayPointer(x)));
 }

@@ -162,6 +162,8 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
                              .t_energies = NAN,
                              .t_given = -INFINITY,
                              .seen = corot_state_stamp(state)};
+  /* back over a kink, or on from an equilibrium: not where a step is to cross a kink */
+  if (state->still || !isnan(state->side)) corot_state_enter(state, t);
   choose(self);
   corot_materials_settle(state);
 
@@ -190,6 +192,10 @@ void corot_integrator_destroy(corot_integrator *self) {
   free(self);
 }
 
+static corot_status given(const corot_integrator *self, const char *who) {
+  return self ? COROT_OK : corot_fail(COROT_EINVAL, "%s: 'integrator' is NULL", who);
+}
+
 /* Two clocks that mean one instant differ by rounding, over which there is no step to take. */
 static bool within_rounding(const corot_integrator *self, double t_stop) {
   return t_stop - self->t <= 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
@@ -206,6 +212,8 @@ static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {
 }
 
 corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_step *step) {
+  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN(step));
   /* what needs no step, or may not have one */
   if (!(t_stop > self->t) || !isfinite(t_stop))
     return corot_fail(COROT_EINVAL, "integrator: cannot stop at t = %.17g, being at %.17g", t_stop,
@@ -244,12 +252,16 @@ static corot_status check_within(const corot_integrator *self, double t) {
 }
 
 corot_status corot_integrator_at(corot_integrator *self, double t, double *u, double *v) {
+  COROT_TRY(given(self, __func__));
   COROT_TRY(check_within(self, t));
   return self->ops->at(self, t, u, v);
 }
 
 corot_status corot_integrator_work(corot_integrator *self, double t, double *dissipated,
                                    double *external) {
+  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN(dissipated));
+  COROT_TRY(COROT_GIVEN(external));
   COROT_TRY(check_within(self, t));
   COROT_TRY(self->ops->work(self, t, dissipated, external));
   *external += t < self->t_given ? self->given_before : self->given;
@@ -258,6 +270,8 @@ corot_status corot_integrator_work(corot_integrator *self, double t, double *dis
 
 corot_status corot_integrator_energy(corot_integrator *self, const double *u, const double *v,
                                      corot_energies *energies) {
+  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN(energies));
   double near = 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
   if (fabs(self->t_energies - self->t) <= near) {
     *energies = self->energies;
@@ -281,6 +295,7 @@ static corot_status take_gain(corot_integrator *self) {
 }
 
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
+  COROT_TRY(given(self, __func__));
   state_stamp now = corot_state_stamp(self->state), before = self->seen;
   bool loads = now.loads != before.loads, paths = now.paths != before.paths;
   bool others = now.frames != before.frames || now.matrices != before.matrices;
@@ -293,6 +308,7 @@ corot_status corot_integrator_changed(corot_integrator *self, corot_history hist
 }
 
 corot_status corot_integrator_kink(corot_integrator *self) {
+  COROT_TRY(given(self, __func__));
   if (!corot_integrator_controls_error(self->ops->kind.name)) return COROT_OK;
   return self->ops->changed(self, COROT_HISTORY_AUTO);
 }

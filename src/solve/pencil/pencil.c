@@ -95,9 +95,11 @@ corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
 
 corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, const double *v) {
   COROT_TRY(corot_pencil_check(p, "corot_pencil_assemble"));
+  COROT_TRY(COROT_GIVEN(u));
   double start = clock_wall();
   corot_status status = corot_jacobian(p->model, p->state, t, u, v, p->tangent, p->K, p->D);
   p->dirty = status != COROT_OK;
+  p->known = status == COROT_OK;
   p->assembled = p->tangent;
   p->t = t;
   memcpy(p->u, u, p->n * sizeof *u);
@@ -111,6 +113,7 @@ corot_status corot_pencil_assemble_again(corot_pencil *p, corot_tangent tangent)
   double start = clock_wall();
   corot_status status = corot_jacobian(p->model, p->state, p->t, p->u, p->v, tangent, p->K, NULL);
   p->dirty = p->dirty || status != COROT_OK;
+  p->known = p->known && status == COROT_OK;
   p->assembled = tangent;
   p->counts.nassembly++;
   p->counts.assembly_s += clock_wall() - start;
@@ -130,6 +133,8 @@ void corot_pencil_combine(corot_pencil *p, double a, double b, double c) {
   if (!p) return;
   p->a = a, p->b = b, p->c = c;
   p->gamma = b;
+  p->combined = p->known;
+  p->factored = false;
   combine(p, &p->chosen);
 }
 
@@ -138,6 +143,7 @@ static corot_status factor(corot_pencil *p, const linsol *s) {
   bool fresh = false;
   corot_status status = s->ops->factor(s->solver, s->value, &fresh);
   p->solver = s;
+  p->factored = status == COROT_OK;
   p->counts.nfactor++;
   p->counts.nfresh += fresh;
   p->counts.factor_s += clock_wall() - start;
@@ -224,6 +230,10 @@ static bool chosen_in_vain(const corot_pencil *p) {
 
 corot_status corot_pencil_factor(corot_pencil *p) {
   COROT_TRY(corot_pencil_check(p, "corot_pencil_factor"));
+  if (!p->combined)
+    return corot_fail(COROT_EINVAL,
+                      "corot_pencil_factor: there is no S: assemble K and D, and "
+                      "combine them");
   if (!chosen_in_vain(p)) return factor_chosen(p);
   corot_status status = choose_again(p);
   if (status != COROT_ENOMEM || !p->tentative) return status;
@@ -244,6 +254,10 @@ corot_status corot_pencil_factor_definite(corot_pencil *p) {
 
 corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
   COROT_TRY(corot_pencil_check(p, "corot_pencil_solve"));
+  if (!p->factored)
+    return corot_fail(COROT_EINVAL,
+                      "corot_pencil_solve: S has not been factored since it was "
+                      "combined");
   if (x != b) memcpy(x, b, p->n * sizeof *x);
   corot_status status = solve(p, x);
   if (status != COROT_RETRY || !p->tentative || p->solver != &p->chosen) return status;

@@ -12,8 +12,9 @@ struct corot_pencil {
   corot_state *state;
   int n;
   corot_role role;
-  corot_tangent tangent; /* to be used */
-  bool dirty;            /* K and D do not belong to the present frames, or were never assembled */
+  corot_tangent tangent;          /* to be used */
+  bool known, combined, factored; /* K and D have been assembled; S made of them; and factored */
+  bool dirty; /* K and D do not belong to the present frames, or were never assembled */
   double (*K)[9], (*D)[9]; /* [nblock] */
   double t, *u, *v;        /* [n] where they were assembled, */
   corot_tangent assembled; /* and how */

@@ -2,6 +2,8 @@
 #include <corot/space.h>
 #include <stdlib.h>
 
+#include "core/base/sized.h"
+
 typedef struct share {
   double indicator;
   int tet;
@@ -21,6 +23,9 @@ static int compare_ints(const void *a, const void *b) {
 
 corot_status corot_space_mark(int n, const double *indicator, double fraction, int *nmark,
                               int *mark) {
+  COROT_TRY(COROT_GIVEN(indicator));
+  COROT_TRY(COROT_GIVEN(nmark));
+  COROT_TRY(COROT_GIVEN(mark));
   double sum = 0, carried = 0;
   int count = 0;
   for (int e = 0; e < n; e++) {

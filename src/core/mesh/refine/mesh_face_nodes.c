@@ -17,6 +17,8 @@ static corot_status find(const corot_edges *edges, int ntri, const int (*tri)[3]
 corot_status corot_mesh_face_nodes(const corot_mesh *mesh, int ntri, const int (*tri)[3],
                                    int (**node)[6]) {
   corot_edges edges = {0};
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(node));
   if (!mesh->mid) return corot_fail(COROT_EINVAL, "a mesh of order 1 has no nodes on its edges");
   corot_status status = corot_edges_list(mesh, &edges);
   if (!status) status = find(&edges, ntri, tri, node);

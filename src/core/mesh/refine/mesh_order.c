@@ -224,6 +224,8 @@ corot_status corot_refinement_lower(corot_refinement *r, const corot_mesh *mesh)
 
 corot_status corot_mesh_change_order(const corot_mesh *mesh, int order, corot_mesh **out) {
   corot_mesh *m;
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(out));
   if (order != 1 && order != 2)
     return corot_fail(COROT_EINVAL, "a mesh of order %d: only 1 and 2 are there", order);
   if (order == corot_mesh_order(mesh)) return corot_mesh_copy(mesh, out);

@@ -219,6 +219,8 @@ static corot_status begin(const corot_mesh *mesh, int nlevel, refiner *r) {
 corot_status corot_mesh_refine(const corot_mesh *mesh, int nlevel, corot_diagonal diagonal,
                                corot_mesh **fine, corot_refinement **refinement) {
   refiner r = {.diagonal = diagonal};
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(fine));
   COROT_TRY(check_levels(mesh, nlevel, diagonal));
   corot_status status = begin(mesh, nlevel, &r);
   while (!status && r.level < nlevel) status = refine_once(&r);

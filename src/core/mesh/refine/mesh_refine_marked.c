@@ -60,6 +60,9 @@ corot_status corot_mesh_refine_marked(const corot_mesh *mesh, int nmark, const i
   bisection b = {0};
   int *from = NULL;
   corot_mesh *m;
+  COROT_TRY(COROT_GIVEN(mesh));
+  if (nmark > 0) COROT_TRY(COROT_GIVEN(mark));
+  COROT_TRY(COROT_GIVEN(fine));
   COROT_TRY(check_marks(mesh, nmark, mark));
   COROT_TRY(COROT_ALLOC(m, 1));
   corot_status status = corot_edges_list(mesh, &edges);

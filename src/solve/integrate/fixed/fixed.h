@@ -35,7 +35,7 @@ typedef struct scheme {
   void (*means)(fixed *f, double rho);
 } scheme;
 
-enum { NHISTORY = 4, NVECTOR = 2 * NHISTORY + 10 };
+enum { NHISTORY = 4, NVECTOR = 2 * NHISTORY + 11 };
 
 struct fixed {
   const scheme *scheme;
@@ -46,7 +46,9 @@ struct fixed {
   int depth; /* states known since the start or a restart, the present one included */
   double am, af, beta, gamma;            /* of the Newmark family */
   double *u[NHISTORY], *v[NHISTORY];     /* [n] present and earlier states, latest first */
-  double *a;                             /* [n] acceleration of the Newmark family */
+  double *a;                             /* [n] acceleration of the Newmark family, */
+  double *r;                             /* [n] r where it is, */
+  bool r_known;                          /* at the start and with inputs */
   double *U, *V, *W, *w, *trial, *G, *d; /* [n] of the stage */
   double *apart, *inertia;               /* [n] trial - W and M times that */
   double *memory;

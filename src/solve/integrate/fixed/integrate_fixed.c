@@ -174,6 +174,13 @@ static corot_status add_work(corot_integrator *self, double t, double h) {
   return COROT_OK;
 }
 
+/* r where the body is, in G. */
+static corot_status find_r(corot_integrator *self, double t) {
+  fixed *f = self->method;
+  f->counts.nfe++;
+  return corot_residual(self->model, self->state, t, f->u[0], f->v[0], f->G);
+}
+
 /* The state at t from the solution w of the step's system. Where that state cannot be evaluated
    (midpoint and the alpha methods solve for one between) the old one is back in place. */
 static corot_status finish(corot_integrator *self, double t) {
@@ -181,7 +188,9 @@ static corot_status finish(corot_integrator *self, double t) {
   rotate_history(f->u);
   rotate_history(f->v);
   f->scheme->finish(f);
-  corot_status status = add_work(self, t, f->h);
+  bool with_r = self->seen.inputs && f->scheme->needs_acceleration;
+  corot_status status = with_r ? find_r(self, t) : COROT_OK;
+  if (!status) status = add_work(self, t, f->h);
   if (status) {
     rotate_back(f->u);
     rotate_back(f->v);
@@ -189,6 +198,8 @@ static corot_status finish(corot_integrator *self, double t) {
     return status;
   }
   if (f->scheme->needs_acceleration) memcpy(f->a, f->w, f->n * sizeof *f->a);
+  if (with_r) memcpy(f->r, f->G, f->n * sizeof *f->r);
+  f->r_known = with_r;
   f->count++;
   if (f->depth < NHISTORY - 1) f->depth++;
   return COROT_OK;
@@ -258,10 +269,26 @@ static corot_status renew_powers(corot_integrator *self) {
   return COROT_OK;
 }
 
-/* One-step methods have no history; BDF keeps it, as the paper does, unless told otherwise. */
+/* The Newmark family's acceleration jumps as r has; where that is not known, it is as at a start.
+ */
+static corot_status jump(corot_integrator *self) {
+  fixed *f = self->method;
+  COROT_TRY(find_r(self, self->t));
+  for (int i = 0; i < f->n; i++) f->d[i] = f->r_known ? f->G[i] - f->r[i] : f->G[i];
+  COROT_TRY(corot_mass_solve(self->mass, f->d, f->d));
+  for (int i = 0; i < f->n; i++) f->a[i] = f->r_known ? f->a[i] + f->d[i] : f->d[i];
+  memcpy(f->r, f->G, f->n * sizeof *f->r);
+  f->r_known = true;
+  return COROT_OK;
+}
+
+/* One-step methods have no history but that acceleration; BDF keeps it, as the paper does, unless
+   told otherwise. */
 static corot_status fixed_changed(corot_integrator *self, corot_history history) {
   fixed *f = self->method;
   if (self->seen.inputs) COROT_TRY(renew_powers(self));
+  if (self->seen.inputs && f->scheme->needs_acceleration && history != COROT_HISTORY_KEEP)
+    COROT_TRY(jump(self));
   if (history != COROT_HISTORY_RESTART) return COROT_OK;
   f->depth = 1;
   self->before = self->t; /* no interpolant any more */
@@ -305,7 +332,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   if (!f->memory) return corot_fail(COROT_ENOMEM, "no memory for %s", d->method);
   double *next = f->memory;
   for (int j = 0; j < NHISTORY; j++, next += 2 * n) f->u[j] = next, f->v[j] = next + n;
-  double **const vectors[] = {&f->a,     &f->U, &f->V, &f->W,     &f->w,
+  double **const vectors[] = {&f->a,     &f->r, &f->U, &f->V,     &f->W,      &f->w,
                               &f->trial, &f->G, &f->d, &f->apart, &f->inertia};
   for (int k = 0; k < NVECTOR - 2 * NHISTORY; k++, next += n) *vectors[k] = next;
   memcpy(f->u[0], u, n * sizeof *u);
@@ -313,9 +340,10 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
   f->depth = 1;
 
   if (f->scheme->needs_acceleration) { /* a = M^-1 r at the start */
-    COROT_TRY(corot_residual(self->model, self->state, self->t, u, v, f->a));
+    COROT_TRY(corot_residual(self->model, self->state, self->t, u, v, f->r));
     f->counts.nfe++;
-    COROT_TRY(corot_mass_solve(self->mass, f->a, f->a));
+    COROT_TRY(corot_mass_solve(self->mass, f->r, f->a));
+    f->r_known = true;
   }
   return add_work(self, self->t, 0);
 }

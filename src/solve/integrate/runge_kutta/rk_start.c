@@ -26,7 +26,8 @@ static corot_status transient(runge_kutta *m, double h, double *radian) {
 
 corot_status corot_rk_first_step(runge_kutta *m, double *h) {
   double radian;
-  if (!m->driver.self->pencil || !(*h > 0)) return COROT_OK;
+  const corot_pencil *p = m->driver.self->pencil;
+  if (!p || !p->factored || !(*h > 0)) return COROT_OK;
   corot_status status = transient(m, *h, &radian);
   if (status == COROT_OK) *h = fmin(*h, radian);
   return sun_is_fatal(status) ? status : COROT_OK;
