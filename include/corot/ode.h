@@ -306,7 +306,8 @@ typedef struct corot_nodal_forces {
 } corot_nodal_forces;
 
 /* u, v and a [n]: displacement, velocity, acceleration. In statics (corot_state_stand_still) nothing
-   has a velocity or an acceleration, and v and a may be NULL. COROT_RETRY as for corot_residual. */
+   has a velocity or an acceleration, and v and a may be NULL. COROT_RETRY as for corot_residual; the
+   fields are without meaning then. */
 COROT_API corot_status corot_forces(const corot_model *model, corot_state *state, double t,
                                     const double *u, const double *v, const double *a,
                                     const corot_nodal_forces *forces);
