@@ -6,11 +6,15 @@
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 #include "limited.h"
 
+#include <signal.h>
 #include <stddef.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
+
+#include "app/run/exit_code.h"
 
 #include "sanitized.h"
 
@@ -30,13 +34,30 @@ static bool is_set(const char *variable, char **environment) {
   return false;
 }
 
+/* Seconds of CPU; a tenth is what they take. */
+static void give_libraries(int seconds) {
+  setitimer(ITIMER_PROF, &(struct itimerval){.it_value.tv_sec = seconds}, NULL);
+}
+
+static void no_room(int number) {
+  static const char why[] =
+      "corot: cannot begin: its libraries find no room in the address space that is allowed "
+      "(ulimit -v)\n";
+  (void)number;
+  if (write(STDERR_FILENO, why, sizeof why - 1) < 0) _exit(EXIT_SYSTEM);
+  _exit(EXIT_SYSTEM);
+}
+
 /* Where that fails, the program goes on as it is. Nothing of the C library may allocate yet. */
 static void keep_to_one_thread(int argc, char **argv, char **environment) {
   (void)argc;
   size_t n = 0, added = 0;
   bool missing[NVARIABLE];
   for (int k = 0; k < NVARIABLE; k++) added += missing[k] = !is_set(one_thread[k], environment);
-  if (added == 0 || !is_limited()) return;
+  if (!is_limited()) return;
+  sigaction(SIGPROF, &(struct sigaction){.sa_handler = no_room}, NULL);
+  give_libraries(2);
+  if (added == 0) return;
   while (environment[n]) n++;
   char **more = mmap(NULL, (n + added + 1) * sizeof *more, PROT_READ | PROT_WRITE,
                      MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -50,4 +71,12 @@ static void keep_to_one_thread(int argc, char **argv, char **environment) {
 
 typedef void beginner(int argc, char **argv, char **environment);
 __attribute__((section(".preinit_array"), used)) static beginner *const begin = keep_to_one_thread;
+
+void libraries_are_loaded(void) {
+  if (!is_limited()) return;
+  give_libraries(0);
+  signal(SIGPROF, SIG_DFL);
+}
+#else
+void libraries_are_loaded(void) {}
 #endif

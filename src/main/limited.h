@@ -6,4 +6,8 @@
 
 bool is_limited(void);
 
+/* Where it is, the libraries are given little time to begin, and the program ends with a message if
+   they do not: call this first in main. */
+void libraries_are_loaded(void);
+
 #endif

@@ -117,6 +117,7 @@ int main(int argc, char **argv) {
       {"schema", command_schema},   {"mesh", command_mesh},
       {"--version", print_version}, {0},
   };
+  libraries_are_loaded();
   first_signals_restore();
   hold_standard_streams();
   prepare_blas(argc, argv);
