@@ -254,10 +254,11 @@ corot_status corot_pencil_factor_definite(corot_pencil *p) {
 
 corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
   COROT_TRY(corot_pencil_check(p, "corot_pencil_solve"));
-  if (!p->factored)
+  if (!p->factored) {
+    p->counts.nsolve++, p->counts.nlsfail++;
     return corot_fail(COROT_EINVAL,
-                      "corot_pencil_solve: S has not been factored since it was "
-                      "combined");
+                      "corot_pencil_solve: there is no factor of S since it was combined");
+  }
   if (x != b) memcpy(x, b, p->n * sizeof *x);
   corot_status status = solve(p, x);
   if (status != COROT_RETRY || !p->tentative || p->solver != &p->chosen) return status;
