@@ -26,12 +26,15 @@ for megabytes in 60 100 130 150 180 200 230 260 300 600; do
   done
 done
 
-# The room for the BLAS is looked for before it is needed.
+# The room for the BLAS is looked for before it is needed; some take it as they are loaded, before
+# there is a result to write to.
 (ulimit -v 150000 && exec timeout -s KILL 120 "$corot" run model.yaml -o out --quiet --set "$large") >stdout 2>stderr
 got=$?
 if "$corot" check model.yaml --set "$large" 2>/dev/null | grep -q supernodal; then
   [ $got = 5 ] || complain "no room for the BLAS: no exit code 5"
-  grep -q 'no memory for' stderr || complain "no room for the BLAS: no message"
-  grep -q '"kind": "memory"' out/result.json || complain "no room for the BLAS: not for want of memory"
+  if ! grep -q 'its libraries find no room' stderr; then
+    grep -q 'no memory for' stderr || complain "no room for the BLAS: no message"
+    grep -q '"kind": "memory"' out/result.json || complain "no room for the BLAS: not for want of memory"
+  fi
 fi
 exit $failed
