@@ -90,4 +90,5 @@ program host_fortran
   print '(3g22.13)', y(dof(:, node + 1) + 1)
   call corot_state_destroy(state)
   call corot_model_destroy(model)
+  deallocate (y, k) ! what a main program allocates is not freed at its end
 end program
