@@ -1,8 +1,9 @@
 /* Where address space is limited, each thread takes a large part of it: OpenBLAS waits for ever for
-   those it cannot start, or for their buffers, some versions as they are loaded, and OpenMP, of
-   which CHOLMOD asks for four, ends the program with exit code 1. These libraries read their
-   environment before main; so it is set before any library begins, as functions in .preinit_array
-   run, by beginning once more. */
+   those it cannot start, and OpenMP, of which CHOLMOD asks for four, ends the program with exit
+   code 1. They read their environment before main; so it is set before any library begins, as
+   functions in .preinit_array run, by beginning once more. And OpenBLAS of some versions (0.3.29)
+   asks for its buffers as it is loaded, again for ever where there is no room: a clock ends that.
+ */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 #include "limited.h"
 
@@ -44,7 +45,8 @@ static void no_room(int number) {
       "corot: cannot begin: its libraries find no room in the address space that is allowed "
       "(ulimit -v)\n";
   (void)number;
-  if (write(STDERR_FILENO, why, sizeof why - 1) < 0) _exit(EXIT_SYSTEM);
+  ssize_t told = write(STDERR_FILENO, why, sizeof why - 1);
+  (void)told; /* there is nobody else to tell */
   _exit(EXIT_SYSTEM);
 }
 

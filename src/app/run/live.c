@@ -33,17 +33,10 @@ int live_times(const live *l, double end, int max, double *time) {
   return n;
 }
 
-/* The last point at t or before it; -1: the first comes later. */
-static int find_window(const corot_amplitude *a, double t) {
-  int low = -1, high = a->n;
-  while (high - low > 1) {
-    int middle = low + (high - low) / 2;
-    if (a->time[middle] <= t)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
+/* The last point at t or before it, from an earlier one on; -1: the first comes later. */
+static int go_on(const corot_amplitude *a, int k, double t) {
+  while (k + 1 < a->n && a->time[k + 1] <= t) k++;
+  return k;
 }
 
 static corot_status enter_window(corot_inputs *inputs, const input_def *in, int k) {
@@ -61,7 +54,7 @@ static corot_status enter(live *l, double t, bool first, bool *changed) {
   *changed = false;
   for (int i = 0; i < l->scenario->ninput; i++) {
     const input_def *in = &l->scenario->input[i];
-    int k = find_window(&in->values, t);
+    int k = go_on(&in->values, l->window[i], t);
     if (k == l->window[i] && !first) continue;
     corot_status status = enter_window(l->inputs, in, k);
     if (status == COROT_ENOMEM) return status;
@@ -80,6 +73,7 @@ corot_status live_create(const scenario *s, const corot_model *model, double t, 
   if (!l) return no_memory();
   l->scenario = s;
   l->window = calloc((size_t)s->ninput + 1, sizeof *l->window);
+  for (int i = 0; l->window && i < s->ninput; i++) l->window[i] = -1;
   corot_status status = l->window ? COROT_OK : no_memory();
   if (!status && s->ninput) status = corot_inputs_create(model, &l->inputs);
   if (!status) status = enter(l, t, true, &changed);

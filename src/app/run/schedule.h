@@ -13,9 +13,8 @@ typedef struct schedule {
   double end;         /* [s] */
   double output_step; /* [s]; 0: at the start and the end only */
   int nkink;
-  double
-      *kink;   /* [nkink] ascending, each once, within (0, end); changes of inputs are among them */
-  double near; /* times closer than this are the same: an interval of 0.1 meets a kink at 0.3 */
+  double *kink; /* [nkink] ascending, each once, within (0, end); changes of inputs included */
+  double near;  /* times closer than this are the same: an interval of 0.1 meets a kink at 0.3 */
 
   int next_kink;
   long next_output; /* counting from 0 */
