@@ -71,7 +71,7 @@ case $kind in
       libs= compile "example_$name" corot "examples/$name"
     done
     libs= compile example_solve corot-solve examples/solve
-    for name in inputs integrate statics modes space; do
+    for name in checkpoint inputs integrate statics modes space; do
       libs= compile "example_$name" corot-integrate "examples/$name"
     done
     check_examples

@@ -27,6 +27,11 @@ holds() {
 }
 
 case $name in
+  checkpoint)
+    # the tip of a bar that swings about where half of the load would bring it
+    holds 'line[1] ~ /the same bits$/'
+    holds 'at("with half", 9) < at("at 1 s", 4)'
+    ;;
   base)
     has "missing file: COROT_EIO, -1 tets: /nowhere/bar.msh: No such file or directory"
     has "no path: COROT_EINVAL, -1 tets: the path of the mesh has 0 letters"

@@ -50,7 +50,7 @@ static corot_status create(const corot_model *m, other_system **other) {
 }
 
 /* Both of them at once. */
-static corot_status make_room(corot_inputs *in) {
+corot_status corot_factors_reserve(corot_inputs *in) {
   const corot_model *m = in->model;
   other_system *before;
   if (in->other) return COROT_OK;
@@ -96,12 +96,14 @@ static corot_status check(const corot_inputs *in, int k, const corot_material_fa
   return COROT_OK;
 }
 
+void corot_factors_settle(corot_inputs *in) { fill_averages(in->model, in->other); }
+
 corot_status corot_inputs_set_material(corot_inputs *in, int k,
                                        const corot_material_factors *factors) {
   const corot_material_factors one = {1, 1, 1, 1}, *by = factors ? factors : &one;
   COROT_TRY(COROT_GIVEN(in));
   COROT_TRY(check(in, k, by));
-  COROT_TRY(make_room(in));
+  COROT_TRY(corot_factors_reserve(in));
   const corot_model *m = in->model;
   if (!in->pending)
     memcpy(in->before->material, in->other->material, m->nmaterial * sizeof(material));
@@ -113,7 +115,7 @@ corot_status corot_inputs_set_material(corot_inputs *in, int k,
   to->lambda *= by->lambda, to->mu *= by->mu;
   to->damping_lambda *= by->damping_lambda, to->damping_mu *= by->damping_mu;
   corot_material_share(m, to);
-  fill_averages(m, in->other);
+  corot_factors_settle(in);
   in->matrices++;
   return COROT_OK;
 }

@@ -5,6 +5,7 @@
 
 #include <corot/inputs.h>
 
+#include "core/base/pack.h"
 #include "core/base/sized.h"
 #include "model.h"
 
@@ -85,6 +86,18 @@ void corot_paths_place(const instant *now, int k, double *nodal, int stride);
 /* f [ndof] -= what a consistent mass and its damping take from free nodes for the velocities and
    accelerations of paths, less what drags the model's own motions in their places. */
 void corot_paths_drag(const instant *now, double *f);
+
+/* Room for paths and for other materials, which are the model's own until they are set. */
+corot_status corot_paths_reserve(corot_inputs *in);
+corot_status corot_factors_reserve(corot_inputs *in);
+
+/* Call this once in->other->material has changed. */
+void corot_factors_settle(corot_inputs *in);
+
+/* Writes or reads all that the inputs say, but for a feedback, which is the host's code: of that
+   no more than whether there is one. A reader fails where it finds another; it may then have
+   changed some of the inputs. */
+void corot_inputs_exchange(pack *p, corot_inputs *in);
 
 /* Takes NULL. */
 void corot_other_system_destroy(other_system *other);

@@ -10,7 +10,7 @@ static bool is_held(const corot_model *m, int node) {
 }
 
 /* A path for each node of which something is held, not in use yet, and room for what is where. */
-static corot_status make_room(corot_inputs *in) {
+corot_status corot_paths_reserve(corot_inputs *in) {
   const corot_model *m = in->model;
   size_t nnode = m->mesh->nnode;
   if (in->path) return COROT_OK;
@@ -190,7 +190,7 @@ corot_status corot_inputs_start_path(corot_inputs *in, const corot_path *path) {
   COROT_TRY(COROT_GIVEN(in));
   COROT_TRY(COROT_GIVEN(path));
   COROT_TRY(check(in, path, &group));
-  COROT_TRY(make_room(in));
+  COROT_TRY(corot_paths_reserve(in));
   start(in, path, group);
   return COROT_OK;
 }
@@ -200,7 +200,7 @@ corot_status corot_inputs_set_path(corot_inputs *in, const corot_path *path) {
   COROT_TRY(COROT_GIVEN(in));
   COROT_TRY(COROT_GIVEN(path));
   COROT_TRY(check(in, path, &group));
-  COROT_TRY(make_room(in));
+  COROT_TRY(corot_paths_reserve(in));
   find_present(in, path->t);
   for (int i = 0; i < group->nnode; i++)
     COROT_TRY(check_jump(in, group, group->node[i], path->t, path->x[path->n == 1 ? 0 : i]));
@@ -236,7 +236,7 @@ corot_status corot_inputs_reach(corot_inputs *in, double t0, const corot_path *p
                       path->t);
   if (path->a && !path->v)
     return corot_fail(COROT_EINVAL, "inputs: a path to reach has an acceleration, but no velocity");
-  COROT_TRY(make_room(in));
+  COROT_TRY(corot_paths_reserve(in));
   find_present(in, t0);
   for (int i = 0; i < group->nnode; i++) {
     node_path *p = take(in, group, i, t0);

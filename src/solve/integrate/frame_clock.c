@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/base/sized.h"
+#include "integrator.h"
 
 struct corot_frame_clock {
   corot_frame_policy policy;
@@ -83,15 +84,25 @@ corot_status corot_frame_clock_create(const corot_frame_policy *policy, const co
     corot_frame_clock_destroy(c);
     return status;
   }
+  integrator->clock = c;
+  if (integrator->nst == 0) integrator->seen.frames = corot_state_stamp(state).frames;
   *clock = c;
   return COROT_OK;
 }
 
 void corot_frame_clock_destroy(corot_frame_clock *c) {
   if (!c) return;
+  if (c->integrator && c->integrator->clock == c) c->integrator->clock = NULL;
   free(c->u);
   free(c->v);
   free(c);
+}
+
+void corot_frame_clock_orphan(corot_frame_clock *c) { c->integrator = NULL; }
+
+void corot_frame_clock_exchange(pack *p, corot_frame_clock *c) {
+  corot_pack_long(p, &c->ticks);
+  corot_pack_double(p, &c->cap);
 }
 
 double corot_frame_clock_stop(const corot_frame_clock *c) {

@@ -173,6 +173,7 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
     if (!status) corot_pencil_use(self->pencil, self->def.tangent);
   }
   if (!status) status = ops->create(self, u, v);
+  self->asked = corot_integrator_sum_of(def);
   self->def.method = ops->kind.name;
   self->def.table = NULL;
   self->def.linear = corot_linear_defaults();
@@ -186,6 +187,7 @@ corot_status corot_integrator_create(const corot_integrator_def *def, const coro
 
 void corot_integrator_destroy(corot_integrator *self) {
   if (!self) return;
+  if (self->clock) corot_frame_clock_orphan(self->clock);
   if (self->method) self->ops->destroy(self->method);
   corot_pencil_destroy(self->pencil);
   corot_mass_solver_destroy(self->mass);
@@ -332,7 +334,10 @@ corot_statistics corot_integrator_statistics(const corot_integrator *self) {
                         .factor_s = p.factor_s,
                         .solve_s = p.solve_s};
   /* the method's own counts, and what the steps took beside the phases above */
+  const corot_statistics *c = &self->carried;
   self->ops->statistics(self, &s);
+  s.nfe += c->nfe, s.nsetups += c->nsetups, s.netf += c->netf, s.nni += c->nni, s.ncfn += c->ncfn;
+  s.nfeQ += c->nfeQ, s.nrestart += c->nrestart;
   s.nst = self->nst;
   s.hlast = self->hlast;
   s.qlast = self->qlast;

@@ -4,6 +4,7 @@
 
 #include <corot/integrate.h>
 
+#include "core/base/pack.h"
 #include "core/ode/stamp.h"
 #include "solve/host/host.h"
 #include "solve/pencil/pencil.h"
@@ -20,6 +21,12 @@ typedef struct integrator_ops {
   /* Nothing has changed but forces that depend on u and t alone. NULL: as changed. */
   corot_status (*loaded)(corot_integrator *self, corot_history history);
   void (*statistics)(const corot_integrator *self, corot_statistics *statistics);
+  /* Before a state is taken away: what waits for the next step is decided now. NULL: nothing does.
+   */
+  corot_status (*settle)(corot_integrator *self);
+  /* Writes what the method knows beside u, v and its counts; reads it into one that was just
+   * created. */
+  void (*exchange)(corot_integrator *self, pack *p);
 } integrator_ops;
 
 extern const integrator_ops corot_integrator_cvode;
@@ -49,10 +56,23 @@ struct corot_integrator {
   double given, given_before; /* external work by changes of materials, and before the latest [J] */
   double t_given;             /* when that was; -infinity: there was none */
   state_stamp seen;           /* of the state, as the integrator knows it */
+  corot_statistics carried; /* the method's counts before its latest beginning from a saved state */
+  corot_frame_clock *clock; /* made last for this integrator; NULL: none, or it is gone */
+  uint64_t asked;           /* checksum of the definition as it was given */
+  uint64_t identity;        /* of the model; 0: not asked for yet */
 };
 
 /* corot_sight of the next step. */
 double corot_integrator_sight(const corot_integrator *self, double h, double t_stop);
+
+/* Checksum of a definition: what tells two of them apart. */
+uint64_t corot_integrator_sum_of(const corot_integrator_def *def);
+
+/* The clock's integrator is no more. */
+void corot_frame_clock_orphan(corot_frame_clock *clock);
+
+/* Writes or reads when the clock's next updates are due. */
+void corot_frame_clock_exchange(pack *p, corot_frame_clock *clock);
 
 /* Takes the advice for a method where the definition leaves something open. */
 void corot_integrator_take_advice(corot_integrator *self, corot_sun_method method);

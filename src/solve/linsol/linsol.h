@@ -33,6 +33,9 @@ typedef struct linsol_ops {
   /* x [n] becomes A^-1 x. */
   corot_status (*solve)(void *solver, double *x);
   void (*destroy)(void *solver);
+  /* Drops the numeric factor, so that the next one does not depend on any before it. NULL: none
+     ever does. */
+  void (*forget)(void *solver);
 
   /* Iterations so far; NULL: the solver is not iterative. */
   long (*iterations)(const void *solver);

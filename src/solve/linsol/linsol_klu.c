@@ -107,6 +107,12 @@ static corot_status klu_solver_solve(void *solver, double *x) {
   return failure(k, "solve");
 }
 
+/* With the factor go its pivots. */
+static void klu_solver_forget(void *solver) {
+  klu *k = solver;
+  klu_free_numeric(&k->numeric, &k->common);
+}
+
 static const linsol_variant variants[] = {
     {.name = "klu, amd", .ordering = "amd"},
     {.name = "klu, metis", .ordering = "metis"},
@@ -122,5 +128,6 @@ const linsol_ops corot_linsol_klu = {
     .factor = klu_solver_factor,
     .solve = klu_solver_solve,
     .destroy = klu_solver_destroy,
+    .forget = klu_solver_forget,
     .count_negative = corot_inertia,
 };

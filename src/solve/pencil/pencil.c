@@ -55,6 +55,7 @@ corot_status corot_pencil_create(const corot_model *model, corot_state *state,
 void corot_pencil_destroy(corot_pencil *p) {
   if (!p) return;
   corot_linsol_clear(&p->chosen);
+  corot_linsol_clear(&p->set_aside);
   corot_linsol_clear(&p->klu);
   free(p->K);
   free(p->D);
@@ -89,7 +90,7 @@ corot_pencil_counts corot_pencil_statistics(const corot_pencil *p) {
   corot_pencil_counts counts = p->counts;
   const linsol *s = &p->chosen;
   counts.niteration = p->niteration;
-  if (s->ops->iterative) counts.niteration += s->ops->iterations(s->solver);
+  if (s->ops->iterative) counts.niteration += s->ops->iterations(s->solver) - p->origin;
   return counts;
 }
 
@@ -208,15 +209,23 @@ static corot_status factor_chosen(corot_pencil *p) {
   return no_pivots(status) ? factor_by_klu(p) : status;
 }
 
-/* A direct solver in the place of conjugate gradients that were chosen, and do not do. */
-static corot_status choose_again(corot_pencil *p) {
-  linsol direct;
-  COROT_TRY(make_solver(p, corot_linsol_direct, &direct));
-  p->niteration += p->chosen.ops->iterations(p->chosen.solver);
-  corot_linsol_clear(&p->chosen);
-  p->chosen = direct;
-  p->tentative = false;
+/* A direct solver in the place of conjugate gradients that were chosen, or these again. The other
+   one is kept: a state may come back that has it in use. */
+static corot_status change_solver(corot_pencil *p) {
+  linsol other = p->set_aside;
+  if (!other.solver) COROT_TRY(make_solver(p, corot_linsol_direct, &other));
+  p->niteration = corot_pencil_statistics(p).niteration;
+  p->set_aside = p->chosen;
+  p->chosen = other;
+  p->origin = other.ops->iterative ? other.ops->iterations(other.solver) : 0;
   adopt(p);
+  return COROT_OK;
+}
+
+/* Conjugate gradients that were chosen do not do. */
+static corot_status choose_again(corot_pencil *p) {
+  COROT_TRY(change_solver(p));
+  p->tentative = false;
   combine(p, &p->chosen);
   return factor_chosen(p);
 }
@@ -225,7 +234,8 @@ static corot_status choose_again(corot_pencil *p) {
 static bool chosen_in_vain(const corot_pencil *p) {
   const linsol *s = &p->chosen;
   double direct = s->rival.factor * p->counts.nfactor + s->rival.solution * p->counts.nsolve;
-  return p->tentative && direct > 0 && s->ops->iterations(s->solver) > 100 + 2 * direct;
+  if (!p->tentative || !(direct > 0)) return false;
+  return corot_pencil_statistics(p).niteration > 100 + 2 * direct;
 }
 
 corot_status corot_pencil_factor(corot_pencil *p) {
@@ -272,4 +282,50 @@ corot_status corot_pencil_slow_part(corot_pencil *p, const double *x, double *y)
   corot_status status = corot_pencil_solve(p, p->work, y);
   p->counts = counts;
   return status;
+}
+
+/* --- A state that is taken away, and back ----------------------------------------------------- */
+
+static void forget(const linsol *s) {
+  if (s->solver && s->ops->forget) s->ops->forget(s->solver);
+}
+
+void corot_pencil_forget(corot_pencil *p) {
+  p->known = p->combined = p->factored = false;
+  p->dirty = true;
+  p->solver = &p->chosen;
+  forget(&p->chosen);
+  forget(&p->set_aside);
+  forget(&p->klu);
+}
+
+static void exchange_counts(pack *p, corot_pencil_counts *c) {
+  long *const count[] = {&c->nassembly,   &c->ncombine, &c->nfactor,   &c->nfresh,  &c->nsolve,
+                         &c->nindefinite, &c->nclamped, &c->nfallback, &c->nlsfail, &c->niteration};
+  double *const time[] = {&c->assembly_s, &c->combine_s, &c->factor_s, &c->solve_s};
+  for (size_t k = 0; k < sizeof count / sizeof *count; k++) corot_pack_long(p, count[k]);
+  for (size_t k = 0; k < sizeof time / sizeof *time; k++) corot_pack_double(p, time[k]);
+}
+
+/* Which solver was chosen for the model in the beginning has to be the same; whether another one
+   has taken its place since comes with the state. */
+void corot_pencil_exchange(pack *p, corot_pencil *pencil) {
+  bool changed = pencil->set_aside.solver && pencil->set_aside.ops->iterative;
+  const char *name = changed ? pencil->set_aside.name : pencil->chosen.name;
+  bool is_changed = changed, tentative = pencil->tentative;
+  corot_pencil_counts counts = corot_pencil_statistics(pencil);
+  corot_pack_same(p, corot_checksum(COROT_CHECKSUM, name, strlen(name)),
+                  "the checksum of the linear solver's name");
+  corot_pack_bool(p, &changed);
+  corot_pack_bool(p, &tentative);
+  exchange_counts(p, &counts);
+  if (!p->reading || p->status) return;
+
+  if (changed != is_changed) p->status = change_solver(pencil);
+  if (p->status) return;
+  const linsol *s = &pencil->chosen;
+  pencil->tentative = tentative;
+  pencil->counts = counts;
+  pencil->niteration = counts.niteration;
+  pencil->origin = s->ops->iterative ? s->ops->iterations(s->solver) : 0;
 }

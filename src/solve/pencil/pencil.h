@@ -4,6 +4,7 @@
 
 #include <corot/solve.h>
 
+#include "core/base/pack.h"
 #include "core/base/sisters.h"
 #include "solve/linsol/linsol.h"
 
@@ -21,7 +22,9 @@ struct corot_pencil {
   double a, b, c;          /* of S */
   linsol chosen;
   bool tentative;       /* it is iterative, and was not asked for by name */
-  long niteration;      /* of what was chosen before it */
+  linsol set_aside;     /* what was chosen before it and did not do; without a solver: nothing */
+  long niteration;      /* of what was chosen before, and, where a state was taken in, by then */
+  long origin;          /* iterations of the chosen one that do not count any more */
   linsol klu;           /* made when first needed */
   const linsol *solver; /* which of them holds the factor */
   const corot_csc *csc; /* of the chosen one */
@@ -36,6 +39,13 @@ corot_status corot_pencil_check(const corot_pencil *pencil, const char *who);
 
 /* K once more, where it was assembled, with another derivative of the frames. */
 corot_status corot_pencil_assemble_again(corot_pencil *pencil, corot_tangent tangent);
+
+/* Writes or reads which of the solvers is in use, and the counts. */
+COROT_SISTERS void corot_pencil_exchange(pack *p, corot_pencil *pencil);
+
+/* Makes the pencil one that was just created, but for what corot_pencil_exchange knows: matrices
+   and factors are gone, pivots, too; the analysis stays. */
+COROT_SISTERS void corot_pencil_forget(corot_pencil *pencil);
 
 /* corot_pencil_factor, and COROT_RETRY from a solver, too, that does not mind what is not positive
    definite. */

@@ -296,6 +296,25 @@ static corot_status fixed_changed(corot_integrator *self, corot_history history)
   return COROT_OK;
 }
 
+/* All there is to know: nothing is lost. */
+static void fixed_exchange(corot_integrator *self, pack *p) {
+  fixed *f = self->method;
+  corot_pack_double(p, &f->t0);
+  corot_pack_long(p, &f->count);
+  corot_pack_int(p, &f->depth);
+  for (int j = 0; j < f->depth && j < NHISTORY - 1; j++) {
+    corot_pack_doubles(p, f->u[j], (size_t)f->n);
+    corot_pack_doubles(p, f->v[j], (size_t)f->n);
+  }
+  corot_pack_bool(p, &f->r_known);
+  if (f->scheme->needs_acceleration) {
+    corot_pack_doubles(p, f->a, (size_t)f->n);
+    corot_pack_doubles(p, f->r, (size_t)f->n);
+  }
+  corot_pack_doubles(p, f->power, 2);
+  corot_pack_doubles(p, f->work, 2);
+}
+
 static void fixed_statistics(const corot_integrator *self, corot_statistics *s) {
   const corot_statistics *c = &((const fixed *)self->method)->counts;
   s->nfe = c->nfe, s->nsetups = c->nsetups, s->nni = c->nni, s->nfeQ = c->nfeQ;
@@ -353,6 +372,7 @@ static corot_status fixed_create(corot_integrator *self, const double *u, const 
     .kind = {.name = word, .order_min = order, .order_max = order, .radius_min = radius},         \
     .choose = fixed_choose, .create = fixed_create, .destroy = fixed_destroy, .step = fixed_step, \
     .at = fixed_at, .work = fixed_work, .changed = fixed_changed, .statistics = fixed_statistics, \
+    .exchange = fixed_exchange,                                                                   \
   }
 const integrator_ops corot_integrators_fixed[] = {
     FIXED("backward-euler", 1, 0),    FIXED("bdf2", 2, 0),      FIXED("bdf3", 3, 0),

@@ -87,4 +87,5 @@ const integrator_ops corot_integrator_cvode = {
     .changed = corot_multistep_changed,
     .loaded = corot_multistep_loaded,
     .statistics = corot_multistep_statistics,
+    .exchange = corot_multistep_exchange,
 };

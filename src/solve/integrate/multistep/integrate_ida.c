@@ -134,4 +134,5 @@ const integrator_ops corot_integrator_ida = {
     .changed = corot_multistep_changed,
     .loaded = corot_multistep_loaded,
     .statistics = corot_multistep_statistics,
+    .exchange = corot_multistep_exchange,
 };

@@ -200,6 +200,13 @@ corot_status corot_multistep_loaded(corot_integrator *self, corot_history histor
   return begin_again(m, h);
 }
 
+/* The history of the solution is not among it: SUNDIALS does not take one in. */
+void corot_multistep_exchange(corot_integrator *self, pack *p) {
+  multistep *m = self->method;
+  corot_pack_doubles(p, m->ledger.work_end, 2);
+  corot_pack_double(p, &m->driver.longest);
+}
+
 void corot_multistep_statistics(const corot_integrator *self, corot_statistics *s) {
   const multistep *m = self->method;
   const corot_statistics *b = &m->before;

@@ -89,6 +89,7 @@ corot_status corot_multistep_work(corot_integrator *self, double t, double *diss
                                   double *external);
 corot_status corot_multistep_changed(corot_integrator *self, corot_history history);
 corot_status corot_multistep_loaded(corot_integrator *self, corot_history history);
+void corot_multistep_exchange(corot_integrator *self, pack *p);
 void corot_multistep_statistics(const corot_integrator *self, corot_statistics *statistics);
 
 #endif

@@ -128,6 +128,13 @@ corot_status corot_explicit_limit_follow(explicit_limit *l, double t, const doub
   return COROT_OK;
 }
 
+void corot_explicit_limit_exchange(pack *p, explicit_limit *l) {
+  double *const number[] = {&l->frequency, &l->damping, &l->ratio, &l->reach};
+  for (size_t k = 0; k < sizeof number / sizeof *number; k++) corot_pack_double(p, number[k]);
+  corot_pack_long(p, &l->steps);
+  corot_pack_doubles(p, l->x, (size_t)l->n);
+}
+
 double corot_explicit_limit(const explicit_limit *l) {
   return l->reach > 0 ? l->reach / l->frequency : INFINITY;
 }

@@ -6,6 +6,8 @@
 
 #include <corot/solve.h>
 
+#include "core/base/pack.h"
+
 typedef struct explicit_limit explicit_limit;
 
 /* `stability` [degree + 1]: the coefficients of the method's stability polynomial R(z), of at most
@@ -20,6 +22,9 @@ void corot_explicit_limit_destroy(explicit_limit *limit);
 /* Call this before each step: it follows the fastest vibration by an iteration now and then. Where
    that fails, the limit is the old one. */
 corot_status corot_explicit_limit_follow(explicit_limit *limit, double t, const double *u);
+
+/* Writes or reads what has been followed so far. */
+void corot_explicit_limit_exchange(pack *p, explicit_limit *limit);
 
 /* The longest stable step [s]; infinity: none was found. */
 double corot_explicit_limit(const explicit_limit *limit);

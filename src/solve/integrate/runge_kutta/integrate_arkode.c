@@ -124,4 +124,6 @@ const integrator_ops corot_integrator_arkode = {
     .changed = corot_rk_changed,
     .loaded = corot_rk_loaded,
     .statistics = corot_rk_statistics,
+    .settle = corot_rk_settle,
+    .exchange = corot_rk_exchange,
 };

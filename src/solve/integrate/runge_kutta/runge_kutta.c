@@ -61,8 +61,17 @@ static corot_status reset(runge_kutta *m, double h) {
   m->t_stop = NAN;
   m->stale = false;
   m->fresh = true;
+  m->begin = h;
   if (m->api->reset(m->memory, d->self->t, d->y) || m->api->set_first_step(m->memory, h))
     return corot_driver_refuse(d, "restart");
+  return COROT_OK;
+}
+
+/* *h = the step that error control would take next; 0: it is not known yet. */
+static corot_status usual_step(const runge_kutta *m, double *h) {
+  *h = m->begin;
+  if (m->begin > 0 || m->driver.self->nst == 0) return COROT_OK;
+  if (m->api->next_step(m->memory, h)) return corot_driver_refuse(&m->driver, "statistics");
   return COROT_OK;
 }
 
@@ -70,8 +79,8 @@ static corot_status reset(runge_kutta *m, double h) {
    it is what it was there is nothing to begin. */
 static corot_status begin_afresh(runge_kutta *m) {
   driver *d = &m->driver;
-  double h = m->first_step, usual = 0;
-  if (m->api->next_step(m->memory, &usual)) return corot_driver_refuse(d, "statistics");
+  double h = m->first_step, usual;
+  COROT_TRY(usual_step(m, &usual));
   m->nfe++;
   if (corot_driver_rhs(m->start.t, m->start.y, m->error, d))
     return corot_driver_give_up(d, "in the state reached");
@@ -344,12 +353,12 @@ corot_status corot_rk_work(corot_integrator *self, double t, double *dissipated,
 static corot_status cross(runge_kutta *m, double t_stop) {
   driver *d = &m->driver;
   double h = m->first_step; /* not known before the first step */
-  if (h == 0 && d->self->nst > 0 && m->api->next_step(m->memory, &h))
-    return corot_driver_refuse(d, "statistics");
+  if (h == 0) COROT_TRY(usual_step(m, &h));
   t_stop = corot_integrator_sight(d->self, h, t_stop);
   if (m->stale) COROT_TRY(begin_afresh(m));
   COROT_TRY(find_rate(m, &m->start, false));
   COROT_TRY(advance(m, t_stop, &m->end.t));
+  m->begin = 0;
   N_VScale(1, d->y, m->end.y);
   m->end.rate_known = m->end.power_known = false;
   if (m->api->local_errors(m->memory, m->error) || m->api->error_weights(m->memory, m->weight))
@@ -431,6 +440,33 @@ corot_status corot_rk_loaded(corot_integrator *self, corot_history history) {
   if (!(usual * N_VWrmsNorm(m->error, m->weight) < 0.01)) return corot_rk_changed(self, history);
   m->end.power_known = false;
   return COROT_OK;
+}
+
+/* The shorter step that a kink may ask for goes by the factor there is. */
+corot_status corot_rk_settle(corot_integrator *self) {
+  runge_kutta *m = self->method;
+  if (!m->stale) return COROT_OK;
+  rk_end before = m->start;
+  m->start = m->end;
+  m->start.t = self->t;
+  corot_status status = begin_afresh(m);
+  m->end = m->start;
+  m->start = before;
+  return status;
+}
+
+void corot_rk_exchange(corot_integrator *self, pack *p) {
+  runge_kutta *m = self->method;
+  double h = 0;
+  if (!p->reading && !p->status) p->status = usual_step(m, &h);
+  corot_pack_double(p, &h);
+  corot_pack_doubles(p, m->work_end, 2);
+  corot_pack_double(p, &m->driver.longest);
+  corot_pack_bool(p, &m->resolved);
+  if (m->limit) corot_explicit_limit_exchange(p, m->limit);
+  if (!p->reading || p->status || !(h > 0)) return;
+  m->begin = h;
+  if (m->api->set_first_step(m->memory, h)) p->status = corot_driver_refuse(&m->driver, "set-up");
 }
 
 void corot_rk_statistics(const corot_integrator *self, corot_statistics *s) {

@@ -91,7 +91,8 @@ typedef struct runge_kutta {
   bool stale;                        /* r has jumped since the last step */
   bool fresh;                        /* ARKODE begins at the start of the last step */
   double first_step;                 /* after the next reset; 0: as error control had it */
-  explicit_limit *limit;             /* NULL: implicit */
+  double begin;          /* step of a method that begins from a saved state; 0: of others */
+  explicit_limit *limit; /* NULL: implicit */
   long nni, nfe, nfeQ, nrestart;
 } runge_kutta;
 
@@ -107,6 +108,8 @@ corot_status corot_rk_at(corot_integrator *self, double t, double *u, double *v)
 corot_status corot_rk_work(corot_integrator *self, double t, double *dissipated, double *external);
 corot_status corot_rk_changed(corot_integrator *self, corot_history history);
 corot_status corot_rk_loaded(corot_integrator *self, corot_history history);
+corot_status corot_rk_settle(corot_integrator *self);
+void corot_rk_exchange(corot_integrator *self, pack *p);
 void corot_rk_statistics(const corot_integrator *self, corot_statistics *statistics);
 
 /* Keeps the stages of an implicit method of this table, and finds the polynomial through them. */

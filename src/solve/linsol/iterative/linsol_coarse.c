@@ -124,7 +124,8 @@ void corot_coarse_clear(coarse_level *c) {
   free(c->x);
 }
 
-/* Of the solvers, some do not object to a matrix that is indefinite: these can count. */
+/* Of the solvers, some do not object to a matrix that is indefinite: these can count. What follows
+   from the values alone does not depend on the factors before. */
 static corot_status factor(coarse_level *c) {
   linsol *s = &c->s;
   int negative;
@@ -134,6 +135,7 @@ static corot_status factor(coarse_level *c) {
   if (negative > 0)
     return corot_fail(COROT_RETRY, "the matrix is not positive definite (%d negative pivots)",
                       negative);
+  if (s->ops->forget) s->ops->forget(s->solver);
   return s->ops->factor(s->solver, s->value, &fresh);
 }
 
