@@ -18,6 +18,8 @@ typedef struct plan {
   corot_frames frames;
   bool live; /* inputs that change */
   int order;
+  double rival; /* iterations that a factor is worth, of conjugate gradients that were not asked
+                   for; 0: they were */
 } plan;
 
 typedef struct run {
@@ -34,11 +36,18 @@ static run begin(const plan *p) {
   corot_integrator_def def = corot_integrator_defaults();
   def.method = corot_method_at(p->method)->name, def.rtol = 1e-5, def.step = 1e-3;
   if (p->solver) def.linear.solver = p->solver;
+  if (p->rival > 0) def.linear.preconditioner = "block-jacobi"; /* takes more iterations */
   double *rest = calloc(r.b.n, sizeof *rest);
   corot_state_enter(r.b.state, 0);
   assert_ok(corot_integrator_create(&def, r.b.model, r.b.state, 0, rest, rest, &r.integrator));
+  if (p->rival > 0) {
+    r.integrator->pencil->tentative = true;
+    r.integrator->pencil->chosen.rival.factor = p->rival;
+  }
   corot_frame_policy policy = corot_frame_policy_defaults();
-  policy.frames = p->frames, policy.interval = 4e-3, policy.max_angle = 0.02;
+  policy.frames = p->frames, policy.max_angle = 0.02;
+  if (p->frames == COROT_FRAMES_HELD) policy.interval = 4e-3;
+  if (p->frames == COROT_FRAMES_EXTRAPOLATED) policy.max_angle = 1; /* the cap comes before */
   assert_ok(corot_frame_clock_create(&policy, r.b.model, r.b.state, r.integrator, 0, rest, rest,
                                      &r.clock));
   free(rest);
@@ -66,11 +75,14 @@ static void drop_times(corot_statistics *s) {
 /* Everything that comes in while it goes on; the k-th change. */
 static void change_inputs(const run *r, int k, double t) {
   const corot_material_factors stiffer = {1.2, 1 + 0.1 * k, 1, 1};
-  double(*force)[3] = calloc(r->b.mesh->nnode, sizeof *force);
+  double(*force)[3] = calloc(r->b.mesh->nnode + 1, sizeof *force);
   force[r->b.mesh->nnode - 1][0] = 0.01 * k;
   double x[1][3] = {{1e-3 * k, 0, 0}};
   corot_path path = {.group = "zmin", .t = t + 5e-3, .n = 1, .x = (const double(*)[3])x};
-  assert_ok(corot_inputs_set_force(r->in, r->b.mesh->nnode, (const double(*)[3])force));
+  const double(*push)[3] = (const double(*)[3])force;
+  if (k == 1) assert_ok(corot_inputs_set_force(r->in, r->b.mesh->nnode, push));
+  if (k > 1)
+    assert_ok(corot_inputs_ramp_force(r->in, r->b.mesh->nnode, t, push, t + 1e-2, push + 1));
   assert_ok(corot_inputs_ramp_load(r->in, 1, t, 1, t + 1, 1 + k));
   assert_ok(corot_inputs_set_load(r->in, 2, 0.5 * k));
   if (k < 3) assert_ok(corot_inputs_set_material(r->in, 0, &stiffer));
@@ -124,8 +136,10 @@ static void check(const plan *p) {
   go(&first, 1, &warm);
   for (int leg = 0; leg < 2; leg++) {
     assert_ok(corot_integrator_save(first.integrator, &blob, &bytes));
+    double stop = corot_frame_clock_stop(first.clock);
     go(&first, 2, &went_on);
     assert_ok(corot_integrator_restore(other.integrator, blob, bytes));
+    assert_true(corot_frame_clock_stop(other.clock) == stop);
     go(&other, 2, &elsewhere);
     assert_equal(n, &went_on, &elsewhere);
     assert_ok(corot_integrator_restore(first.integrator, blob, bytes));
@@ -146,7 +160,7 @@ static void every_method_goes_on_from_a_state_bit_for_bit(void **state) {
   (void)state;
   for (int i = 0; corot_method_at(i); i++)
     for (int live = 0; live < 2; live++) {
-      plan p = {i, "polar", NULL, COROT_FRAMES_EXACT, live, 1};
+      plan p = {i, "polar", NULL, COROT_FRAMES_EXACT, live, 1, 0};
       check(&p);
     }
 }
@@ -155,7 +169,7 @@ static void held_and_extrapolated_frames_come_with_it(void **state) {
   (void)state;
   for (int i = 0; corot_method_at(i); i++)
     for (int f = 1; f < 3; f++) {
-      plan p = {i, "polar", NULL, kinds[f], true, 1};
+      plan p = {i, "polar", NULL, kinds[f], true, 1, 0};
       check(&p);
     }
 }
@@ -165,9 +179,136 @@ static void every_measure_and_solver_does(void **state) {
   static const char *const solvers[] = {"klu", "pcg", NULL};
   for (int k = 0; k < NMEASURE; k++)
     for (int s = 0; s < 3; s++) {
-      plan p = {s, measures[k], solvers[s], COROT_FRAMES_EXACT, s == 0, s == 0 ? 2 : 1};
+      plan p = {s, measures[k], solvers[s], COROT_FRAMES_EXACT, s == 0, s == 0 ? 2 : 1, 0};
       check(&p);
     }
+}
+
+static bool by_pcg(const corot_integrator *integrator) {
+  return strncmp(corot_integrator_chosen(integrator).linear_solver, "pcg", 3) == 0;
+}
+
+/* Conjugate gradients give way to a direct solver before the state is taken away, after it, or
+   never; who restores it has the solver in use that was in use then. */
+static void the_solver_in_use_comes_with_it(void **state) {
+  (void)state;
+  int count[2] = {0};
+  for (double rival = 1; rival < 10; rival *= 1.5) {
+    plan p = {0, "polar", "pcg", COROT_FRAMES_EXACT, false, 1, rival};
+    check(&p);
+    run r = begin(&p), fresh = begin(&p);
+    trace leg[4];
+    void *blob;
+    size_t bytes;
+    go(&r, 1, &leg[0]);
+    go(&r, 1, &leg[1]);
+    bool changed = !by_pcg(r.integrator);
+    assert_ok(corot_integrator_save(r.integrator, &blob, &bytes));
+    go(&r, 2, &leg[2]);
+    assert_ok(corot_integrator_restore(fresh.integrator, blob, bytes));
+    assert_int_equal(by_pcg(fresh.integrator), !changed);
+    go(&fresh, 2, &leg[3]);
+    assert_equal(r.b.n, &leg[2], &leg[3]);
+    for (int k = 0; k < 4; k++) free(leg[k].u);
+    corot_blob_free(blob);
+    end(&fresh);
+    end(&r);
+    count[changed]++;
+  }
+  assert_true(count[0] > 0 && count[1] > 0);
+}
+
+static const double jump_time[] = {0, 0.01, 0.01}, jump_value[] = {0.2, 0.2, 3};
+
+/* Twelve steps; how far they went, and where to. */
+static void go_past(corot_integrator *integrator, int n, double end_of[2]) {
+  corot_step step;
+  for (int s = 0; s < 12; s++) assert_ok(corot_integrator_step(integrator, 0.2, &step));
+  double *u = malloc(n * sizeof *u);
+  assert_ok(corot_integrator_at(integrator, step.t, u, NULL));
+  end_of[0] = step.t, end_of[1] = u[n - 3];
+  free(u);
+}
+
+/* Steps to the jump, passes it, and is saved there before anything else happens: also for who is
+   far from it. */
+static void a_jump_that_was_just_passed_is_not_forgotten(void **state) {
+  (void)state;
+  const corot_load pulled = {COROT_TRACTION, "zmax", {300, 0, 0}, {3, jump_time, jump_value}};
+  for (int i = 0; corot_method_at(i); i++) {
+    double end_of[3][2];
+    body b = make_bar("polar", 1, 1, &pulled), c = make_bar("polar", 1, 1, &pulled);
+    corot_state_enter(b.state, 0), corot_state_enter(c.state, 0);
+    corot_integrator *integrator = integrate_by(i, &b, 1e-4), *other = integrate_by(i, &c, 1e-4);
+    void *blob;
+    size_t bytes;
+    go_to(integrator, 0.01);
+    corot_state_enter(b.state, 0.01);
+    assert_ok(corot_integrator_kink(integrator));
+    assert_ok(corot_integrator_save(integrator, &blob, &bytes));
+    go_past(integrator, b.n, end_of[0]);
+    assert_ok(corot_integrator_restore(integrator, blob, bytes));
+    go_past(integrator, b.n, end_of[1]);
+    assert_ok(corot_integrator_restore(other, blob, bytes));
+    go_past(other, b.n, end_of[2]);
+    assert_memory_equal(end_of[0], end_of[1], sizeof end_of[0]);
+    assert_memory_equal(end_of[0], end_of[2], sizeof end_of[0]);
+    corot_blob_free(blob);
+    corot_integrator_destroy(integrator), corot_integrator_destroy(other);
+    drop_body(&b), drop_body(&c);
+  }
+}
+
+/* --- What a beginning costs --------------------------------------------------------------------
+ */
+
+/* To the end of a swing, saved after every `often` steps (0: never): steps taken, and where a
+   corner is. */
+static long swing(int i, const char *table, int often, double *x) {
+  const corot_load pulled = {COROT_TRACTION, "zmax", {100, 0, 0}, {0}};
+  body b = make_bar("polar", 1, 1, &pulled);
+  corot_integrator_def def = corot_integrator_defaults();
+  def.method = corot_method_at(i)->name, def.rtol = 1e-6, def.step = 1e-3, def.table = table;
+  double *u = calloc(2 * b.n, sizeof *u);
+  corot_integrator *integrator;
+  assert_ok(corot_integrator_create(&def, b.model, b.state, 0, u, u + b.n, &integrator));
+  for (corot_step step = {0}; step.t < 0.3 * (1 - 1e-9);) {
+    void *blob;
+    size_t bytes;
+    assert_ok(corot_integrator_step(integrator, 0.3, &step));
+    if (often == 0 || corot_integrator_statistics(integrator).nst % often) continue;
+    assert_ok(corot_integrator_save(integrator, &blob, &bytes));
+    corot_blob_free(blob);
+  }
+  if (table) assert_string_equal(corot_integrator_chosen(integrator).table, table);
+  assert_ok(corot_integrator_at(integrator, 0.3, u, NULL));
+  *x = u[b.n - 3];
+  long nst = corot_integrator_statistics(integrator).nst;
+  free(u);
+  corot_integrator_destroy(integrator);
+  drop_body(&b);
+  return nst;
+}
+
+/* Methods of one step take as many steps as without, but for what error control remembers of the
+   errors before; of constant step the same ones; those of several take some ten more for each
+   beginning. All arrive at the same place, but for a multiple of the tolerance. */
+static void a_beginning_costs_methods_of_one_step_nothing(void **state) {
+  (void)state;
+  for (int i = 0; corot_method_at(i); i++) {
+    const corot_method_kind *kind = corot_method_at(i);
+    const char *table = kind->stages && !kind->explicit_steps ? "ARKODE_KVAERNO_5_3_4" : NULL;
+    int often = kind->multistep ? 100 : 20;
+    double x, y;
+    long plain = swing(i, table, 0, &x), saved = swing(i, table, often, &y);
+    if (kind->multistep)
+      assert_true(saved < plain + 20 * (plain / often));
+    else if (kind->stages)
+      assert_true(labs(saved - plain) <= plain / 10);
+    else
+      assert_int_equal(saved, plain);
+    assert_close(y, x, kind->multistep ? 1e-4 : kind->stages ? 1e-5 : 1e-7, 0);
+  }
 }
 
 /* --- What is refused ---------------------------------------------------------------------------
@@ -175,7 +316,7 @@ static void every_measure_and_solver_does(void **state) {
 
 static void any_damage_is_refused_and_nothing_is_lost(void **state) {
   (void)state;
-  plan p = {0, "polar", NULL, COROT_FRAMES_HELD, true, 1};
+  plan p = {0, "polar", NULL, COROT_FRAMES_HELD, true, 1, 0};
   run r = begin(&p);
   trace warm, went_on, again;
   void *blob;
@@ -214,7 +355,7 @@ static void any_damage_is_refused_and_nothing_is_lost(void **state) {
 
 static void what_is_of_another_model_or_definition_is_refused(void **state) {
   (void)state;
-  plan p = {0, "polar", NULL, COROT_FRAMES_EXACT, false, 1};
+  plan p = {0, "polar", NULL, COROT_FRAMES_EXACT, false, 1, 0};
   run r = begin(&p);
   void *blob;
   size_t bytes;
@@ -222,11 +363,11 @@ static void what_is_of_another_model_or_definition_is_refused(void **state) {
   const struct {
     plan plan;
     const char *words;
-  } others[] = {{{0, "green", NULL, COROT_FRAMES_EXACT, false, 1}, "another model"},
-                {{0, "polar", NULL, COROT_FRAMES_EXACT, false, 2}, "another model"},
-                {{1, "polar", NULL, COROT_FRAMES_EXACT, false, 1}, "another definition"},
-                {{0, "polar", "klu", COROT_FRAMES_EXACT, false, 1}, "another definition"},
-                {{0, "polar", NULL, COROT_FRAMES_EXACT, true, 1}, "inputs"}};
+  } others[] = {{{0, "green", NULL, COROT_FRAMES_EXACT, false, 1, 0}, "another model"},
+                {{0, "polar", NULL, COROT_FRAMES_EXACT, false, 2, 0}, "another model"},
+                {{1, "polar", NULL, COROT_FRAMES_EXACT, false, 1, 0}, "another definition"},
+                {{0, "polar", "klu", COROT_FRAMES_EXACT, false, 1, 0}, "another definition"},
+                {{0, "polar", NULL, COROT_FRAMES_EXACT, true, 1, 0}, "inputs"}};
   for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
     run other = begin(&others[k].plan);
     assert_fails(corot_integrator_restore(other.integrator, blob, bytes), COROT_EINVAL,
@@ -241,7 +382,7 @@ static void what_is_of_another_model_or_definition_is_refused(void **state) {
 static void a_model_is_known_by_each_of_its_numbers(void **state) {
   (void)state;
   corot_load changed[NLOAD];
-  plan p = {0, "polar", NULL, COROT_FRAMES_EXACT, false, 1};
+  plan p = {0, "polar", NULL, COROT_FRAMES_EXACT, false, 1, 0};
   run r = begin(&p);
   void *blob;
   size_t bytes;
@@ -272,7 +413,7 @@ static void a_model_is_known_by_each_of_its_numbers(void **state) {
 
 static void a_change_that_was_not_told_is_refused(void **state) {
   (void)state;
-  plan p = {0, "polar", NULL, COROT_FRAMES_EXACT, true, 1};
+  plan p = {0, "polar", NULL, COROT_FRAMES_EXACT, true, 1, 0};
   run r = begin(&p);
   void *blob;
   size_t bytes;
@@ -287,7 +428,7 @@ static void a_change_that_was_not_told_is_refused(void **state) {
 /* A clock may go before its integrator or after it. */
 static void a_clock_may_outlive_its_integrator(void **state) {
   (void)state;
-  plan p = {0, "polar", NULL, COROT_FRAMES_HELD, false, 1};
+  plan p = {0, "polar", NULL, COROT_FRAMES_HELD, false, 1, 0};
   run r = begin(&p);
   corot_integrator_destroy(r.integrator);
   r.integrator = NULL;
@@ -322,7 +463,7 @@ static void want_of_memory_loses_nothing(void **state) {
   (void)state;
   for (int i = 0; corot_method_at(i); i++)
     for (int restoring = 0; restoring < 2; restoring++) {
-      plan p = {i, "polar", NULL, COROT_FRAMES_HELD, true, 1};
+      plan p = {i, "polar", NULL, COROT_FRAMES_HELD, true, 1, 0};
       run r = begin(&p), other = begin(&p);
       trace warm, warm_too, went_on, again;
       void *blob = NULL;
@@ -354,6 +495,9 @@ int main(void) {
       cmocka_unit_test(every_method_goes_on_from_a_state_bit_for_bit),
       cmocka_unit_test(held_and_extrapolated_frames_come_with_it),
       cmocka_unit_test(every_measure_and_solver_does),
+      cmocka_unit_test(the_solver_in_use_comes_with_it),
+      cmocka_unit_test(a_jump_that_was_just_passed_is_not_forgotten),
+      cmocka_unit_test(a_beginning_costs_methods_of_one_step_nothing),
       cmocka_unit_test(any_damage_is_refused_and_nothing_is_lost),
       cmocka_unit_test(what_is_of_another_model_or_definition_is_refused),
       cmocka_unit_test(a_model_is_known_by_each_of_its_numbers),
