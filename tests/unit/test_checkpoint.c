@@ -47,7 +47,7 @@ static run begin(const plan *p) {
   corot_frame_policy policy = corot_frame_policy_defaults();
   policy.frames = p->frames, policy.max_angle = 0.02;
   if (p->frames == COROT_FRAMES_HELD) policy.interval = 4e-3;
-  if (p->frames == COROT_FRAMES_EXTRAPOLATED) policy.max_angle = 1; /* the cap comes before */
+  if (p->frames == COROT_FRAMES_EXTRAPOLATED) policy.max_angle = 1e-3; /* the cap, too */
   assert_ok(corot_frame_clock_create(&policy, r.b.model, r.b.state, r.integrator, 0, rest, rest,
                                      &r.clock));
   free(rest);
