@@ -8,9 +8,10 @@
 
 #include "sisters.h"
 
-/* A status: COROT_EINVAL names the function and what it was not given. */
-#define COROT_GIVEN(pointer) \
-  ((pointer) ? COROT_OK : corot_fail(COROT_EINVAL, "%s: '%s' is NULL", __func__, #pointer))
+/* A status: COROT_EINVAL names the function and what it was not given, as the header calls it. */
+#define COROT_GIVEN_AS(pointer, name) \
+  ((pointer) ? COROT_OK : corot_fail(COROT_EINVAL, "%s: '%s' is NULL", __func__, name))
+#define COROT_GIVEN(pointer) COROT_GIVEN_AS(pointer, #pointer)
 
 /* Defaults, `ours` of `size` bytes, into a definition of `bytes`, the first member of both being
    that number; what does not fit is left out, what we do not know is zero. */

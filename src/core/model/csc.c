@@ -112,7 +112,7 @@ static corot_status fill(const corot_model *m, corot_triangle triangle, const up
 }
 
 corot_status corot_csc_create(const corot_model *m, corot_triangle triangle, corot_csc **csc) {
-  COROT_TRY(COROT_GIVEN(m));
+  COROT_TRY(COROT_GIVEN_AS(m, "model"));
   COROT_TRY(COROT_GIVEN(csc));
   upper_lists u = {0};
   corot_csc *made = calloc(1, sizeof *made);

@@ -101,7 +101,7 @@ void corot_factors_settle(corot_inputs *in) { fill_averages(in->model, in->other
 corot_status corot_inputs_set_material(corot_inputs *in, int k,
                                        const corot_material_factors *factors) {
   const corot_material_factors one = {1, 1, 1, 1}, *by = factors ? factors : &one;
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   COROT_TRY(check(in, k, by));
   COROT_TRY(corot_factors_reserve(in));
   const corot_model *m = in->model;

@@ -24,7 +24,7 @@ static corot_status allocate(corot_inputs *in) {
 }
 
 corot_status corot_inputs_set_feedback(corot_inputs *in, const corot_feedback *feedback) {
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   if (feedback && !feedback->force)
     return corot_fail(COROT_EINVAL, "inputs: the feedback has no force");
   if (feedback) COROT_TRY(allocate(in));
@@ -167,7 +167,7 @@ static corot_status add_block(corot_blocks *b, int i, int j, const double *K, co
 }
 
 corot_status corot_blocks_add(corot_blocks *b, int i, int j, const double *K, const double *D) {
-  if (!b) return corot_fail(COROT_EINVAL, "corot_blocks_add: 'blocks' is NULL");
+  COROT_TRY(COROT_GIVEN_AS(b, "blocks"));
   corot_status status = add_block(b, i, j, K, D);
   if (!b->status) b->status = status;
   return status;

@@ -70,7 +70,7 @@ static corot_status check_force(const corot_inputs *in, int nnode, const double 
 }
 
 corot_status corot_inputs_set_force(corot_inputs *in, int nnode, const double (*force)[3]) {
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   if (force) COROT_TRY(check_force(in, nnode, force));
   in->forced = force != NULL;
   in->loads++;
@@ -87,7 +87,7 @@ static corot_status check_window(double t0, double t1) {
 
 corot_status corot_inputs_ramp_force(corot_inputs *in, int nnode, double t0,
                                      const double (*from)[3], double t1, const double (*to)[3]) {
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   COROT_TRY(COROT_GIVEN(from));
   COROT_TRY(COROT_GIVEN(to));
   COROT_TRY(check_window(t0, t1));
@@ -105,7 +105,7 @@ corot_status corot_inputs_ramp_force(corot_inputs *in, int nnode, double t0,
 }
 
 static corot_status check_load(const corot_inputs *in, int k, double factor) {
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   if (k < 0 || k >= in->model->nload)
     return corot_fail(COROT_EINVAL, "inputs: there is no load %d: the model has %d", k,
                       in->model->nload);

@@ -273,7 +273,7 @@ void corot_loads_nodal(const corot_model *m, const instant *now, const double (*
 
 corot_status corot_load_force(const corot_model *m, double t, double factor,
                               const double (*displacement)[3], double (*f)[3]) {
-  COROT_TRY(COROT_GIVEN(m));
+  COROT_TRY(COROT_GIVEN_AS(m, "model"));
   COROT_TRY(COROT_GIVEN(displacement));
   COROT_TRY(COROT_GIVEN(f));
   int nnode = m->mesh->nnode;

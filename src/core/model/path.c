@@ -187,7 +187,7 @@ static void start(corot_inputs *in, const corot_path *path, const corot_group *g
 
 corot_status corot_inputs_start_path(corot_inputs *in, const corot_path *path) {
   const corot_group *group;
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   COROT_TRY(COROT_GIVEN(path));
   COROT_TRY(check(in, path, &group));
   COROT_TRY(corot_paths_reserve(in));
@@ -197,7 +197,7 @@ corot_status corot_inputs_start_path(corot_inputs *in, const corot_path *path) {
 
 corot_status corot_inputs_set_path(corot_inputs *in, const corot_path *path) {
   const corot_group *group;
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   COROT_TRY(COROT_GIVEN(path));
   COROT_TRY(check(in, path, &group));
   COROT_TRY(corot_paths_reserve(in));
@@ -227,7 +227,7 @@ static void join(double h, double x0, double v0, double a0, double x1, const dou
 
 corot_status corot_inputs_reach(corot_inputs *in, double t0, const corot_path *path) {
   const corot_group *group;
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   COROT_TRY(COROT_GIVEN(path));
   double h = path->t - t0;
   COROT_TRY(check(in, path, &group));
@@ -256,7 +256,7 @@ corot_status corot_inputs_reach(corot_inputs *in, double t0, const corot_path *p
 corot_status corot_inputs_release(corot_inputs *in, const char *name, double t) {
   const instant now = {.t = t, .load_t = t, .load_factor = 1, .side = NAN, .moving = true};
   const corot_group *group;
-  COROT_TRY(COROT_GIVEN(in));
+  COROT_TRY(COROT_GIVEN_AS(in, "inputs"));
   COROT_TRY(COROT_GIVEN(name));
   COROT_TRY(find_group(in, name, &group));
   if (in->npath == 0) return COROT_OK;

@@ -114,7 +114,7 @@ static corot_status fill(const int *tet, const double (*at)[4], corot_points *p)
 
 corot_status corot_points_create(const corot_model *m, int n, const int *tet, const double (*at)[4],
                                  corot_points **points) {
-  COROT_TRY(COROT_GIVEN(m));
+  COROT_TRY(COROT_GIVEN_AS(m, "model"));
   COROT_TRY(COROT_GIVEN(points));
   corot_points *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for %d points", n);

@@ -62,7 +62,7 @@ void corot_state_use(corot_state *s, corot_frames frames) {
 }
 
 corot_status corot_state_use_inputs(corot_state *s, corot_inputs *inputs) {
-  if (!s) return corot_fail(COROT_EINVAL, "corot_state_use_inputs: 'state' is NULL");
+  COROT_TRY(COROT_GIVEN_AS(s, "state"));
   if (inputs && inputs->model != s->model)
     return corot_fail(COROT_EINVAL, "the inputs are of another model than the state");
   bool factors = (s->inputs && s->inputs->other) || (inputs && inputs->other);

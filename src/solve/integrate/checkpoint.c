@@ -237,7 +237,7 @@ static corot_status save(corot_integrator *self, double *u, double *v, pack *p) 
 }
 
 corot_status corot_integrator_save(corot_integrator *self, void **blob, size_t *bytes) {
-  if (!self) return corot_fail(COROT_EINVAL, "%s: 'integrator' is NULL", __func__);
+  COROT_TRY(COROT_GIVEN_AS(self, "integrator"));
   COROT_TRY(COROT_GIVEN(blob));
   COROT_TRY(COROT_GIVEN(bytes));
   state_stamp now = corot_state_stamp(self->state);
@@ -261,7 +261,7 @@ corot_status corot_integrator_save(corot_integrator *self, void **blob, size_t *
 }
 
 corot_status corot_integrator_restore(corot_integrator *self, const void *blob, size_t bytes) {
-  if (!self) return corot_fail(COROT_EINVAL, "%s: 'integrator' is NULL", __func__);
+  COROT_TRY(COROT_GIVEN_AS(self, "integrator"));
   COROT_TRY(COROT_GIVEN(blob));
   COROT_TRY(check_blob(self, blob, bytes));
   size_t n = corot_model_ndof(self->model);

@@ -134,7 +134,7 @@ static corot_status reason_at(corot_frame_clock *c, double t, corot_frame_reason
 
 corot_status corot_frame_clock_tick(corot_frame_clock *c, double t, corot_frame_event *event) {
   corot_frame_event e = {0};
-  if (!c) return corot_fail(COROT_EINVAL, "corot_frame_clock_tick: 'clock' is NULL");
+  COROT_TRY(COROT_GIVEN_AS(c, "clock"));
   if (c->policy.frames != COROT_FRAMES_EXACT) {
     COROT_TRY(corot_integrator_at(c->integrator, t, c->u, c->v));
     COROT_TRY(reason_at(c, t, &e.reason));

@@ -194,10 +194,6 @@ void corot_integrator_destroy(corot_integrator *self) {
   free(self);
 }
 
-static corot_status given(const corot_integrator *self, const char *who) {
-  return self ? COROT_OK : corot_fail(COROT_EINVAL, "%s: 'integrator' is NULL", who);
-}
-
 /* Two clocks that mean one instant differ by rounding, over which there is no step to take. */
 static bool within_rounding(const corot_integrator *self, double t_stop) {
   return t_stop - self->t <= 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
@@ -214,7 +210,7 @@ static void settle_at(corot_integrator *self, double t_stop, corot_step *step) {
 }
 
 corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_step *step) {
-  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN_AS(self, "integrator"));
   COROT_TRY(COROT_GIVEN(step));
   /* what needs no step, or may not have one */
   if (!(t_stop > self->t) || !isfinite(t_stop))
@@ -254,14 +250,14 @@ static corot_status check_within(const corot_integrator *self, double t) {
 }
 
 corot_status corot_integrator_at(corot_integrator *self, double t, double *u, double *v) {
-  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN_AS(self, "integrator"));
   COROT_TRY(check_within(self, t));
   return self->ops->at(self, t, u, v);
 }
 
 corot_status corot_integrator_work(corot_integrator *self, double t, double *dissipated,
                                    double *external) {
-  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN_AS(self, "integrator"));
   COROT_TRY(COROT_GIVEN(dissipated));
   COROT_TRY(COROT_GIVEN(external));
   COROT_TRY(check_within(self, t));
@@ -272,7 +268,7 @@ corot_status corot_integrator_work(corot_integrator *self, double t, double *dis
 
 corot_status corot_integrator_energy(corot_integrator *self, const double *u, const double *v,
                                      corot_energies *energies) {
-  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN_AS(self, "integrator"));
   COROT_TRY(COROT_GIVEN(energies));
   double near = 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
   if (fabs(self->t_energies - self->t) <= near) {
@@ -297,7 +293,7 @@ static corot_status take_gain(corot_integrator *self) {
 }
 
 corot_status corot_integrator_changed(corot_integrator *self, corot_history history) {
-  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN_AS(self, "integrator"));
   state_stamp now = corot_state_stamp(self->state), before = self->seen;
   bool loads = now.loads != before.loads, paths = now.paths != before.paths;
   bool others = now.frames != before.frames || now.matrices != before.matrices;
@@ -310,7 +306,7 @@ corot_status corot_integrator_changed(corot_integrator *self, corot_history hist
 }
 
 corot_status corot_integrator_kink(corot_integrator *self) {
-  COROT_TRY(given(self, __func__));
+  COROT_TRY(COROT_GIVEN_AS(self, "integrator"));
   if (!corot_integrator_controls_error(self->ops->kind.name)) return COROT_OK;
   return self->ops->changed(self, COROT_HISTORY_AUTO);
 }

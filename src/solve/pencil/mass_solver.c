@@ -167,7 +167,7 @@ void corot_mass_solver_destroy(corot_mass_solver *s) {
 }
 
 corot_status corot_mass_solve(corot_mass_solver *s, const double *b, double *x) {
-  if (!s) return corot_fail(COROT_EINVAL, "corot_mass_solve: 'solver' is NULL");
+  COROT_TRY(COROT_GIVEN_AS(s, "solver"));
   if (!s->ops) {
     for (int i = 0; i < s->n; i++) x[i] = b[i] / s->lumped[i];
     return COROT_OK;

@@ -211,7 +211,7 @@ static corot_status step_on(corot_statics *s, corot_load_step *step) {
 }
 
 corot_status corot_statics_step(corot_statics *s, corot_load_step *step) {
-  if (!s) return corot_fail(COROT_EINVAL, "corot_statics_step: 'statics' is NULL");
+  COROT_TRY(COROT_GIVEN_AS(s, "statics"));
   COROT_TRY(COROT_GIVEN(step));
   if (s->factor >= 1) return corot_fail(COROT_EINVAL, "statics: the full load has been reached");
   if (s->unstable == s->unstable)
@@ -224,7 +224,7 @@ corot_status corot_statics_step(corot_statics *s, corot_load_step *step) {
 }
 
 corot_status corot_statics_solve(corot_statics *s) {
-  if (!s) return corot_fail(COROT_EINVAL, "corot_statics_solve: 'statics' is NULL");
+  COROT_TRY(COROT_GIVEN_AS(s, "statics"));
   corot_load_step step;
   while (s->factor < 1) COROT_TRY(corot_statics_step(s, &step));
   return COROT_OK;
