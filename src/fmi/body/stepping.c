@@ -17,6 +17,7 @@ struct stepping {
   double dissipated, external_work; /* before the integrator began [J] */
   bool due;                         /* what is to be done at t has not been done yet */
   bool told;                        /* inputs were set since */
+  bool shown;                       /* the hook has seen the end of the last step */
   double kink;                      /* the next one; INFINITY: there is none */
 };
 
@@ -47,6 +48,7 @@ corot_status stepping_create(const stepping_def *def, const moment *start, stepp
   if (!s) return no_memory();
   s->def = *def;
   s->t = start->t;
+  s->shown = true;
   s->method = def->body->used.integrator;
   s->method.linear.refinement = def->body->refinement;
   if (def->rtol > 0 && !is_constant(def->body)) s->method.rtol = def->rtol;
@@ -134,6 +136,7 @@ static corot_status step(stepping *s, double t, bool pause, moment *now) {
   COROT_TRY(corot_integrator_step(s->integrator, stop_before(s, t), &taken));
   s->t = taken.t;
   s->due = true;
+  s->shown = false;
   return COROT_OK;
 }
 
@@ -172,19 +175,35 @@ static double end_early(const stepping *s, double wanted, double t) {
   return fmin(t, fmax(wanted, s->t));
 }
 
-corot_status stepping_advance(stepping *s, double t, stepping_hook *hook, void *data, moment *now) {
+/* Shows the end of the last step, if it has not been shown and is not beyond *t, which becomes the
+   earlier end that the hook wants. */
+static corot_status show(stepping *s, double near, stepping_hook *hook, void *data, moment *now,
+                         double *t) {
+  double wanted = s->t;
+  if (!hook || s->shown || s->t > *t + near) return COROT_OK;
+  COROT_TRY(read(s, s->t, now));
+  s->shown = true;
+  if (hook(data, &wanted)) *t = end_early(s, wanted, *t);
+  return COROT_OK;
+}
+
+/* From step to step, until one has reached *t. */
+static corot_status advance(stepping *s, double near, stepping_hook *hook, void *data, moment *now,
+                            double *t) {
   bool pause = true;
+  COROT_TRY(show(s, near, hook, data, now, t));
+  while (s->t < *t - near) {
+    COROT_TRY(step(s, *t, pause, now));
+    COROT_TRY(show(s, near, hook, data, now, t));
+    pause = false;
+  }
+  return COROT_OK;
+}
+
+corot_status stepping_advance(stepping *s, double t, stepping_hook *hook, void *data, moment *now) {
   COROT_TRY(stepping_check(s->def.body, t));
   double near = is_constant(s->def.body) ? 1e-9 * s->method.step : 1e-12 * t;
-  corot_status status = COROT_OK;
-  while (status == COROT_OK && s->t < t - near) {
-    status = step(s, t, pause, now);
-    pause = false;
-    if (status || !hook || s->t > t + near) continue;
-    double wanted = s->t;
-    status = read(s, s->t, now);
-    if (status == COROT_OK && hook(data, &wanted)) t = end_early(s, wanted, t);
-  }
+  corot_status status = advance(s, near, hook, data, now, &t);
   if (status == COROT_OK) return read(s, t, now);
   char reason[512];
   snprintf(reason, sizeof reason, "%s", corot_error());
@@ -208,6 +227,7 @@ static corot_status go_back(stepping *s, const moment *now) {
   *s = fresh;
   s->t = now->t;
   s->due = false;
+  s->shown = true;
   s->dissipated = now->dissipated;
   s->external_work = now->external_work;
   find_kink(s, now->t);
@@ -249,10 +269,11 @@ corot_status stepping_exchange(stepping *s, pack *p, moment *now) {
   corot_pack_double(p, &as.external_work);
   corot_pack_double(p, &as.kink);
   corot_pack_bool(p, &as.due);
+  corot_pack_bool(p, &as.shown);
   COROT_TRY(p->reading ? restore(s, p) : save(s, p));
   if (!p->reading) return COROT_OK;
   s->t = as.t, s->dissipated = as.dissipated, s->external_work = as.external_work;
-  s->kink = as.kink, s->due = as.due;
+  s->kink = as.kink, s->due = as.due, s->shown = as.shown;
   s->told = false;
   return COROT_OK;
 }
