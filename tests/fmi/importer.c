@@ -138,9 +138,8 @@ void fmu_take_message(fmi3InstanceEnvironment environment, fmi3Status status, fm
 }
 
 fmi3Instance fmu_simulation(const fmu *f, fmu_log *log) {
-  fmi3Instance made =
-      f->InstantiateCoSimulation("one", f->token, f->resources, false, true, false, false, NULL, 0,
-                                 log, fmu_take_message, NULL);
+  fmi3Instance made = f->InstantiateCoSimulation("one", f->token, f->resources, false, true, false,
+                                                 false, NULL, 0, log, fmu_take_message, NULL);
   if (!made) fail_msg("%s", log->message);
   return made;
 }

@@ -1,5 +1,5 @@
-/* Model Exchange: an importer's own integrator (the classical method of Runge and Kutta) leads to what
-   Co-Simulation finds, and derivatives are those of differences. */
+/* Model Exchange: an importer's own integrator (the classical method of Runge and Kutta) leads to
+   what Co-Simulation finds, and derivatives are those of differences. */
 #include "check.h"
 #include "importer.h"
 
@@ -201,9 +201,9 @@ static void derivatives_of_outputs_are_those_of_differences(void **state) {
   seed[0] = 0.5;
   double found[5], at[2][5];
   for (int k = 0; k < 5; k++) unknown[k] = fmu_reference(o.f, name[k]);
-  assert_int_equal(o.f->GetDirectionalDerivative(o.instance, unknown, 5, known, 3, seed, o.n + 1,
-                                                 found, 5),
-                   fmi3OK);
+  assert_int_equal(
+      o.f->GetDirectionalDerivative(o.instance, unknown, 5, known, 3, seed, o.n + 1, found, 5),
+      fmi3OK);
   for (int side = 0; side < 2; side++) {
     double part = side ? h : -h;
     for (size_t i = 0; i < o.n; i++) o.y[i] = o.x[i] + part * seed[i + 1];
@@ -211,8 +211,7 @@ static void derivatives_of_outputs_are_those_of_differences(void **state) {
     fmu_set(o.f, o.instance, "push", 1.3 + part * seed[0]);
     for (int k = 0; k < 5; k++) at[side][k] = fmu_get(o.f, o.instance, name[k]);
   }
-  for (int k = 0; k < 5; k++)
-    assert_close(found[k], (at[1][k] - at[0][k]) / (2 * h), 1e-5, 1e-9);
+  for (int k = 0; k < 5; k++) assert_close(found[k], (at[1][k] - at[0][k]) / (2 * h), 1e-5, 1e-9);
   free(seed);
   end(&o);
 }
@@ -226,9 +225,9 @@ static void states_and_slopes_are_variables_too(void **state) {
   go_astray(&o);
   size_t half = o.n / 2;
   double *value = calloc(2 * o.n, sizeof *value);
-  const fmi3ValueReference all[4] = {
-      fmu_reference(o.f, "body.u"), fmu_reference(o.f, "body.v"), fmu_reference(o.f, "der(body.u)"),
-      fmu_reference(o.f, "der(body.v)")};
+  const fmi3ValueReference all[4] = {fmu_reference(o.f, "body.u"), fmu_reference(o.f, "body.v"),
+                                     fmu_reference(o.f, "der(body.u)"),
+                                     fmu_reference(o.f, "der(body.v)")};
   assert_int_equal(o.f->GetFloat64(o.instance, all, 4, value, 4 * half), fmi3OK);
   assert_memory_equal(value, o.x, o.n * sizeof *value);
   find_slope(&o, o.t, o.x, o.slope);

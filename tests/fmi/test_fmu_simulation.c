@@ -219,7 +219,7 @@ typedef struct watch {
   const fmu *f;
   fmi3Instance instance;
   const fmu_table *history;
-  int row;         /* of the history, that was seen last */
+  int row;          /* of the history, that was seen last */
   double return_at; /* asks for an early return there; INFINITY: never */
   int calls, can_return;
   fmu_log log;
@@ -254,9 +254,8 @@ static void take_watch_message(fmi3InstanceEnvironment environment, fmi3Status s
 }
 
 static fmi3Instance watched(watch *w, bool early) {
-  w->instance =
-      w->f->InstantiateCoSimulation("watched", w->f->token, w->f->resources, false, false, false,
-                                    early, NULL, 0, w, take_watch_message, look);
+  w->instance = w->f->InstantiateCoSimulation("watched", w->f->token, w->f->resources, false, false,
+                                              false, early, NULL, 0, w, take_watch_message, look);
   assert_non_null(w->instance);
   start(w->f, w->instance, 0.125);
   return w->instance;
