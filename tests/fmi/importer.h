@@ -7,22 +7,19 @@
 #include "fmi/interface/fmi3.h"
 
 /* The functions that the tests call, each under its name without fmi3. */
-#define FMU_FUNCTIONS(X)                                                                      \
-  X(GetVersion)                                                                               \
-  X(SetDebugLogging) X(InstantiateModelExchange) X(InstantiateCoSimulation)                   \
-      X(InstantiateScheduledExecution) X(FreeInstance) X(EnterInitializationMode)             \
-          X(ExitInitializationMode) X(EnterEventMode) X(Terminate) X(Reset) X(GetFloat64)     \
-              X(SetFloat64) X(GetFloat32) X(SetString) X(GetDirectionalDerivative)            \
-                  X(GetAdjointDerivative) X(GetFMUState) X(SetFMUState) X(FreeFMUState)       \
-                      X(SerializedFMUStateSize) X(SerializeFMUState) X(DeserializeFMUState)   \
-                          X(UpdateDiscreteStates) X(EnterContinuousTimeMode)                  \
-                              X(CompletedIntegratorStep) X(SetTime) X(SetContinuousStates)    \
-                                  X(GetContinuousStateDerivatives) X(GetEventIndicators)      \
-                                      X(GetContinuousStates) X(GetNominalsOfContinuousStates) \
-                                          X(GetNumberOfEventIndicators)                       \
-                                              X(GetNumberOfContinuousStates) X(EnterStepMode) \
-                                                  X(GetOutputDerivatives) X(DoStep)           \
-                                                      X(EnterConfigurationMode) X(GetClock)
+/* clang-format off */
+#define FMU_FUNCTIONS(X)                                                                          \
+  X(GetVersion) X(SetDebugLogging) X(InstantiateModelExchange) X(InstantiateCoSimulation)         \
+  X(InstantiateScheduledExecution) X(FreeInstance) X(EnterInitializationMode)                     \
+  X(ExitInitializationMode) X(EnterEventMode) X(Terminate) X(Reset) X(GetFloat64) X(SetFloat64)   \
+  X(GetFloat32) X(SetString) X(GetDirectionalDerivative) X(GetAdjointDerivative) X(GetFMUState)   \
+  X(SetFMUState) X(FreeFMUState) X(SerializedFMUStateSize) X(SerializeFMUState)                   \
+  X(DeserializeFMUState) X(UpdateDiscreteStates) X(EnterContinuousTimeMode)                       \
+  X(CompletedIntegratorStep) X(SetTime) X(SetContinuousStates) X(GetContinuousStateDerivatives)   \
+  X(GetEventIndicators) X(GetContinuousStates) X(GetNominalsOfContinuousStates)                   \
+  X(GetNumberOfEventIndicators) X(GetNumberOfContinuousStates) X(EnterStepMode)                   \
+  X(GetOutputDerivatives) X(DoStep) X(EnterConfigurationMode) X(GetClock)
+/* clang-format on */
 
 typedef struct fmu {
   char *folder, *resources, *description;
