@@ -60,7 +60,7 @@ YAML
 # What the importer sets at the k-th point (driven_push and driven_flesh in test_fmu_simulation.c).
 python3 - <<'PY'
 h, n = 0.0078125, 16
-push = [0.5 + 0.25 * (k % 5) for k in range(n)]
+push = [0.5 + 0.25 * (k // 2 % 5) for k in range(n)]
 flesh = [1.0 if k < 6 else 1.5 for k in range(n)]
 points = [[0.0, push[0]]]
 for k in range(1, n):
@@ -72,7 +72,8 @@ PY
 
 # held: frames that are found anew at times of their own, with the same inputs.
 for name in driven driven_run; do
-  sed 's/^output:/frames: {policy: hold, max_angle: 0.02}\n&/' $name.yaml >held"${name#driven}".yaml
+  sed 's/^output:/frames: {policy: hold, max_angle: 0.02, interval: 0.0078125}\n&/
+    s/^probes:/&\n  off: {of: balance}\n  turned: {of: frame_energy}/' $name.yaml >held"${name#driven}".yaml
 done
 
 # stepped: a method of constant step, which ends a step at each communication point.

@@ -6,7 +6,7 @@
 #include "importer.h"
 
 /* What the fixtures' runs do at their k-th output time, if they have inputs. */
-static double driven_push(int k) { return 0.5 + 0.25 * (k % 5); }
+static double driven_push(int k) { return 0.5 + 0.25 * (k / 2 % 5); }
 static double driven_flesh(int k) { return k < 6 ? 1.0 : 1.5; }
 
 /* The outputs of all columns but t agree with the row of a run. */
@@ -126,7 +126,9 @@ static void communication_points_change_nothing_without_inputs(void **state) {
   compare_end(&c);
 }
 
+/* What has not changed is not set: the run has two equal points there. */
 static void set_driven(const comparison *c, fmi3Instance instance, int k) {
+  if (k % 2 == 1) return;
   fmu_set(c->f, instance, "push", driven_push(k));
   fmu_set(c->f, instance, "flesh", driven_flesh(k));
 }

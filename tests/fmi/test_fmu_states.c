@@ -76,6 +76,62 @@ static void one_can_go_back(void **state) {
   }
 }
 
+/* Communication points that lie so near to each other that the integrator's steps pass several:
+   what it has done beyond the moment is given up where a state is kept. */
+static void one_can_go_back_within_a_step_of_the_integrator(void **state) {
+  (void)state;
+  const double tiny = h / 4096;
+  fmu_log log = {0};
+  fmu *f = fmu_load(fmu_path("free"));
+  fmi3Instance instance = fmu_simulation(f, &log);
+  fmi3FMUState kept = NULL;
+  start(f, instance);
+  fmu_step(f, instance, 0, 6 * h);
+  double t = 6 * h, u[2][16];
+  for (int k = 0; k < 5; k++, t += tiny) fmu_step(f, instance, t, tiny);
+  double before = fmu_get(f, instance, "speed.vx");
+  assert_int_equal(f->GetFMUState(instance, &kept), fmi3OK);
+  assert_true(fmu_get(f, instance, "speed.vx") == before);
+  for (int times = 0; times < 2; times++) {
+    for (int k = 0; k < 16; k++) {
+      fmu_step(f, instance, t + k * tiny, tiny);
+      u[times][k] = fmu_get(f, instance, "speed.vx");
+    }
+    assert_int_equal(f->SetFMUState(instance, kept), fmi3OK);
+  }
+  assert_memory_equal(u[0], u[1], sizeof u[0]);
+  assert_close(u[0][0], before, 1e-2, 0);
+  f->FreeInstance(instance);
+  assert_string_equal(log.message, "");
+  fmu_unload(f);
+}
+
+/* Inputs that have been set, and that the integrator has not met yet, are a part of the state. */
+static void inputs_that_wait_for_the_next_step_are_kept(void **state) {
+  (void)state;
+  for (int k = 0; k < 2; k++) { /* before the first step, and after one */
+    fmu_log log = {0};
+    fmu *f = fmu_load(fmu_path("driven"));
+    fmi3Instance instance = fmu_simulation(f, &log);
+    fmi3FMUState kept = NULL;
+    start(f, instance);
+    if (k) fmu_step(f, instance, 0, h);
+    fmu_set(f, instance, "push", 2.0);
+    fmu_set(f, instance, "flesh", 1.7);
+    assert_int_equal(f->GetFMUState(instance, &kept), fmi3OK);
+    fmu_step(f, instance, k * h, h);
+    double first = fmu_get(f, instance, "corner.ux");
+    fmu_set(f, instance, "push", -1.0);
+    assert_int_equal(f->SetFMUState(instance, kept), fmi3OK);
+    assert_true(fmu_get(f, instance, "push") == 2.0 && fmu_get(f, instance, "flesh") == 1.7);
+    fmu_step(f, instance, k * h, h);
+    assert_true(fmu_get(f, instance, "corner.ux") == first);
+    f->FreeInstance(instance);
+    assert_string_equal(log.message, "");
+    fmu_unload(f);
+  }
+}
+
 /* The state that was saved is one of the same motion: it goes on as the run does, within what the
    new beginning costs. */
 static void going_on_is_the_same_motion(void **state) {
@@ -278,6 +334,8 @@ int main(int argc, char **argv) {
   if (argc == 4) return go_on_alone(argv[2], strtoul(argv[3], NULL, 10));
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_can_go_back),
+      cmocka_unit_test(one_can_go_back_within_a_step_of_the_integrator),
+      cmocka_unit_test(inputs_that_wait_for_the_next_step_are_kept),
       cmocka_unit_test(going_on_is_the_same_motion),
       cmocka_unit_test(another_process_goes_on),
       cmocka_unit_test(bytes_that_are_cut_or_damaged_are_refused),
