@@ -161,17 +161,15 @@ static corot_status export_from(const export_def *def, const resources *r, const
   return status;
 }
 
-/* A folder of its own for a while, where temporary files go. */
-static corot_status make_folder(char **dir) {
-  const char *temporary = getenv("TMPDIR");
-  if (!temporary || !*temporary) temporary = "/tmp";
-  char *made = malloc(strlen(temporary) + 32);
+/* A folder of its own for a while, beside the FMU. */
+static corot_status make_folder(const char *to, char **dir) {
+  size_t size = strlen(to) + 8;
+  char *made = malloc(size);
   if (!made) return no_memory();
-  sprintf(made, "%s/corot-fmu.XXXXXX", temporary);
+  snprintf(made, size, "%s.XXXXXX", to);
   *dir = made;
   if (mkdtemp(made)) return COROT_OK;
-  corot_status status =
-      corot_fail(COROT_EIO, "%s: cannot make a folder: %s", temporary, strerror(errno));
+  corot_status status = corot_fail(COROT_EIO, "%s: cannot write: %s", to, strerror(errno));
   free(made);
   return status;
 }
@@ -181,7 +179,7 @@ corot_status export_fmu(const export_def *def, export_facts *facts) {
   char *dir = NULL;
   *facts = (export_facts){0};
   COROT_TRY(resources_find(def->scenario, &r));
-  corot_status status = make_folder(&dir);
+  corot_status status = make_folder(def->to, &dir);
   if (status == COROT_OK) {
     status = resources_lay_out(&r, dir);
     if (status == COROT_OK) status = export_from(def, &r, dir, facts);

@@ -3,6 +3,7 @@
 #include "resources.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -192,14 +193,13 @@ corot_status resources_lay_out(const resources *r, const char *dir) {
   return COROT_OK;
 }
 
-static void remove_file(const char *dir, const char *name) {
-  char *path = inside(dir, name);
-  if (path) unlink(path);
-  free(path);
-}
-
+/* By names alone: where there is no memory left, nothing is to be left on the disk. */
 void resources_take_away(const resources *r, const char *dir) {
-  remove_file(dir, scenario_name);
-  for (int i = 0; i < r->n; i++) remove_file(dir, r->file[i].name);
+  int fd = open(dir, O_RDONLY | O_DIRECTORY);
+  if (fd >= 0) {
+    unlinkat(fd, scenario_name, 0);
+    for (int i = 0; i < r->n; i++) unlinkat(fd, r->file[i].name, 0);
+    close(fd);
+  }
   rmdir(dir);
 }
