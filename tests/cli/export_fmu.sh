@@ -30,9 +30,15 @@ cmp -s model.fmu one.fmu && complain "another material, and the same FMU"
 cp one.fmu before.fmu
 expect 3 export-fmu model.yaml -o one.fmu --quiet --set material.mu=-1
 cmp -s before.fmu one.fmu || complain "a failure changed the FMU"
-expect 5 export-fmu model.yaml -o nowhere/one.fmu; err "nowhere/one.fmu: cannot write"
+expect 5 export-fmu model.yaml -o nowhere/one.fmu; err "nowhere/one.fmu.files: cannot write"
 mkdir folder.fmu
 expect 5 export-fmu model.yaml -o folder.fmu; err "folder.fmu"
+# What a process that was killed has left is in nobody's way.
+mkdir one.fmu.files
+echo cut >one.fmu.part
+echo cut >one.fmu.files/scenario.json
+expect 0 export-fmu model.yaml -o one.fmu --quiet
+cmp -s model.fmu one.fmu || complain "what was left by another made a difference"
 [ "$(ls | grep -c 'fmu\.')" = 0 ] || complain "drafts are left: $(ls)"
 
 # What Model Exchange cannot have.

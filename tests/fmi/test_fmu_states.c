@@ -191,10 +191,11 @@ static track in_another_process(const char *kind, const fmi3Byte *bytes, size_t 
     done += (size_t)n;
   }
   close(down[1]);
-  assert_int_equal(read(up[0], &found, sizeof found), sizeof found);
+  ssize_t got = read(up[0], &found, sizeof found);
   close(up[0]);
   waitpid(child, &status, 0);
-  assert_int_equal(status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail_msg("the other process: %x", status);
+  assert_int_equal(got, sizeof found);
   return found;
 }
 

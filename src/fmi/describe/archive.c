@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <zip.h>
 
@@ -17,7 +16,66 @@
 struct archive {
   zipFile zip;
   char *path, *draft; /* where it is to be, and is until then */
+  FILE *file;
+  bool failed; /* something was not written, which minizip may take no notice of */
 };
+
+/* --- How minizip writes --- */
+
+static voidpf ZCALLBACK open_draft(voidpf opaque, const void *name, int how) {
+  archive *a = opaque;
+  (void)how; /* it is to be made anew */
+  a->file = fopen(name, "w+b");
+  return a->file;
+}
+
+static uLong ZCALLBACK write_draft(voidpf opaque, voidpf stream, const void *data, uLong size) {
+  archive *a = opaque;
+  size_t written = fwrite(data, 1, size, stream);
+  if (written < size) a->failed = true;
+  return written;
+}
+
+static uLong ZCALLBACK read_draft(voidpf opaque, voidpf stream, void *data, uLong size) {
+  (void)opaque;
+  return fread(data, 1, size, stream);
+}
+
+static ZPOS64_T ZCALLBACK tell_draft(voidpf opaque, voidpf stream) {
+  (void)opaque;
+  return (ZPOS64_T)ftello(stream);
+}
+
+static long ZCALLBACK seek_draft(voidpf opaque, voidpf stream, ZPOS64_T offset, int origin) {
+  archive *a = opaque;
+  int from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? SEEK_CUR
+             : origin == ZLIB_FILEFUNC_SEEK_END ? SEEK_END
+                                                : SEEK_SET;
+  if (fseeko(stream, (off_t)offset, from) == 0) return 0;
+  a->failed = true;
+  return -1;
+}
+
+static int ZCALLBACK close_draft(voidpf opaque, voidpf stream) {
+  archive *a = opaque;
+  int closed = fclose(stream);
+  if (closed != 0) a->failed = true;
+  a->file = NULL;
+  return closed;
+}
+
+static int ZCALLBACK test_draft(voidpf opaque, voidpf stream) {
+  (void)opaque;
+  return ferror(stream);
+}
+
+static zipFile open_zip(archive *a) {
+  zlib_filefunc64_def functions = {open_draft, read_draft,  write_draft, tell_draft,
+                                   seek_draft, close_draft, test_draft,  a};
+  return zipOpen2_64(a->draft, APPEND_STATUS_CREATE, NULL, &functions);
+}
+
+/* --- The archive --- */
 
 enum { JANUARY_1980 = ((1 << 5) | 1) << 16 }; /* the first day that the format knows */
 
@@ -32,19 +90,6 @@ static void release(archive *a) {
   free(a);
 }
 
-/* As a file of the user's would be, not as mkstemp() makes it. */
-static bool make_draft(archive *a) {
-  int fd = mkstemp(a->draft);
-  if (fd < 0) return false;
-  mode_t mask = umask(0);
-  umask(mask);
-  fchmod(fd, 0666 & ~mask);
-  close(fd);
-  a->zip = zipOpen64(a->draft, APPEND_STATUS_CREATE);
-  if (!a->zip) unlink(a->draft);
-  return a->zip != NULL;
-}
-
 corot_status archive_open(const char *path, archive **out) {
   size_t size = strlen(path) + 8;
   archive *a = calloc(1, sizeof *a);
@@ -54,8 +99,9 @@ corot_status archive_open(const char *path, archive **out) {
   corot_status status = a->path && a->draft ? COROT_OK : no_memory();
   if (status == COROT_OK) {
     errno = 0;
-    snprintf(a->draft, size, "%s.XXXXXX", path);
-    if (!make_draft(a)) status = refused(a);
+    snprintf(a->draft, size, "%s.part", path);
+    a->zip = open_zip(a);
+    if (!a->zip) status = refused(a);
   }
   if (status)
     release(a);
@@ -98,7 +144,7 @@ corot_status archive_add_file(archive *a, const char *name, const char *path) {
 
 corot_status archive_close(archive *a) {
   errno = 0;
-  bool whole = zipClose(a->zip, NULL) == ZIP_OK;
+  bool whole = zipClose(a->zip, NULL) == ZIP_OK && !a->failed;
   corot_status status = whole && rename(a->draft, a->path) == 0 ? COROT_OK : refused(a);
   if (status) unlink(a->draft);
   release(a);

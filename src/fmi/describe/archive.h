@@ -8,8 +8,8 @@
 
 typedef struct archive archive;
 
-/* Begins a file beside `path`. COROT_EIO: it cannot be made, or this build of corot has no library
-   that makes zip files. COROT_ENOMEM. */
+/* Begins PATH.part, in the place of what a process that was killed has left there. COROT_EIO: it
+   cannot be made, or this build of corot has no library that makes zip files. COROT_ENOMEM. */
 corot_status archive_open(const char *path, archive **out);
 
 /* Adds an entry: bytes, or a file. COROT_EIO. */

@@ -1,4 +1,4 @@
-/* Lays out the resources, opens them as an instance would, and packs all. */
+/* Lays the resources out, opens them as an instance would, and packs all. */
 #include "export_fmu.h"
 
 #include <ctype.h>
@@ -64,7 +64,7 @@ static corot_status add_description(const description *d, archive *a) {
   if (!out) return no_memory();
   description_write(d, out);
   bool failed = ferror(out);
-  failed |= fclose(out) != 0;
+  failed |= fclose(out) != 0 || !text; /* which is NULL where the last byte has found no room */
   corot_status status = failed ? no_memory() : archive_add(a, "modelDescription.xml", text, size);
   free(text);
   return status;
@@ -132,9 +132,41 @@ static void count(const body *b, const variables *v, const resources *r, export_
   facts->nfile = r->n + 1;
 }
 
+/* Opens the folder that has been laid out. */
+static corot_status open_resources(const char *dir, body *b) {
+  size_t size = strlen(dir) + 32;
+  char *path = malloc(size);
+  if (!path) return no_memory();
+  snprintf(path, size, "%s/scenario.json", dir);
+  corot_status status = body_open(path, b);
+  free(path);
+  return status;
+}
+
+/* The body as an instance will have it: from resources that lie in a folder beside the FMU for that
+   while. */
+static corot_status try_resources(const char *to, const resources *r, body *b) {
+  size_t size = strlen(to) + 8;
+  char *dir = malloc(size);
+  if (!dir) return no_memory();
+  snprintf(dir, size, "%s.files", to);
+  corot_status status = resources_lay_out(r, dir);
+  if (status == COROT_OK) status = open_resources(dir, b);
+  bool opened = status == COROT_OK;
+  if (opened)
+    status = resources_take_away(r, dir);
+  else
+    resources_abandon(r, dir);
+  if (status && opened) body_close(b);
+  free(dir);
+  return status;
+}
+
 static corot_status describe(const export_def *def, const body *b, const resources *r,
-                             const char *name, export_facts *facts) {
+                             export_facts *facts) {
+  char name[128];
   variables v;
+  name_model(def->scenario->path, sizeof name, name, facts->identifier);
   COROT_TRY(choose(def, b, facts));
   COROT_TRY(variables_create(b, &v));
   const description d = {b, &v, name, facts->identifier, facts->exchange, facts->simulation};
@@ -144,47 +176,15 @@ static corot_status describe(const export_def *def, const body *b, const resourc
   return status;
 }
 
-/* From the folder, which has been laid out. */
-static corot_status export_from(const export_def *def, const resources *r, const char *dir,
-                                export_facts *facts) {
-  char name[128];
-  body b;
-  char *path = malloc(strlen(dir) + 32);
-  if (!path) return no_memory();
-  sprintf(path, "%s/scenario.json", dir);
-  name_model(def->scenario->path, sizeof name, name, facts->identifier);
-  corot_status status = body_open(path, &b);
-  free(path);
-  COROT_TRY(status);
-  status = describe(def, &b, r, name, facts);
-  body_close(&b);
-  return status;
-}
-
-/* A folder of its own for a while, beside the FMU. */
-static corot_status make_folder(const char *to, char **dir) {
-  size_t size = strlen(to) + 8;
-  char *made = malloc(size);
-  if (!made) return no_memory();
-  snprintf(made, size, "%s.XXXXXX", to);
-  *dir = made;
-  if (mkdtemp(made)) return COROT_OK;
-  corot_status status = corot_fail(COROT_EIO, "%s: cannot write: %s", to, strerror(errno));
-  free(made);
-  return status;
-}
-
 corot_status export_fmu(const export_def *def, export_facts *facts) {
   resources r;
-  char *dir = NULL;
+  body b;
   *facts = (export_facts){0};
   COROT_TRY(resources_find(def->scenario, &r));
-  corot_status status = make_folder(def->to, &dir);
+  corot_status status = try_resources(def->to, &r, &b);
   if (status == COROT_OK) {
-    status = resources_lay_out(&r, dir);
-    if (status == COROT_OK) status = export_from(def, &r, dir, facts);
-    resources_take_away(&r, dir);
-    free(dir);
+    status = describe(def, &b, &r, facts);
+    body_close(&b);
   }
   resources_clear(&r);
   return status;

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "app/config/config.h"
@@ -128,7 +129,7 @@ static corot_status find(const scenario *s, json_t *copy, resources *r) {
   corot_status status = json_text_write(copy, out);
   fputc('\n', out);
   bool failed = ferror(out);
-  if (fclose(out) != 0 || failed || json_text_starved()) return no_memory();
+  if (fclose(out) != 0 || failed || !r->scenario || json_text_starved()) return no_memory();
   return status;
 }
 
@@ -181,6 +182,7 @@ static corot_status link_file(const resource *file, const char *dir) {
   corot_status status = path ? COROT_OK : no_memory();
   if (!status && !target)
     status = corot_fail(COROT_EIO, "%s: cannot read: %s", file->path, strerror(errno));
+  if (!status) unlink(path);
   if (!status && symlink(target, path) != 0) status = refused(path);
   free(target);
   free(path);
@@ -188,18 +190,25 @@ static corot_status link_file(const resource *file, const char *dir) {
 }
 
 corot_status resources_lay_out(const resources *r, const char *dir) {
+  if (mkdir(dir, 0777) != 0 && errno != EEXIST) return refused(dir);
   COROT_TRY(write_scenario(r, dir));
   for (int i = 0; i < r->n; i++) COROT_TRY(link_file(&r->file[i], dir));
   return COROT_OK;
 }
 
 /* By names alone: where there is no memory left, nothing is to be left on the disk. */
-void resources_take_away(const resources *r, const char *dir) {
+corot_status resources_take_away(const resources *r, const char *dir) {
   int fd = open(dir, O_RDONLY | O_DIRECTORY);
-  if (fd >= 0) {
-    unlinkat(fd, scenario_name, 0);
-    for (int i = 0; i < r->n; i++) unlinkat(fd, r->file[i].name, 0);
-    close(fd);
-  }
-  rmdir(dir);
+  bool gone = fd >= 0 && unlinkat(fd, scenario_name, 0) == 0;
+  for (int i = 0; fd >= 0 && i < r->n; i++)
+    if (unlinkat(fd, r->file[i].name, 0) != 0) gone = false;
+  if (fd >= 0) close(fd);
+  if (rmdir(dir) == 0 && gone) return COROT_OK;
+  return corot_fail(COROT_EIO, "%s: cannot remove: %s", dir, strerror(errno));
+}
+
+void resources_abandon(const resources *r, const char *dir) {
+  char reason[1024];
+  snprintf(reason, sizeof reason, "%s", corot_error());
+  if (resources_take_away(r, dir)) corot_fail(COROT_EIO, "%s", reason);
 }

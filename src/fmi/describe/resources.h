@@ -20,10 +20,14 @@ typedef struct resources {
 corot_status resources_find(const scenario *s, resources *r);
 void resources_clear(resources *r);
 
-/* Makes DIR/scenario.json, and links to the files. COROT_EIO; COROT_ENOMEM. */
+/* Makes the folder, or uses what a process that was killed has left of it: DIR/scenario.json, and
+   links to the files. COROT_EIO; COROT_ENOMEM. */
 corot_status resources_lay_out(const resources *r, const char *dir);
 
-/* Removes these, and the folder. */
-void resources_take_away(const resources *r, const char *dir);
+/* Removes these, and the folder. COROT_EIO. */
+corot_status resources_take_away(const resources *r, const char *dir);
+
+/* The same as far as it goes, with the message as it was. */
+void resources_abandon(const resources *r, const char *dir);
 
 #endif
