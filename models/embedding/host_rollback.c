@@ -1,10 +1,11 @@
-/* The coupling of host_partner.c, iterated: in each window the bar moves through it under a guess of
-   the force at its end, the wind says what that would be for the motion it saw, and the bar goes back
-   to the start of the window and moves through it once more, until both agree. So a partner as heavy
-   as the solid can be coupled, and windows may be longer. corot's own integrator takes its state away
-   at the start of each window, and gets it back before each further pass.
+/* The coupling of host_partner.c, iterated: in each window the bar moves through it under a guess
+   of the force at its end, the wind says what that would be for the motion it saw, and the bar goes
+   back to the start of the window and moves through it once more, until both agree. So a partner as
+   heavy as the solid can be coupled, and windows may be longer. corot's own integrator takes its
+   state away at the start of each window, and gets it back before each further pass.
 
-   A method of one step loses nothing by that. CVODE and IDA would begin again at order 1 in each pass.
+   A method of one step loses nothing by that. CVODE and IDA would begin again at order 1 in each
+   pass.
  */
 #include <corot/checkpoint.h>
 #include <corot/inputs.h>
