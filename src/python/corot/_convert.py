@@ -139,7 +139,8 @@ def words(name: str) -> dict[str, int]:
     A word is the enumerator in small letters without what it has of the type's name, or what all have
     in common."""
     values = ffi.typeof(name).relements
-    plain = {key.removeprefix("COROT_"): value for key, value in values.items()}
+    plain = {key.removeprefix("COROT_"): value
+             for key, value in sorted(values.items(), key=lambda pair: pair[1])}
     own = name.removeprefix("corot_").upper() + "_"
     common = os.path.commonprefix(list(plain))
     common = common[: common.rfind("_") + 1]

@@ -106,8 +106,10 @@ class Integrator(Handle):
            ) -> tuple[np.ndarray, np.ndarray]:
         """u and v [n] at any t within the last step. InvalidError: t is not within it."""
         n = self.state._n
-        u = cv.output(None if out is None else out[0], (n,), "out[0]")
-        v = cv.output(None if out is None else out[1], (n,), "out[1]")
+        given = (None, None) if out is None else out
+        if not isinstance(given, (tuple, list)) or len(given) != 2:
+            raise TypeError("out is to be two arrays, for u and for v")
+        u, v = cv.output(given[0], (n,), "out[0]"), cv.output(given[1], (n,), "out[1]")
         cv.apart(u, v)
         t = cv.real(t, "t")
         with self._evaluate() as pointer:

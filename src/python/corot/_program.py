@@ -31,15 +31,20 @@ def find_program() -> str:
     return found
 
 
-def _word(value: Any) -> str:
-    """A value as --set takes it: JSON is YAML, with a point in numbers that have an exponent."""
+def _word(value: Any, inside: bool = False) -> str:
+    """A value as --set takes it, which is YAML with a point in numbers that have an exponent. A text is
+    taken as it stands, so that it may be YAML; inside a list or a map it is a text."""
     if hasattr(value, "tolist"):  # of numpy
         value = value.tolist()
     if isinstance(value, str):
-        return value
+        return json.dumps(value) if inside else value
     if isinstance(value, float):
         text = repr(value)
         return text if "." in text or "n" in text else text.replace("e", ".0e")
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(_word(each, True) for each in value)}]"
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{_word(str(k), True)}: {_word(v, True)}' for k, v in value.items())}}}"
     return json.dumps(value)
 
 
@@ -63,9 +68,9 @@ def run(model: Any, out: Any, *, set: Mapping[str, Any] | None = None, command: 
         options: tuple[str, ...] = ()) -> Run:
     """`corot run MODEL -o OUT --set KEY=VALUE ...` as a process, and what it has left in OUT.
 
-    set: keys of the scenario and their values, {"integrator.rtol": 1e-6, "mesh.order": 2}; command:
-    "static" or "modes" in place of "run"; options: more of the command line, as ("--force",). Exit
-    code 1 (a quantity has no value) is no failure. ProgramError: another one, with what the program said;
+    set: keys of the scenario and their values, {"integrator.rtol": 1e-6, "mesh.order": 2}; a text is
+    YAML, as on the command line. command: "static" or "modes" in place of "run"; options: more of the
+    command line, as ("--force",). Exit code 1 (a quantity has no value) is no failure. ProgramError: another one, with what the program said;
     LibraryError: there is no program."""
     _call([command, os.fspath(model), "-o", os.fspath(out), "-q", *_settings(set), *options], (0, 1))
     return Run(Path(os.fspath(out)))
