@@ -1,7 +1,9 @@
 """The header reader: all headers, and what it refuses; every function is wrapped or left out on purpose;
 the installed text is what the headers say."""
 import ctypes
+import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -122,7 +124,6 @@ class Loading(unittest.TestCase):
     """What is said where there is no library, or another one."""
 
     def load(self, **environment):
-        import os
         env = {k: v for k, v in os.environ.items() if k not in ("COROT_LIBRARY", "LD_PRELOAD")}
         env.update(environment)
         done = subprocess.run([sys.executable, "-c", "import corot"], env=env, capture_output=True,
@@ -145,6 +146,21 @@ class Loading(unittest.TestCase):
         self.assertIn("libc.so.6 is no library of corot", said)
 
     @unittest.skipIf(hasattr(ctypes.CDLL(None), "__asan_init"), "without the sanitizer nothing loads")
+    def test_another_version(self):
+        """A package that was installed with headers of another version than the library's."""
+        with tempfile.TemporaryDirectory() as folder:
+            package = Path(folder) / "corot"
+            shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+            text = _headers.read_headers(HEADERS)
+            (package / "_cdef.h").write_text(text)
+            own = {"PYTHONPATH": folder, "COROT_LIBRARY": corot.library_path}
+            self.assertEqual(self.load(**own), (0, ""))
+            (package / "_cdef.h").write_text(text.replace("VERSION_MAJOR = 0.0", "VERSION_MAJOR = 7.0"))
+            code, said = self.load(**own)
+            self.assertEqual(code, 1)
+            self.assertIn(f"is corot {corot.__version__}, and this package is for 7.", said)
+
+    @unittest.skipIf(hasattr(ctypes.CDLL(None), "__asan_init"), "without the sanitizer nothing loads")
     def test_a_folder_and_the_core_alone(self):
         path = Path(corot.library_path).resolve()
         code, said = self.load(COROT_LIBRARY=str(path.parent))
@@ -162,7 +178,6 @@ class Loading(unittest.TestCase):
                   "for make in (corot.statics, corot.modes, corot.MassSolver):\n"
                   "  try: make(m); sys.exit(1)\n"
                   "  except corot.LibraryError as e: pass\n")
-        import os
         env = {**os.environ, "COROT_LIBRARY": str(core)}
         done = subprocess.run([sys.executable, "-c", script], env=env, capture_output=True, text=True,
                               check=False)

@@ -115,6 +115,15 @@ class Closing(unittest.TestCase):
                 with self.assertRaisesRegex(corot.ClosedError, "was closed"):
                     uses(objects)[children[0]][0]()
 
+    def test_memory_of_c_goes_with_close(self):
+        objects = make_all()
+        cells = {name: weakref.ref(o._cell) for name, o in objects.items()}
+        for name in reversed(list(objects)):
+            objects[name].close()
+        gc.collect()
+        lent = {name for name, cell in cells.items() if cell() is not None}
+        self.assertEqual(lent, set())
+
     def test_all_uses_are_of_use_before(self):
         objects = make_all()
         for name, calls in uses(objects).items():

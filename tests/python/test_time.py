@@ -110,6 +110,10 @@ class Integrators(unittest.TestCase):
         parts = corot.Integrator(corot.State(model), rtol=1e-7)
         pieces = [parts.advance(t)[0][0] for t in (0.1, 0.2, 0.3)]
         np.testing.assert_allclose(pieces, whole, atol=2e-5 * abs(whole).max())
+        after = corot.Integrator(corot.State(model))
+        after.advance(0.2)
+        rest = np.zeros(model.ndof)
+        self.assertFalse(after.state.residual(0.2, rest, rest).any())  # beyond the jump there is no load
         state = corot.State(model)  # who misses the jump at 0.2 s goes on under the load
         wrong = corot.Integrator(state, rtol=1e-7)
         while wrong.t < 0.3:

@@ -62,7 +62,7 @@ def indices(value: Any, shape: tuple[int | None, ...], name: str) -> np.ndarray:
         raise TypeError(f"{name} has the type {array.dtype}, and whole numbers are wanted")
     if not _has_shape(array, shape):
         raise InvalidError(f"{name} has the shape {_say(array.shape)}, and {_say(shape)} is wanted")
-    if array.max() > 2**31 - 1 or array.min() < -(2**31):
+    if int(array.max()) > 2**31 - 1 or int(array.min()) < -(2**31):
         raise InvalidError(f"{name} has a number that does not fit 32 bits")
     return np.ascontiguousarray(array, dtype=np.intc)
 

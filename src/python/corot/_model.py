@@ -326,6 +326,12 @@ class Model(Handle):
     def __repr__(self) -> str:
         return "<Model, closed>" if self.closed else f"<Model, {self.strain}, {self.ndof} degrees of freedom>"
 
+    def _close(self) -> None:
+        super()._close()
+        for name in ("mesh", "_pattern"):  # what shows the model's memory
+            if name in self.__dict__:
+                self.__dict__.pop(name).close()
+
     def _ask(self, function: Any, *arguments: Any) -> Any:
         with self._guard:
             return function(self._pointer, *arguments)

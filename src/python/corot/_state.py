@@ -65,8 +65,7 @@ class State(Handle):
 
     @contextmanager
     def _evaluate(self) -> Iterator[Any]:
-        """The state's pointer, and that of its inputs, for this thread alone; then what a feedback of
-        Python has raised."""
+        """The state's pointer, for this thread alone, its inputs included."""
         with self._guard:
             pointer = self._pointer
             inputs = self.inputs
@@ -74,11 +73,8 @@ class State(Handle):
                 yield pointer
                 return
             with inputs._guard:
-                inputs._pointer  # noqa: B018: if it was closed, so has its feedback
-                try:
-                    yield pointer
-                finally:
-                    inputs._pending.raise_kept()
+                inputs._pointer  # noqa: B018: who closed it has closed its feedback
+                yield pointer
 
     def _field(self, u: ArrayLike, name: str = "u") -> np.ndarray:
         return cv.reals(u, (self._n,), name)
