@@ -454,6 +454,27 @@ class Linear(unittest.TestCase):
                 self.assertTrue(pencil.solver)
         self.assertRaises(corot.InvalidError, corot.Pencil, state, "lu")
 
+    def test_multigrid_takes_a_refinement(self):
+        coarse = corot.Mesh.box([0.1, 0.1, 0.3], [1, 1, 3])
+        fine, how = coarse.refine(1, return_refinement=True)
+        model = corot.Model(fine, RUBBER, fix=corot.Fix("zmin"))
+        state, u = corot.State(model), np.zeros(model.ndof)
+        linear = {"solver": "pcg", "preconditioner": "multigrid", "refinement": how, "tolerance": 1e-12}
+        pencil = corot.Pencil(state, linear)
+        how.close()
+        pencil.assemble(0, u)
+        pencil.combine(1, 0, 1e-4)
+        pencil.factor()
+        b = np.ones(model.ndof)
+        S = state.M() + 1e-4 * state.K(0, u)
+        np.testing.assert_allclose(S @ pencil.solve(b), b, atol=1e-9)
+        self.assertIn("multigrid", pencil.solver)
+        for wrong in (3, coarse, "how"):
+            with self.assertRaises(TypeError):
+                corot.Pencil(state, {**linear, "refinement": wrong})
+        with self.assertRaises(corot.ClosedError):
+            corot.Pencil(state, linear)
+
     def test_the_space_error(self):
         model = make_bar()
         u = corot.statics(model, 40.0).u

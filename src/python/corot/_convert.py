@@ -246,6 +246,8 @@ def _assign(struct: Any, name: str, ctype: Any, value: Any, keep: list[Any]) -> 
             keep.append(ffi.new("char[]", encode(value, name)))
             setattr(struct, name, keep[-1])
     elif kind == "pointer":  # an object of ours
+        if value is not None and not hasattr(value, "_pointer"):
+            raise TypeError(f"{name} = {value!r}: a {ctype.item.cname} of this package is wanted")
         setattr(struct, name, ffi.NULL if value is None else value._pointer)
         keep.append(value)
     elif ctype.cname == "_Bool":
