@@ -8,10 +8,10 @@ import corot
 from common import BAR, RUBBER, Folder, deform, make_bar, make_column, program_is_there
 
 
+@unittest.skipUnless(program_is_there(), "COROT names no program")
 class AgainstTheProgram(Folder):
     """The same library, the same steps: the same bits."""
 
-    @unittest.skipUnless(program_is_there(), "COROT names no program")
     def compare(self, settings, scenario, start=None):
         run = corot.run(BAR / "bar.yaml", self.folder / "run", set={
             "time.end": 2, "output.states": "binary", "output.fields": "none",
