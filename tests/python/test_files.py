@@ -196,15 +196,18 @@ class Examples(Folder):
         np.testing.assert_allclose(corner, [0.17419, 0.00998, -0.05255], atol=5e-6)  # models/bar/README.md
 
     def test_programs_of_the_documents(self):
+        os.symlink(ROOT / "models", self.folder / "models")
         for document in ("src/python/README.md", "README.md"):
             text = (ROOT / document).read_text()
             programs = [p.split("```")[0] for p in text.split("```python\n")[1:]]
             self.assertTrue(programs, document)
             for i, program in enumerate(programs):
+                if "corot.run(" in program and not program_is_there():
+                    continue
                 path = self.folder / f"{i}.py"
                 path.write_text(program)
                 done = subprocess.run([sys.executable, path], capture_output=True, text=True, check=False,
-                                      cwd=ROOT if "models/" in program else self.folder)
+                                      cwd=self.folder)
                 self.assertEqual((done.returncode, done.stderr), (0, ""), f"{document}: {program}")
 
     def test_the_bar_is_that_of_the_scenario(self):

@@ -8,10 +8,10 @@ import corot
 from common import BAR, RUBBER, Folder, deform, make_bar, make_column, program_is_there
 
 
+@unittest.skipUnless(program_is_there(), "COROT names no program")
 class AgainstTheProgram(Folder):
     """The same library, the same steps: the same bits."""
 
-    @unittest.skipUnless(program_is_there(), "COROT names no program")
     def compare(self, settings, scenario, start=None):
         run = corot.run(BAR / "bar.yaml", self.folder / "run", set={
             "time.end": 2, "output.states": "binary", "output.fields": "none",
@@ -453,6 +453,27 @@ class Linear(unittest.TestCase):
                 self.assertGreaterEqual(pencil.statistics.nfactor, 2)
                 self.assertTrue(pencil.solver)
         self.assertRaises(corot.InvalidError, corot.Pencil, state, "lu")
+
+    def test_multigrid_takes_a_refinement(self):
+        coarse = corot.Mesh.box([0.1, 0.1, 0.3], [1, 1, 3])
+        fine, how = coarse.refine(1, return_refinement=True)
+        model = corot.Model(fine, RUBBER, fix=corot.Fix("zmin"))
+        state, u = corot.State(model), np.zeros(model.ndof)
+        linear = {"solver": "pcg", "preconditioner": "multigrid", "refinement": how, "tolerance": 1e-12}
+        pencil = corot.Pencil(state, linear)
+        how.close()
+        pencil.assemble(0, u)
+        pencil.combine(1, 0, 1e-4)
+        pencil.factor()
+        b = np.ones(model.ndof)
+        S = state.M() + 1e-4 * state.K(0, u)
+        np.testing.assert_allclose(S @ pencil.solve(b), b, atol=1e-9)
+        self.assertIn("multigrid", pencil.solver)
+        for wrong in (3, coarse, "how"):
+            with self.assertRaises(TypeError):
+                corot.Pencil(state, {**linear, "refinement": wrong})
+        with self.assertRaises(corot.ClosedError):
+            corot.Pencil(state, linear)
 
     def test_the_space_error(self):
         model = make_bar()

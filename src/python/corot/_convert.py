@@ -7,7 +7,6 @@ handed to C as it is. Of the wrong shape, or of numbers that are none (complex, 
 """
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
@@ -22,7 +21,8 @@ from ._library import ffi, numbers, text
 
 
 def _say(shape: tuple[Any, ...]) -> str:
-    return "(" + ", ".join("n" if s is None else str(s) for s in shape) + ("," if len(shape) == 1 else "") + ")"
+    inside = ", ".join("n" if s is None else str(s) for s in shape)
+    return f"({inside},)" if len(shape) == 1 else f"({inside})"
 
 
 def _has_shape(array: np.ndarray, shape: tuple[int | None, ...]) -> bool:
@@ -176,7 +176,8 @@ class Record(Mapping[str, Any]):
         try:
             return self.__dict__["_values"][name]
         except KeyError:
-            raise AttributeError(f"a {self._kind} has no '{name}'; it has {', '.join(self._values)}") from None
+            known = ", ".join(self.__dict__["_values"])
+            raise AttributeError(f"a {self._kind} has no '{name}'; it has {known}") from None
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a {self._kind} is for reading")
@@ -245,6 +246,8 @@ def _assign(struct: Any, name: str, ctype: Any, value: Any, keep: list[Any]) -> 
             keep.append(ffi.new("char[]", encode(value, name)))
             setattr(struct, name, keep[-1])
     elif kind == "pointer":  # an object of ours
+        if value is not None and not hasattr(value, "_pointer"):
+            raise TypeError(f"{name} = {value!r}: a {ctype.item.cname} of this package is wanted")
         setattr(struct, name, ffi.NULL if value is None else value._pointer)
         keep.append(value)
     elif ctype.cname == "_Bool":
@@ -269,10 +272,6 @@ def fill(struct: Any, given: Mapping[str, Any], keep: list[Any], what: str,
         if name not in known:
             raise TypeError(f"{what} has no setting '{name}'; it has {', '.join(known)}")
         _assign(struct, name, fields[name].type, value, keep)
-
-
-def finite(value: float) -> bool:
-    return math.isfinite(value)
 
 
 #: Extrapolated frames are never turned further than this [rad]: COROT_EXTRAPOLATION_CAP.

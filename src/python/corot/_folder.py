@@ -147,6 +147,18 @@ def read_states(path: Any) -> States:
                   np.frombuffer(data, np.int32, n, 24))
 
 
+def _read_map(path: Path) -> dict[str, Any]:
+    """A JSON file that has a map."""
+    with _open(path) as file:
+        try:
+            result = json.load(file)
+        except ValueError as error:
+            raise FormatError(f"{path}: {error}") from None
+    if not isinstance(result, dict):
+        raise FormatError(f"{path}: it has no map of results")
+    return result
+
+
 class Run:
     """The folder of a run, an equilibrium or modes. Tables are read when they are asked for: probes,
     energy, history, steps, reactions, compare, modes; then states, fields and result."""
@@ -161,15 +173,7 @@ class Run:
     @cached_property
     def result(self) -> dict[str, Any]:
         """result.json. SystemRefusedError, FormatError: there is none, or it is damaged."""
-        path = self.folder / "result.json"
-        with _open(path) as file:
-            try:
-                result = json.load(file)
-            except ValueError as error:
-                raise FormatError(f"{path}: {error}") from None
-        if not isinstance(result, dict):
-            raise FormatError(f"{path}: it has no map of results")
-        return result
+        return _read_map(self.folder / "result.json")
 
     @property
     def ok(self) -> bool:
@@ -243,10 +247,10 @@ class Run:
         return [(float(t), self.folder / name) for t, name in found]
 
 
-class Study(Run):
-    """The folder of a study: `table` has a row for each run, as `corot study csv` has."""
+class Study:
+    """The folder of a study: `rows` has a row for each run, as `corot study csv` has."""
 
-    def __init__(self, folder: Any) -> None:  # noqa: D107
+    def __init__(self, folder: Any) -> None:
         self.folder = Path(folder)
         self.rows  # noqa: B018: is it one?
 
@@ -256,11 +260,7 @@ class Study(Run):
     @cached_property
     def result(self) -> dict[str, Any]:
         """table.json."""
-        with _open(self.folder / "table.json") as file:
-            try:
-                return dict(json.load(file))
-            except (ValueError, TypeError) as error:
-                raise FormatError(f"{self.folder}/table.json: {error}") from None
+        return _read_map(self.folder / "table.json")
 
     @cached_property
     def rows(self) -> Table:
@@ -275,7 +275,7 @@ class Study(Run):
                 if (folder / "result.json").exists()}
 
 
-def read(folder: Any) -> Run:
+def read(folder: Any) -> Run | Study:
     """The results in a folder: of a run, an equilibrium or modes a `Run`, of a study a `Study`.
 
     SystemRefusedError: the folder, or its result, is not there; FormatError: it is damaged."""

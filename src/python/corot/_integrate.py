@@ -67,7 +67,9 @@ class Integrator(Handle):
             self.clock = FrameClock(self, u, v, **policy)
 
     def __repr__(self) -> str:
-        return "<Integrator, closed>" if self.closed else f"<Integrator {self.chosen.method} at t = {self._t:g} s>"
+        if self.closed:
+            return "<Integrator, closed>"
+        return f"<Integrator {self.chosen.method} at t = {self._t:g} s>"
 
     @contextmanager
     def _evaluate(self) -> Iterator[Any]:
@@ -238,7 +240,8 @@ class Integrator(Handle):
     if has("corot_integrator_save"):
 
         def save(self) -> bytes:
-            """All that the integrator remembers, so that `restore` goes on from here to the last bit."""
+            """All that the integrator remembers, so that `restore` goes on from here to the last
+            bit. Inputs, and the clock of a policy of frames, are not among it."""
             blob, size = ffi.new("void **"), ffi.new("size_t *")
             with self._evaluate() as pointer:
                 self._check(lib.corot_integrator_save(pointer, blob, size))

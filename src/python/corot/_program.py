@@ -70,8 +70,8 @@ def run(model: Any, out: Any, *, set: Mapping[str, Any] | None = None, command: 
 
     set: keys of the scenario and their values, {"integrator.rtol": 1e-6, "mesh.order": 2}; a text is
     YAML, as on the command line. command: "static" or "modes" in place of "run"; options: more of the
-    command line, as ("--force",). Exit code 1 (a quantity has no value) is no failure. ProgramError: another one, with what the program said;
-    LibraryError: there is no program."""
+    command line, as ("--force",). Exit code 1 (a quantity has no value) is no failure. ProgramError:
+    another one, with what the program said; LibraryError: there is no program."""
     _call([command, os.fspath(model), "-o", os.fspath(out), "-q", *_settings(set), *options], (0, 1))
     return Run(Path(os.fspath(out)))
 
