@@ -240,8 +240,12 @@ class Integrator(Handle):
     if has("corot_integrator_save"):
 
         def save(self) -> bytes:
-            """All that the integrator remembers, so that `restore` goes on from here to the last
-            bit. Inputs, and the clock of a policy of frames, are not among it."""
+            """The state of the integration as bytes, from which `restore` goes on to the last bit, here
+            or in another process: time, u and v, the frames and their clock, what the inputs say, work and
+            statistics. Functions of yours are not among it. The integrator itself begins anew from
+            these bytes, so save "cvode" and "ida" seldom: they begin at order 1 (corot/checkpoint.h).
+
+            InvalidError: the inputs have changed, and `changed` was not called."""
             blob, size = ffi.new("void **"), ffi.new("size_t *")
             with self._evaluate() as pointer:
                 self._check(lib.corot_integrator_save(pointer, blob, size))
@@ -251,8 +255,11 @@ class Integrator(Handle):
                 lib.corot_blob_free(blob[0])
 
         def restore(self, saved: bytes) -> None:
-            """Goes back to where an integrator of the same model and settings was saved.
-            FormatError: these are no bytes of `save`; InvalidError: they are of another model."""
+            """Goes to where an integrator of the same settings, on an equal model, was saved; its state's
+            inputs, and the frame clock that was made of it last, go along.
+
+            FormatError: these are no bytes of `save`. InvalidError: they are damaged, or of another
+            model, of other settings, or the saved one had inputs or a clock, and this one has none."""
             saved = bytes(saved)
             if len(saved) < _SAVED.size or _SAVED.unpack_from(saved)[0] != _MARK:
                 raise FormatError(f"{len(saved)} bytes that Integrator.save has not made")
