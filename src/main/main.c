@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "app/command/cli.h"
+#include "fmi/command/command_fmu.h"
 #include "report/command/commands.h"
 #include "solve/linsol/blas_core.h"
 #include "study/command/command_study.h"
@@ -32,6 +33,8 @@ static const char help[] =
     "  solve MODEL.yaml     find a number of it with an error that is asked for\n"
     "  find-limit MODEL.yaml\n"
     "                       where it stops being stable as one of its numbers grows\n"
+    "  export-fmu MODEL.yaml\n"
+    "                       pack it for programs that couple models (FMI 3.0)\n"
     "  schema [KEY]         every key of a scenario: type, unit, default, meaning\n"
     "  mesh box             generate the mesh of a box\n"
     "  mesh info FILE       size, shape and groups of a mesh\n"
@@ -109,13 +112,21 @@ static void leave_at_once_if_limited(int code) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},         {"static", command_static},
-      {"modes", command_modes},     {"check", command_check},
-      {"study", command_study},     {"budget", command_budget},
-      {"solve", command_solve},     {"find-limit", command_find_limit},
-      {"plot", command_study_plot}, {"report", command_report},
-      {"schema", command_schema},   {"mesh", command_mesh},
-      {"--version", print_version}, {0},
+      {"run", command_run},
+      {"static", command_static},
+      {"modes", command_modes},
+      {"check", command_check},
+      {"study", command_study},
+      {"budget", command_budget},
+      {"solve", command_solve},
+      {"find-limit", command_find_limit},
+      {"plot", command_study_plot},
+      {"report", command_report},
+      {"schema", command_schema},
+      {"mesh", command_mesh},
+      {"export-fmu", command_export_fmu},
+      {"--version", print_version},
+      {0},
   };
   libraries_are_loaded();
   first_signals_restore();

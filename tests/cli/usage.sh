@@ -5,7 +5,7 @@ expect 0 --help; out "usage: corot COMMAND"; no_err
 expect 2; err "usage: corot COMMAND"; no_out
 expect 2 chek; err "unknown command chek; did you mean check?"; no_out
 expect 2 wombat; err "unknown command wombat"; no_out
-for command in run check schema study "study export" "mesh box" "mesh info"; do
+for command in run check export-fmu schema study "study export" "mesh box" "mesh info"; do
   # shellcheck disable=SC2086
   expect 0 $command --help; out "usage: corot $command"; out "example: corot $command"; no_err
 done
@@ -40,7 +40,7 @@ case $(cat code) in 0 | 5) ;; *) complain "closed pipe: $(cat code)" ;; esac
 # Exit codes are those of --help, whatever the command.
 expect 0 --help
 for word in '  0  ok' '1  finished, but' '2  the command line' '3  a scenario, study or mesh' '4  the integrator' '5  the system' '128 + N'; do out "$word"; done
-for command in "run" "static" "modes" "check" "budget" "study" "study export --format commands" \
+for command in "run" "static" "modes" "check" "export-fmu" "budget" "study" "study export --format commands" \
   "find-limit --key time.end --from 1 --to 2" "mesh info" "mesh refine -o new.msh"; do
   expect 3 $command missing.yaml; no_out; err "missing.yaml"
   expect 2 $command --no-such-option missing.yaml; no_out
