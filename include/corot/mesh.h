@@ -80,7 +80,8 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
 
 /* Reads a mesh file. The format is found from the content and, for TetGen, from the suffix:
      gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order;
-     TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1.
+     TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1, and NAME.face if it
+     is there.
 
    gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
    1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
@@ -93,12 +94,12 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
    partitioned meshes are refused. So are tets that list the nodes on their edges in another order
    than gmsh, which shows in where these are. Sections that are not needed are skipped.
 
-   TetGen: region attributes (the last, if there are several) and node boundary markers other than 0
-   become groups "region-N" and "marker-N". TetGen 1.5 winds tets as we do; a file whose tets are
+   TetGen: region attributes (the last, if there are several), markers of faces and markers of nodes
+   become groups "region-N", "face-N" and "marker-N"; 0 stands for none. TetGen 1.5 winds tets as we do; a file whose tets are
    all left-handed is turned round, since the format does not say. Nor does it say in which order
    ten-node tets (TetGen's -o2) list the nodes on their edges, and versions differ: the order is
    found from where the nodes are, and has to be the same in all tets. Nodes on edges have no markers
-   and are in the groups of both ends, as after octasection.
+   and are in the groups of both ends, as after octasection; a face has all its nodes.
 
    Fails with COROT_EIO (cannot be read), COROT_EFORMAT with "FILE:LINE: ..." (text) or
    "FILE: byte N: ..." (binary); an unsound element is named by its number in the file.

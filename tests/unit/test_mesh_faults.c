@@ -1,22 +1,10 @@
 /* Mesh files that are damaged, truncated or hostile: a message with the place, no crash. */
 #include "check.h"
 #include "core/mesh/read/mesh_read.h"
+#include "mesh_text.h"
 #include "temporary.h"
 
 #define DATA SOURCE_DIR "/tests/unit/data/"
-
-/* What becomes of `text` when `from` is replaced once by `to`. */
-static char *edit(const char *text, const char *from, const char *to) {
-  const char *at = strstr(text, from);
-  if (!at) fail_msg("'%s' is not in the text", from);
-  size_t head = (size_t)(at - text), size = strlen(text) + strlen(to) + 1;
-  char *edited = malloc(size);
-  assert_non_null(edited);
-  memcpy(edited, text, head);
-  strcpy(edited + head, to);
-  strcat(edited, at + strlen(from));
-  return edited;
-}
 
 /* An edit of a sound file and the message it leads to. */
 typedef struct fault {
@@ -29,7 +17,7 @@ static void assert_faults(const char *sound, size_t n, const fault *faults) {
   corot_mesh_destroy(m);
   m = NULL;
   for (size_t i = 0; i < n; i++) {
-    char *text = edit(sound, faults[i].from, faults[i].to);
+    char *text = edit_text(sound, faults[i].from, faults[i].to);
     assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
                  faults[i].message);
     assert_null(m);
@@ -157,7 +145,7 @@ static void faults_of_format_2_content(void **state) {
 static void tets_of_several_groups_are_one(void **state) {
   (void)state;
   corot_mesh *m;
-  char *text = edit(sound_2, "$Elements\n3\n", "$Elements\n4\n14 4 2 6 1 2 3 4 50\n");
+  char *text = edit_text(sound_2, "$Elements\n3\n", "$Elements\n4\n14 4 2 6 1 2 3 4 50\n");
   assert_ok(corot_gmsh_parse("good.msh", text, strlen(text), &m));
   assert_int_equal(m->ntet, 2);
   assert_int_equal(m->tet[0][0], 1); /* where it is first */
@@ -214,7 +202,7 @@ static void one_entity_in_too_many_groups(void **state) {
   char many[4000] = "5 0 0 0 300";
   corot_mesh *m = NULL;
   for (int i = 0; i < 300; i++) strcat(many, " 3");
-  char *text = edit(sound_4, "5 0 0 0 1 3", many);
+  char *text = edit_text(sound_4, "5 0 0 0 1 3", many);
   assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
                "bad.msh:6: entity 5 is in 300 physical groups, more than 256");
   free(text);
@@ -248,19 +236,19 @@ static void faults_of_tetgen(void **state) {
       {"0 1 2 3 2", "0 1 2 3 nan", "m.ele:2: the region is nan"},
   };
   corot_mesh *m = NULL;
-  assert_ok(corot_tetgen_parse("m.node", node, strlen(node), "m.ele", ele, strlen(ele), &m));
+  assert_ok(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), NULL, &m));
   assert_int_equal(m->ngroup, 2);
   corot_mesh_destroy(m);
   m = NULL;
   for (size_t i = 0; i < sizeof in_node / sizeof *in_node; i++) {
-    char *text = edit(node, in_node[i].from, in_node[i].to);
-    assert_fails(corot_tetgen_parse("m.node", text, strlen(text), "m.ele", ele, strlen(ele), &m),
+    char *text = edit_text(node, in_node[i].from, in_node[i].to);
+    assert_fails(corot_tetgen_parse(TEXT("m.node", text), TEXT("m.ele", ele), NULL, &m),
                  COROT_EFORMAT, in_node[i].message);
     free(text);
   }
   for (size_t i = 0; i < sizeof in_ele / sizeof *in_ele; i++) {
-    char *text = edit(ele, in_ele[i].from, in_ele[i].to);
-    assert_fails(corot_tetgen_parse("m.node", node, strlen(node), "m.ele", text, strlen(text), &m),
+    char *text = edit_text(ele, in_ele[i].from, in_ele[i].to);
+    assert_fails(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", text), NULL, &m),
                  COROT_EFORMAT, in_ele[i].message);
     free(text);
   }
@@ -342,14 +330,16 @@ static void every_tetgen_prefix_fails_cleanly(void **state) {
   for (size_t n = 0; n < node_size; n++) {
     corot_mesh *m = NULL;
     char *p = prefix(node, n);
-    corot_status status = corot_tetgen_parse("n", p, n, "e", ele, ele_size, &m);
+    corot_status status = corot_tetgen_parse(&(corot_mesh_text){"n", p, n},
+                                             &(corot_mesh_text){"e", ele, ele_size}, NULL, &m);
     assert_clean(status, m);
     free(p);
   }
   for (size_t n = 0; n < ele_size; n++) {
     corot_mesh *m = NULL;
     char *p = prefix(ele, n);
-    corot_status status = corot_tetgen_parse("n", node, node_size, "e", p, n, &m);
+    corot_status status = corot_tetgen_parse(&(corot_mesh_text){"n", node, node_size},
+                                             &(corot_mesh_text){"e", p, n}, NULL, &m);
     assert_clean(status, m);
     free(p);
   }

@@ -4,6 +4,7 @@
 #include "alloc.h"
 #include "check.h"
 #include "core/mesh/read/mesh_read.h"
+#include "mesh_text.h"
 #include "temporary.h"
 
 #define DATA SOURCE_DIR "/tests/unit/data/"
@@ -261,7 +262,7 @@ static void tetgen_by_either_path(void **state) {
 }
 
 static corot_status parse_tetgen(const char *node, const char *ele, corot_mesh **m) {
-  return corot_tetgen_parse("m.node", node, strlen(node), "m.ele", ele, strlen(ele), m);
+  return corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), NULL, m);
 }
 
 static void tetgen_numbers_from_1_and_either_hand(void **state) {

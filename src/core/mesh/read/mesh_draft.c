@@ -67,8 +67,8 @@ corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_eleme
                                    int64_t tag, int *index) {
   int i = index_of(d, tag);
   if (i < 0)
-    return corot_reader_fail(d->element_file, element->at, "element %lld: node %lld does not exist",
-                             (long long)element->tag, (long long)tag);
+    return corot_draft_fail(d, element, "%s %lld: node %lld does not exist",
+                            corot_draft_word(d, element), (long long)element->tag, (long long)tag);
   *index = i;
   return COROT_OK;
 }
