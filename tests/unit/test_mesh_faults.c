@@ -64,7 +64,8 @@ static const char sound_2[] =
 static void faults_of_format_2_syntax(void **state) {
   (void)state;
   static const fault faults[] = {
-      {"2.2 0 8", "4 0 8", "bad.msh:2: gmsh format 4 is not supported: save it as 4.1 or 2.2"},
+      {"2.2 0 8", "4.2 0 8", "bad.msh:2: gmsh format 4.2 is not supported: save it as 4.1 or 2.2"},
+      {"2.2 0 8", "4 1 8", "bad.msh:2: format 4.0 is supported in ASCII only: save it as 4.1"},
       {"2.2 0 8", "two 0 8", "bad.msh:2: expected the version of the format, found 'two'"},
       {"2.2 0 8", "2.2 2 8", "the file type is 2, not 0 (ASCII) or 1 (binary)"},
       {"2.2 0 8", "2.2 0 4", "bad.msh:2: the size of a number is 4, not 8 bytes"},
@@ -100,7 +101,8 @@ static void faults_of_format_2_syntax(void **state) {
       {"12 4 2 1 1 2 3", "12 4 -2 1 1 2 3", "bad.msh:20: element 12 has -2 tags"},
       {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4", "bad.msh:20: expected a node, found the end"},
       {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4 50 1", "bad.msh:20: '1' is too much"},
-      {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4 3000000000", "a node is too large: 3000000000"},
+      {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4 3000000000", "node 3000000000 does not exist"},
+      {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4 30000000000000000000", "a node is too large: '3000"},
       {"12 4 2", "12 99 2", "bad.msh:20: element 12 is of type 99, which is unknown"},
       {"$Elements", "$elements", "bad.msh:17: the section $elements has no end"},
       {"$EndElements\n", "$EndElements\n$EndElements\n", "bad.msh:23: the section"},
@@ -113,6 +115,9 @@ static void faults_of_format_2_content(void **state) {
   (void)state;
   static const fault faults[] = {
       {"50 1 1 1\n", "2 1 1 1\n", "bad.msh:15: node 2 is defined a second time"},
+      {"50 1 1 1\n", "-5 1 1 1\n", "bad.msh:15: node -5: the number of a node may not be negative"},
+      {"50 1 1 1\n", "50 1D 1 1\n", "bad.msh:15: expected x, found '1D'"},
+      {"50 1 1 1\n", "50 1D1x 1 1\n", "bad.msh:15: expected x, found '1D1x'"},
       {"50 1 1 1\n", "50 1 nan 1\n", "bad.msh:15: node 50: y is nan"},
       {"50 1 1 1\n", "50 -inf 1 1\n", "bad.msh:15: node 50: x is -inf"},
       {"50 1 1 1\n", "50 1 1 1e999\n", "bad.msh:15: node 50: z is inf"},
@@ -165,7 +170,7 @@ static const char sound_4[] =
 static void faults_of_format_4(void **state) {
   (void)state;
   static const fault faults[] = {
-      {"$MeshFormat\n4.1", "$MeshFormat\n4.0", "bad.msh:2: gmsh format 4 is not supported"},
+      {"$MeshFormat\n4.1", "$MeshFormat\n4.0", "bad.msh:6: expected an entity's place, found the"},
       {"1 0 1 1\n", "1 0 1 -1\n", "bad.msh:5: a number of entities is -1"},
       {"1 0 1 1\n", "1 0 1 9999\n", "bad.msh:5: a number of entities is 9999, more than"},
       {"1 0 1 1\n", "1 0 1 2\n", "bad.msh:9: expected an entity, found '$EndEntities'"},
@@ -177,7 +182,14 @@ static void faults_of_format_4(void **state) {
       {"$EndElements\n", "$EndElements\n$Elements\n0 0 0 0\n$EndElements\n",
        "elements are listed twice"},
       {"$EndEntities", "$EndEntities\n$PartitionedEntities\n$EndPartitionedEntities",
-       "bad.msh:11: partitioned meshes are not supported"},
+       "bad.msh:11: expected the number of partitions, found '$EndPartitionedEntities'"},
+      {"$EndEntities", "$EndEntities\n$PartitionedEntities\n1\n99\n",
+       "bad.msh:12: the number of ghost entities is 99, more than"},
+      {"$EndEntities", "$EndEntities\n$PartitionedEntities\n1\n0\n0 0 0 1\n8 3 1 2 1 ",
+       "bad.msh:14: expected a partition, found the end of the line"},
+      {"$EndEntities",
+       "$EndEntities\n$PartitionedEntities\n1\n0\n0 0 0 1\n8 3 1 1 1 0 0 0 1 1 1 0 0\n",
+       "entity 8 of dimension 3 is listed twice"},
       {"2 4 1 4", "2 3 1 4", "a block of 3 nodes where 2 are left"},
       {"2 4 1 4", "2 5 1 4", "the blocks have 4 nodes, not 5"},
       {"2 4 1 4", "1 4 1 4", "the blocks have 1 nodes, not 4"},

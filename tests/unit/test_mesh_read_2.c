@@ -33,7 +33,7 @@ static void assert_straight(const corot_mesh *m) {
 
 static const char *const gmsh_files[] = {
     DATA "two_2.msh41.msh",  DATA "two_2.msh41b.msh", DATA "two_2.msh22.msh",
-    DATA "two_2.msh22b.msh", DATA "two_2.msh1.msh",
+    DATA "two_2.msh22b.msh", DATA "two_2.msh40.msh",  DATA "two_2.msh1.msh",
 };
 enum { NFILE = sizeof gmsh_files / sizeof *gmsh_files };
 

@@ -68,7 +68,7 @@ typedef struct corot_draft {
 void corot_draft_clear(corot_draft *d);
 
 /* Room for n nodes, which the caller fills in; then the index of their tags.
-   COROT_EFORMAT: a tag occurs twice. */
+   COROT_EFORMAT: a tag is negative or occurs twice. */
 corot_status corot_draft_alloc_nodes(corot_draft *d, int n);
 corot_status corot_draft_index_nodes(corot_draft *d);
 

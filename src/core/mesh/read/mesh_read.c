@@ -29,7 +29,7 @@ typedef struct companion {
 
 static corot_status load(const char *path, size_t cut, const char *suffix, companion *c) {
   COROT_TRY(change_suffix(path, cut, suffix, &c->path));
-  return corot_file_load(c->path, &c->data, &c->size);
+  return corot_reader_load(c->path, &c->data, &c->size);
 }
 
 /* The same, but it may be missing: `data` is NULL then. */
@@ -37,7 +37,7 @@ static corot_status load_if_there(const char *path, size_t cut, const char *suff
   struct stat info;
   COROT_TRY(change_suffix(path, cut, suffix, &c->path));
   if (stat(c->path, &info) != 0 && errno == ENOENT) return COROT_OK;
-  return corot_file_load(c->path, &c->data, &c->size);
+  return corot_reader_load(c->path, &c->data, &c->size);
 }
 
 /* A TetGen mesh, of which one of the files has been loaded: NAME.node or NAME.ele. */
@@ -97,7 +97,7 @@ corot_status corot_mesh_read(const char *path, corot_mesh **mesh) {
   size_t size;
   COROT_TRY(COROT_GIVEN(path));
   COROT_TRY(COROT_GIVEN(mesh));
-  COROT_TRY(corot_file_load(path, &data, &size));
+  COROT_TRY(corot_reader_load(path, &data, &size));
   corot_c_locale locale = corot_c_locale_enter();
   corot_status status = read_any(path, data, size, mesh);
   corot_c_locale_leave(locale);
