@@ -81,7 +81,8 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
 /* Reads a mesh file. The format is found from the content and, for TetGen, from the suffix:
      gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order, 4.0 ASCII;
      TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1, and NAME.face if it
-     is there.
+     is there;
+     MEDIT (.mesh), ASCII.
 
    gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
    1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
@@ -102,6 +103,10 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
    ten-node tets (TetGen's -o2) list the nodes on their edges, and versions differ: the order is
    found from where the nodes are, and has to be the same in all tets. Nodes on edges have no markers
    and are in the groups of both ends, as after octasection; a face has all its nodes.
+
+   MEDIT: Vertices, Triangles, TrianglesP2, Tetrahedra and TetrahedraP2; references of triangles and
+   tets other than 0 become groups, called as gmsh's nameless ones. Triangles of 3 nodes on ten-node
+   tets take those on their edges from the tets. Other solids are refused, other keywords skipped.
 
    Text may begin with a byte order mark of UTF-8, end its lines with LF, CR LF or CR, and have
    Fortran's exponents, 1D-3; numbers of nodes are not negative.

@@ -1,6 +1,6 @@
-/* Mesh files of any content: no crash, and what is accepted is sound. A gmsh file begins with $;
-   otherwise it is a TetGen .node file, a 0 byte, a .ele file, and perhaps another 0 byte and a
-   .face file. */
+/* Mesh files of any content: no crash, and what is accepted is sound. What is of no format that
+   shows in its content is a TetGen .node file, a 0 byte, a .ele file, and perhaps another 0 byte
+   and a .face file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -92,13 +92,11 @@ static corot_status parse_tetgen(const uint8_t *data, size_t size, corot_mesh **
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   corot_mesh *m = NULL;
   corot_status status;
-  if (size > 0 && data[0] == '$') {
-    char *text = copy(data, size);
-    status = corot_gmsh_parse("fuzz", text, size, &m);
-    free(text);
-  } else {
+  char *text = copy(data, size);
+  status = corot_mesh_parse("fuzz", text, size, &m);
+  free(text);
+  if (status && (strstr(corot_error(), "not a mesh file") || strstr(corot_error(), "is empty")))
     status = parse_tetgen(data, size, &m);
-  }
   if (status == COROT_OK)
     require_sound(m);
   else

@@ -67,6 +67,13 @@ static bool is_gmsh(const char *path, const char *text) {
   return *text == '$';
 }
 
+/* Comments may come first. */
+static bool is_medit(const char *path, const char *text) {
+  static const char word[] = "MeshVersionFormatted";
+  return strncmp(text, word, sizeof word - 1) == 0 ||
+         (has_suffix(path, ".mesh") && *text == '#' && strstr(text, word));
+}
+
 static bool is_tetgen(const char *path, const char *text) {
   (void)text;
   return has_suffix(path, ".node") || has_suffix(path, ".ele");
@@ -78,17 +85,18 @@ static const struct {
   corot_status (*parse)(const char *path, const char *data, size_t size, corot_mesh **mesh);
 } formats[] = {
     {is_gmsh, corot_gmsh_parse},
+    {is_medit, corot_medit_parse},
     {is_tetgen, read_tetgen},
 };
 
-static corot_status read_any(const char *path, const char *data, size_t size, corot_mesh **mesh) {
+corot_status corot_mesh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
   const char *text = data + strspn(data, " \t\r\n");
   if (text == data + size) return corot_fail(COROT_EFORMAT, "%s: the file is empty", path);
   for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
     if (formats[i].recognize(path, text)) return formats[i].parse(path, data, size, mesh);
   return corot_fail(COROT_EFORMAT,
-                    "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, TetGen files "
-                    "are called NAME.node and NAME.ele",
+                    "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, MEDIT files "
+                    "with MeshVersionFormatted, TetGen files are called NAME.node and NAME.ele",
                     path);
 }
 
@@ -99,7 +107,7 @@ corot_status corot_mesh_read(const char *path, corot_mesh **mesh) {
   COROT_TRY(COROT_GIVEN(mesh));
   COROT_TRY(corot_reader_load(path, &data, &size));
   corot_c_locale locale = corot_c_locale_enter();
-  corot_status status = read_any(path, data, size, mesh);
+  corot_status status = corot_mesh_parse(path, data, size, mesh);
   corot_c_locale_leave(locale);
   free(data);
   return status;

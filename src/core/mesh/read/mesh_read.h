@@ -10,8 +10,13 @@ typedef struct corot_mesh_text {
   size_t size;
 } corot_mesh_text;
 
-/* The locale must be C. */
+/* A file that has been loaded, of the format that it has; others that it needs are looked for
+   beside it. The locale must be C. */
+corot_status corot_mesh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
+
+/* The formats. */
 corot_status corot_gmsh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
+corot_status corot_medit_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
 
 /* `face` may be NULL: there are no boundary faces. */
 corot_status corot_tetgen_parse(const corot_mesh_text *node, const corot_mesh_text *ele,

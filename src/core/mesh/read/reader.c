@@ -178,6 +178,7 @@ static corot_status text_long(corot_reader *r, const char *what, int64_t *value)
 }
 
 static corot_status text_int(corot_reader *r, const char *what, int *value) {
+  next_value(r);
   size_t at = r->at;
   int64_t v = 0;
   COROT_TRY(text_long(r, what, &v));
@@ -245,6 +246,7 @@ corot_status corot_reader_point(corot_reader *r, double x[3]) {
 }
 
 corot_status corot_reader_count(corot_reader *r, const char *what, size_t bytes, int *value) {
+  if (!r->binary) next_value(r);
   size_t at = r->at;
   int64_t v = 0;
   COROT_TRY(corot_reader_long(r, what, &v));
