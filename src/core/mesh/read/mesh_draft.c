@@ -35,6 +35,11 @@ static bool consecutive(const corot_draft *d) {
 }
 
 corot_status corot_draft_index_nodes(corot_draft *d) {
+  for (int i = 0; i < d->nnode; i++)
+    if (d->node[i].tag < 0)
+      return corot_reader_fail(d->node_file, d->node[i].at,
+                               "node %lld: the number of a node may not be negative",
+                               (long long)d->node[i].tag);
   if (consecutive(d)) return COROT_OK;
   COROT_TRY(COROT_ALLOC(d->by_tag, d->nnode));
   for (int i = 0; i < d->nnode; i++) d->by_tag[i] = (corot_draft_node){d->node[i].tag, (size_t)i};
@@ -67,8 +72,8 @@ corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_eleme
                                    int64_t tag, int *index) {
   int i = index_of(d, tag);
   if (i < 0)
-    return corot_reader_fail(d->element_file, element->at, "element %lld: node %lld does not exist",
-                             (long long)element->tag, (long long)tag);
+    return corot_draft_fail(d, element, "%s %lld: node %lld does not exist",
+                            corot_draft_word(d, element), (long long)element->tag, (long long)tag);
   *index = i;
   return COROT_OK;
 }
