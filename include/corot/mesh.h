@@ -82,7 +82,8 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
      gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order, 4.0 ASCII;
      TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1, and NAME.face if it
      is there;
-     MEDIT (.mesh), ASCII.
+     MEDIT (.mesh), ASCII;
+     Abaqus and CalculiX (.inp), with the files that it includes.
 
    gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
    1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
@@ -107,6 +108,13 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
    MEDIT: Vertices, Triangles, TrianglesP2, Tetrahedra and TetrahedraP2; references of triangles and
    tets other than 0 become groups, called as gmsh's nameless ones. Triangles of 3 nodes on ten-node
    tets take those on their edges from the tets. Other solids are refused, other keywords skipped.
+
+   Abaqus, CalculiX: *NODE, *ELEMENT of types C3D4 and C3D10 (and C3D4H, C3D10M, ...), *NSET, *ELSET
+   (GENERATE, sets in sets that stand before them), *SURFACE of element faces S1 to S4 or of nodes, and
+   *INCLUDE; sets and surfaces become groups, those of one name (in which case does not matter) a
+   single one. Triangles (S3, CPS3, M3D3, S6, ...) are faces of tets, which a set may have. Other
+   solids, a second *PART or *INSTANCE, and what generates nodes or elements are refused; other
+   elements, also in sets, and other keywords are skipped.
 
    Text may begin with a byte order mark of UTF-8, end its lines with LF, CR LF or CR, and have
    Fortran's exponents, 1D-3; numbers of nodes are not negative.

@@ -138,7 +138,7 @@ static const char info_help[] =
     "usage: corot mesh info FILE [--json]\n"
     "\n"
     "Size, shape, parts and groups of a mesh (gmsh 1, 2.2, 4.0, 4.1; TetGen .node, .ele, .face; "
-    "MEDIT).\n"
+    "MEDIT; .inp).\n"
     "\n"
     "      --json           the same as JSON\n"
     "\n"

@@ -88,6 +88,18 @@ corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size) 
   return COROT_OK;
 }
 
+corot_status corot_draft_add_node(corot_draft *d, corot_draft_node node, const double x[3]) {
+  void *nodes = d->node, *places = d->x;
+  if (d->nnode == INT_MAX) return corot_fail(COROT_ENOMEM, "too many nodes: %d", d->nnode);
+  COROT_TRY(corot_make_room(&nodes, (size_t)d->nnode, &d->node_room, sizeof node));
+  d->node = nodes;
+  COROT_TRY(corot_make_room(&places, (size_t)d->nnode, &d->x_room, sizeof *d->x));
+  d->x = places;
+  d->node[d->nnode] = node;
+  memcpy(d->x[d->nnode++], x, sizeof *d->x);
+  return COROT_OK;
+}
+
 static corot_status add_middle(corot_draft *d, int node) {
   void *items = d->middle;
   COROT_TRY(corot_make_room(&items, d->nmiddle, &d->middle_room, sizeof *d->middle));

@@ -45,6 +45,7 @@ typedef struct corot_draft {
   const char *unused_hint; /* if there are no groups: why a node may be in no tet */
 
   int nnode;
+  size_t node_room, x_room; /* of nodes that are added one by one */
   double (*x)[3];
   corot_draft_node *node;   /* [nnode] */
   corot_draft_node *by_tag; /* [nnode] ascending tags, `at` being the index; NULL: tags are
@@ -85,6 +86,9 @@ static inline const char *corot_draft_word(const corot_draft *d, const corot_dra
 /* The index of a node. COROT_EFORMAT, naming the element, if there is none. */
 corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_element *element,
                                    int64_t tag, int *index);
+
+/* Appends a node, before the index is made. */
+corot_status corot_draft_add_node(corot_draft *d, corot_draft_node node, const double x[3]);
 
 /* Makes room for one more item of `size` bytes. */
 corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size);

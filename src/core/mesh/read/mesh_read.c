@@ -74,6 +74,11 @@ static bool is_medit(const char *path, const char *text) {
          (has_suffix(path, ".mesh") && *text == '#' && strstr(text, word));
 }
 
+static bool is_inp(const char *path, const char *text) {
+  (void)path;
+  return *text == '*';
+}
+
 static bool is_tetgen(const char *path, const char *text) {
   (void)text;
   return has_suffix(path, ".node") || has_suffix(path, ".ele");
@@ -86,6 +91,7 @@ static const struct {
 } formats[] = {
     {is_gmsh, corot_gmsh_parse},
     {is_medit, corot_medit_parse},
+    {is_inp, corot_inp_parse},
     {is_tetgen, read_tetgen},
 };
 
@@ -96,7 +102,8 @@ corot_status corot_mesh_parse(const char *path, const char *data, size_t size, c
     if (formats[i].recognize(path, text)) return formats[i].parse(path, data, size, mesh);
   return corot_fail(COROT_EFORMAT,
                     "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, MEDIT files "
-                    "with MeshVersionFormatted, TetGen files are called NAME.node and NAME.ele",
+                    "with MeshVersionFormatted, Abaqus files with *, TetGen files are called "
+                    "NAME.node and NAME.ele",
                     path);
 }
 

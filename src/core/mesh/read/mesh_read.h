@@ -16,6 +16,7 @@ corot_status corot_mesh_parse(const char *path, const char *data, size_t size, c
 
 /* The formats. */
 corot_status corot_gmsh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
+corot_status corot_inp_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
 corot_status corot_medit_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
 
 /* `face` may be NULL: there are no boundary faces. */

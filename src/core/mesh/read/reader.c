@@ -62,10 +62,12 @@ corot_status corot_reader_load(const char *path, char **data, size_t *size) {
   return COROT_OK;
 }
 
-static long line_of(const corot_reader *r, size_t at) {
-  long line = 1;
-  for (size_t i = 0; i < at; i++) line += r->data[i] == '\n';
-  return line;
+/* The file and line of a place, counted from where the piece begins in which it is. */
+static corot_reader_piece place_of(const corot_reader *r, size_t at) {
+  corot_reader_piece p = {0, r->path, 1};
+  for (size_t i = 0; i < r->npiece && r->piece[i].start <= at; i++) p = r->piece[i];
+  for (size_t i = p.start; i < at; i++) p.line += r->data[i] == '\n';
+  return p;
 }
 
 corot_status corot_reader_fail(const corot_reader *r, size_t at, const char *format, ...) {
@@ -75,7 +77,8 @@ corot_status corot_reader_fail(const corot_reader *r, size_t at, const char *for
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
   if (r->bytes) return corot_fail(COROT_EFORMAT, "%s: byte %zu: %s", r->path, at, text);
-  return corot_fail(COROT_EFORMAT, "%s:%ld: %s", r->path, line_of(r, at), text);
+  corot_reader_piece place = place_of(r, at);
+  return corot_fail(COROT_EFORMAT, "%s:%ld: %s", place.path, place.line, text);
 }
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }

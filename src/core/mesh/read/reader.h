@@ -10,17 +10,26 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Where text of a file begins in what is read. */
+typedef struct corot_reader_piece {
+  size_t start;
+  const char *path;
+  long line;
+} corot_reader_piece;
+
 typedef struct corot_reader {
   const char *path; /* as messages call it */
   const char *data; /* data[size] is 0 */
   size_t size;
   size_t at;
-  char comment;   /* from here to the end of its line; 0: none */
-  char separator; /* a value ends before it; 0: blanks only separate */
-  bool flows;     /* a value may stand on a later line; the ends of lines mean nothing */
-  bool bytes;     /* messages give the byte instead of the line */
-  bool binary;    /* the values that follow are binary */
-  bool swap;      /* and of the other byte order */
+  size_t npiece;
+  const corot_reader_piece *piece; /* [npiece] ascending; none: all is of the file `path` */
+  char comment;                    /* from here to the end of its line; 0: none */
+  char separator;                  /* a value ends before it; 0: blanks only separate */
+  bool flows;  /* a value may stand on a later line; the ends of lines mean nothing */
+  bool bytes;  /* messages give the byte instead of the line */
+  bool binary; /* the values that follow are binary */
+  bool swap;   /* and of the other byte order */
 } corot_reader;
 
 /* The whole file, a 0 added behind it; the caller frees. COROT_EIO: it cannot be read. */
