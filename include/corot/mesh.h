@@ -79,8 +79,11 @@ COROT_API corot_status corot_mesh_copy(const corot_mesh *mesh, corot_mesh **copy
 COROT_API void corot_mesh_destroy(corot_mesh *mesh);
 
 /* Reads a mesh file. The format is found from the content and, for TetGen, from the suffix:
-     gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order;
-     TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1.
+     gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order, 4.0 ASCII;
+     TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1, and NAME.face if it
+     is there;
+     MEDIT (.mesh), ASCII;
+     Abaqus and CalculiX (.inp), with the files that it includes.
 
    gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
    1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
@@ -89,16 +92,32 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
    number, as "point-7", "line-7", "surface-7", "volume-7". A name without elements makes no group.
    A group's triangles must be faces of tets; those inside the mesh keep the file's winding
    (reversed by a negative physical number in format 4.1). Other lines and surfaces are ignored
-   outside physical groups and refused inside; other solids, tets of both orders in one file, and
-   partitioned meshes are refused. So are tets that list the nodes on their edges in another order
-   than gmsh, which shows in where these are. Sections that are not needed are skipped.
+   outside physical groups and refused inside; other solids, and tets of both orders in one file, are
+   refused. A partitioned mesh of format 4.1 is put together: what is between partitions makes no
+   group. Refused, too,
+   are tets that list the nodes on their edges in another order than gmsh, which shows in where these
+   are. Sections that are not needed are skipped.
 
-   TetGen: region attributes (the last, if there are several) and node boundary markers other than 0
-   become groups "region-N" and "marker-N". TetGen 1.5 winds tets as we do; a file whose tets are
+   TetGen: region attributes (the last, if there are several), markers of faces and markers of nodes
+   become groups "region-N", "face-N" and "marker-N"; 0 stands for none. TetGen 1.5 winds tets as we do; a file whose tets are
    all left-handed is turned round, since the format does not say. Nor does it say in which order
    ten-node tets (TetGen's -o2) list the nodes on their edges, and versions differ: the order is
    found from where the nodes are, and has to be the same in all tets. Nodes on edges have no markers
-   and are in the groups of both ends, as after octasection.
+   and are in the groups of both ends, as after octasection; a face has all its nodes.
+
+   MEDIT: Vertices, Triangles, TrianglesP2, Tetrahedra and TetrahedraP2; references of triangles and
+   tets other than 0 become groups, called as gmsh's nameless ones. Triangles of 3 nodes on ten-node
+   tets take those on their edges from the tets. Other solids are refused, other keywords skipped.
+
+   Abaqus, CalculiX: *NODE, *ELEMENT of types C3D4 and C3D10 (and C3D4H, C3D10M, ...), *NSET, *ELSET
+   (GENERATE, sets in sets that stand before them), *SURFACE of element faces S1 to S4 or of nodes, and
+   *INCLUDE; sets and surfaces become groups, those of one name (in which case does not matter) a
+   single one. Triangles (S3, CPS3, M3D3, S6, ...) are faces of tets, which a set may have. Other
+   solids, a second *PART or *INSTANCE, and what generates nodes or elements are refused; other
+   elements, also in sets, and other keywords are skipped.
+
+   Text may begin with a byte order mark of UTF-8, end its lines with LF, CR LF or CR, and have
+   Fortran's exponents, 1D-3; numbers of nodes are not negative.
 
    Fails with COROT_EIO (cannot be read), COROT_EFORMAT with "FILE:LINE: ..." (text) or
    "FILE: byte N: ..." (binary); an unsound element is named by its number in the file.

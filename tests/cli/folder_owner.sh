@@ -9,7 +9,7 @@ refused() { err "$1"; err "--force"; no_out; }
 # One file of each name that a run writes, in a folder of somebody else's.
 for name in report.html probes.csv energy.csv steps.csv history.csv compare.csv reactions.csv \
   groups.json groups.json.tmp states.bin fields.pvd fields/fields_000001.vtu fields/frame.tmp \
-  result.json result.json.tmp; do
+  result.json result.json.tmp checkpoint.bin checkpoint.bin.tmp; do
   for command in run static; do
     rm -rf theirs out && mkdir -p theirs/fields && echo mine >theirs/$name
     cp -r theirs out

@@ -91,6 +91,23 @@ check_exports() {
   if grep -v @@COROT_ "$work/exported"; then fail "that has no version"; fi
 }
 
+# The package for Python finds its library by the way from itself, wherever both were moved to.
+check_python() {
+  for python in /usr/bin/python3 python3 none; do
+    "$python" -c 'import cffi, numpy' 2>/dev/null && break
+  done
+  if [ "$python" = none ]; then
+    echo "No python3 with cffi and numpy: its package was not looked at."
+    return
+  fi
+  (cd / && unset COROT_LIBRARY && PYTHONPATH=$work/prefix/lib/python3/dist-packages \
+    PYTHONDONTWRITEBYTECODE=1 "$python" -m corot) >"$work/out" || fail "python3 -m corot"
+  grep -q "^library: *$work/prefix/lib/somewhere/libcorot_integrate" "$work/out" || {
+    cat "$work/out"
+    fail "Python does not find the library"
+  }
+}
+
 check_soname() {
   for library in "$work"/prefix/lib/somewhere/libcorot_*.so; do
     readelf -d "$library" | grep -q 'SONAME.*libcorot_[a-z]*\.so\.[0-9.]*\]' || fail "$library: soname"
@@ -139,6 +156,7 @@ case $variant in
     build -DCOROT_APP=OFF -DBUILD_SHARED_LIBS=ON
     check_exports
     check_soname
+    check_python
     host
     goes "$work/host/build/host_rk4"
     goes "$work/host/build/host_integrate"

@@ -81,10 +81,13 @@ LIMIT = ("find-limit model.yaml -o out/limit -j 1 --set integrator.method=backwa
 # Two meshes.
 SOLVE = "solve model.yaml --goal corner.ux@end --within 0.9 --set strain=green -o out/solve -j 1"
 
+# Checkpoints after every second step, each written.
+LONG = "run model.yaml -o out/long --resume --set checkpoint.every=0 --set checkpoint.steps=2"
+
 # Each: what has been done before (a case, or nothing), the command, and whether an "ok" beside a
 # failure is one of several runs, of which others may have failed.
-# And its exit code.
-Case = collections.namedtuple("Case", "before command several code", defaults=(0,))
+# And its exit code; and whether a failure has cut what was done before, when it had a checkpoint.
+Case = collections.namedtuple("Case", "before command several code cut", defaults=(0, False))
 CASES = {
     "run": Case(None, "run model.yaml -o out/run", False),
     "run-gives-up": Case(None, "run model.yaml -o out/run --set integrator.max_steps=2", False, 4),
@@ -98,6 +101,9 @@ CASES = {
     "mesh-info": Case("mesh-box", "mesh info box.msh", False),
     "mesh-refine": Case("mesh-box", "mesh refine box.msh -o fine.msh", False),
     "run-again": Case("run", "run model.yaml -o out/run --quiet", False),
+    "checkpoint": Case(None, LONG, False),
+    "resume": Case("checkpoint", LONG, False, cut=True),
+    "resume-done": Case("checkpoint", LONG, False),
     "report": Case("run", "report out/run", True),
     "study": Case(None, "study study.yaml -o out/study -j 1", True),
     "status": Case("study", "study status out/study", True),
@@ -249,12 +255,30 @@ def first_tree():
     return {name: text.encode() for name, text in texts.items()}
 
 
+def cut_tree(name, state):
+    """What a case leaves when it fails half-way, and has a checkpoint by then."""
+    begun, folder = fixture(name).before, setting.folder + "/again"
+    renew(folder, begun)
+    state.reset(RECORD, "io")
+    whole(CASES[name].command, folder, state)
+    for k in range(state.number("count") // 2, state.number("count")):
+        renew(folder, begun)
+        state.reset(FAIL, "io", k)
+        o = whole(CASES[name].command, folder, state)
+        if o.code and any(n.endswith("/checkpoint.bin") for n in o.tree):
+            return o.tree
+    raise AssertionError("no failure leaves a checkpoint")
+
+
 @functools.lru_cache(None)
 def fixture(name):
     case = CASES[name]
-    before = fixture(case.before).plain.tree if case.before else first_tree()
-    renew(setting.folder + "/again", before)
     state = State(setting.folder + "/state")
+    if case.cut:
+        before = cut_tree(case.before, state)
+    else:
+        before = fixture(case.before).plain.tree if case.before else first_tree()
+    renew(setting.folder + "/again", before)
     state.reset(OFF)
     plain = whole(case.command, setting.folder + "/again", state)
     assert plain.code == case.code, (name, plain.code, plain.err)
@@ -271,8 +295,10 @@ def is_result(name):
 
 
 def content(tree, name):
-    """What a pilot took is not known where it failed."""
+    """What a pilot took is not known where it failed. How often a run went on does not matter."""
     text = tree.get(name)
+    if text and os.path.basename(name) == "result.json":
+        return re.sub(rb'"resumed": \d+', b"", text)
     if text and os.path.basename(name) == "study.json":
         return re.sub(rb'"cost": \{[^{}]*\}', b"", text)
     return text
@@ -280,13 +306,19 @@ def content(tree, name):
 
 def differences(a, b):
     return sorted(n for n in a.keys() | b.keys()
-                  if content(a, n) != content(b, n) and is_result(n))
+                  if content(a, n) != content(b, n) and is_result(n) and not is_leftover(n, a, b))
+
+
+def is_leftover(name, *trees):
+    """A checkpoint beside the result of a run that is over, which could not be removed."""
+    result = os.path.dirname(name) + "/result.json"
+    return os.path.basename(name) == "checkpoint.bin" and all(is_ok(t.get(result)) for t in trees)
 
 
 def is_ok(text):
     try:
         return json.loads(text).get("status") == "ok"
-    except (ValueError, AttributeError):
+    except (TypeError, ValueError, AttributeError):
         return False
 
 
@@ -311,7 +343,7 @@ def judge_rest(case, before, plain, o):
         part = {n for n in plain.tree if n.startswith(folder) and "timed/" not in n[len(folder):]
                 and is_result(n)}
         may_lack = ("timings.json", "report.html")
-        different = [n for n in part if n in o.tree and o.tree[n] != plain.tree[n]
+        different = [n for n in part if n in o.tree and content(o.tree, n) != content(plain.tree, n)
                      or n not in o.tree and os.path.basename(n) not in may_lack]
         if not case.several and b"standard output" in o.err:
             if differences(o.tree, plain.tree):  # it was complete before that failed

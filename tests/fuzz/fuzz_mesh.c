@@ -1,5 +1,6 @@
-/* Mesh files of any content: no crash, and what is accepted is sound. A gmsh file begins with $;
-   otherwise it is a TetGen .node file, a 0 byte, and a .ele file. */
+/* Mesh files of any content: no crash, and what is accepted is sound. What is of no format that
+   shows in its content is a TetGen .node file, a 0 byte, a .ele file, and perhaps another 0 byte
+   and a .face file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,21 +70,33 @@ static void require_sound(const corot_mesh *m) {
   require(corot_mesh_measure(m).volume > 0, "no volume");
 }
 
+/* Of texts with a 0 byte between them, what is behind the next one: NULL if there is none. */
+static const uint8_t *rest_of(const uint8_t *data, const uint8_t *end) {
+  const uint8_t *zero = data < end ? memchr(data, 0, (size_t)(end - data)) : NULL;
+  return zero ? zero + 1 : NULL;
+}
+
+static corot_status parse_tetgen(const uint8_t *data, size_t size, corot_mesh **m) {
+  const uint8_t *end = data + size, *ele = rest_of(data, end), *face = ele ? rest_of(ele, end) : 0;
+  size_t nnode = ele ? (size_t)(ele - data) - 1 : size,
+         nele = !ele ? 0 : (size_t)((face ? face - 1 : end) - ele),
+         nface = face ? (size_t)(end - face) : 0;
+  char *text[] = {copy(data, nnode), copy(ele, nele), copy(face, nface)};
+  const corot_mesh_text n = {"fuzz.node", text[0], nnode}, e = {"fuzz.ele", text[1], nele},
+                        f = {"fuzz.face", text[2], nface};
+  corot_status status = corot_tetgen_parse(&n, &e, face ? &f : NULL, m);
+  for (int i = 0; i < 3; i++) free(text[i]);
+  return status;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   corot_mesh *m = NULL;
   corot_status status;
-  if (size > 0 && data[0] == '$') {
-    char *text = copy(data, size);
-    status = corot_gmsh_parse("fuzz", text, size, &m);
-    free(text);
-  } else {
-    const uint8_t *end = size ? memchr(data, 0, size) : NULL;
-    size_t n = end ? (size_t)(end - data) : size, rest = end ? size - n - 1 : 0;
-    char *node = copy(data, n), *ele = copy(data + size - rest, rest);
-    status = corot_tetgen_parse("fuzz.node", node, n, "fuzz.ele", ele, rest, &m);
-    free(node);
-    free(ele);
-  }
+  char *text = copy(data, size);
+  status = corot_mesh_parse("fuzz", text, size, &m);
+  free(text);
+  if (status && (strstr(corot_error(), "not a mesh file") || strstr(corot_error(), "is empty")))
+    status = parse_tetgen(data, size, &m);
   if (status == COROT_OK)
     require_sound(m);
   else

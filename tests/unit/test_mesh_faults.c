@@ -1,22 +1,10 @@
 /* Mesh files that are damaged, truncated or hostile: a message with the place, no crash. */
 #include "check.h"
 #include "core/mesh/read/mesh_read.h"
+#include "mesh_text.h"
 #include "temporary.h"
 
 #define DATA SOURCE_DIR "/tests/unit/data/"
-
-/* What becomes of `text` when `from` is replaced once by `to`. */
-static char *edit(const char *text, const char *from, const char *to) {
-  const char *at = strstr(text, from);
-  if (!at) fail_msg("'%s' is not in the text", from);
-  size_t head = (size_t)(at - text), size = strlen(text) + strlen(to) + 1;
-  char *edited = malloc(size);
-  assert_non_null(edited);
-  memcpy(edited, text, head);
-  strcpy(edited + head, to);
-  strcat(edited, at + strlen(from));
-  return edited;
-}
 
 /* An edit of a sound file and the message it leads to. */
 typedef struct fault {
@@ -29,7 +17,7 @@ static void assert_faults(const char *sound, size_t n, const fault *faults) {
   corot_mesh_destroy(m);
   m = NULL;
   for (size_t i = 0; i < n; i++) {
-    char *text = edit(sound, faults[i].from, faults[i].to);
+    char *text = edit_text(sound, faults[i].from, faults[i].to);
     assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
                  faults[i].message);
     assert_null(m);
@@ -76,7 +64,8 @@ static const char sound_2[] =
 static void faults_of_format_2_syntax(void **state) {
   (void)state;
   static const fault faults[] = {
-      {"2.2 0 8", "4 0 8", "bad.msh:2: gmsh format 4 is not supported: save it as 4.1 or 2.2"},
+      {"2.2 0 8", "4.2 0 8", "bad.msh:2: gmsh format 4.2 is not supported: save it as 4.1 or 2.2"},
+      {"2.2 0 8", "4 1 8", "bad.msh:2: format 4.0 is supported in ASCII only: save it as 4.1"},
       {"2.2 0 8", "two 0 8", "bad.msh:2: expected the version of the format, found 'two'"},
       {"2.2 0 8", "2.2 2 8", "the file type is 2, not 0 (ASCII) or 1 (binary)"},
       {"2.2 0 8", "2.2 0 4", "bad.msh:2: the size of a number is 4, not 8 bytes"},
@@ -112,7 +101,9 @@ static void faults_of_format_2_syntax(void **state) {
       {"12 4 2 1 1 2 3", "12 4 -2 1 1 2 3", "bad.msh:20: element 12 has -2 tags"},
       {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4", "bad.msh:20: expected a node, found the end"},
       {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4 50 1", "bad.msh:20: '1' is too much"},
-      {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4 3000000000", "a node is too large: 3000000000"},
+      {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4 3000000000", "node 3000000000 does not exist"},
+      {"12 4 2 1 1 2 3 4 50", "12 4 2 1 1 2 3 4 30000000000000000000",
+       "a node is too large: '3000"},
       {"12 4 2", "12 99 2", "bad.msh:20: element 12 is of type 99, which is unknown"},
       {"$Elements", "$elements", "bad.msh:17: the section $elements has no end"},
       {"$EndElements\n", "$EndElements\n$EndElements\n", "bad.msh:23: the section"},
@@ -125,6 +116,9 @@ static void faults_of_format_2_content(void **state) {
   (void)state;
   static const fault faults[] = {
       {"50 1 1 1\n", "2 1 1 1\n", "bad.msh:15: node 2 is defined a second time"},
+      {"50 1 1 1\n", "-5 1 1 1\n", "bad.msh:15: node -5: the number of a node may not be negative"},
+      {"50 1 1 1\n", "50 1D 1 1\n", "bad.msh:15: expected x, found '1D'"},
+      {"50 1 1 1\n", "50 1D1x 1 1\n", "bad.msh:15: expected x, found '1D1x'"},
       {"50 1 1 1\n", "50 1 nan 1\n", "bad.msh:15: node 50: y is nan"},
       {"50 1 1 1\n", "50 -inf 1 1\n", "bad.msh:15: node 50: x is -inf"},
       {"50 1 1 1\n", "50 1 1 1e999\n", "bad.msh:15: node 50: z is inf"},
@@ -157,7 +151,7 @@ static void faults_of_format_2_content(void **state) {
 static void tets_of_several_groups_are_one(void **state) {
   (void)state;
   corot_mesh *m;
-  char *text = edit(sound_2, "$Elements\n3\n", "$Elements\n4\n14 4 2 6 1 2 3 4 50\n");
+  char *text = edit_text(sound_2, "$Elements\n3\n", "$Elements\n4\n14 4 2 6 1 2 3 4 50\n");
   assert_ok(corot_gmsh_parse("good.msh", text, strlen(text), &m));
   assert_int_equal(m->ntet, 2);
   assert_int_equal(m->tet[0][0], 1); /* where it is first */
@@ -177,7 +171,7 @@ static const char sound_4[] =
 static void faults_of_format_4(void **state) {
   (void)state;
   static const fault faults[] = {
-      {"$MeshFormat\n4.1", "$MeshFormat\n4.0", "bad.msh:2: gmsh format 4 is not supported"},
+      {"$MeshFormat\n4.1", "$MeshFormat\n4.0", "bad.msh:6: expected an entity's place, found the"},
       {"1 0 1 1\n", "1 0 1 -1\n", "bad.msh:5: a number of entities is -1"},
       {"1 0 1 1\n", "1 0 1 9999\n", "bad.msh:5: a number of entities is 9999, more than"},
       {"1 0 1 1\n", "1 0 1 2\n", "bad.msh:9: expected an entity, found '$EndEntities'"},
@@ -189,7 +183,14 @@ static void faults_of_format_4(void **state) {
       {"$EndElements\n", "$EndElements\n$Elements\n0 0 0 0\n$EndElements\n",
        "elements are listed twice"},
       {"$EndEntities", "$EndEntities\n$PartitionedEntities\n$EndPartitionedEntities",
-       "bad.msh:11: partitioned meshes are not supported"},
+       "bad.msh:11: expected the number of partitions, found '$EndPartitionedEntities'"},
+      {"$EndEntities", "$EndEntities\n$PartitionedEntities\n1\n99\n",
+       "bad.msh:12: the number of ghost entities is 99, more than"},
+      {"$EndEntities", "$EndEntities\n$PartitionedEntities\n1\n0\n0 0 0 1\n8 3 1 2 1 ",
+       "bad.msh:14: expected a partition, found the end of the line"},
+      {"$EndEntities",
+       "$EndEntities\n$PartitionedEntities\n1\n0\n0 0 0 1\n8 3 1 1 1 0 0 0 1 1 1 0 0\n",
+       "entity 8 of dimension 3 is listed twice"},
       {"2 4 1 4", "2 3 1 4", "a block of 3 nodes where 2 are left"},
       {"2 4 1 4", "2 5 1 4", "the blocks have 4 nodes, not 5"},
       {"2 4 1 4", "1 4 1 4", "the blocks have 1 nodes, not 4"},
@@ -214,7 +215,7 @@ static void one_entity_in_too_many_groups(void **state) {
   char many[4000] = "5 0 0 0 300";
   corot_mesh *m = NULL;
   for (int i = 0; i < 300; i++) strcat(many, " 3");
-  char *text = edit(sound_4, "5 0 0 0 1 3", many);
+  char *text = edit_text(sound_4, "5 0 0 0 1 3", many);
   assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
                "bad.msh:6: entity 5 is in 300 physical groups, more than 256");
   free(text);
@@ -248,19 +249,19 @@ static void faults_of_tetgen(void **state) {
       {"0 1 2 3 2", "0 1 2 3 nan", "m.ele:2: the region is nan"},
   };
   corot_mesh *m = NULL;
-  assert_ok(corot_tetgen_parse("m.node", node, strlen(node), "m.ele", ele, strlen(ele), &m));
+  assert_ok(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), NULL, &m));
   assert_int_equal(m->ngroup, 2);
   corot_mesh_destroy(m);
   m = NULL;
   for (size_t i = 0; i < sizeof in_node / sizeof *in_node; i++) {
-    char *text = edit(node, in_node[i].from, in_node[i].to);
-    assert_fails(corot_tetgen_parse("m.node", text, strlen(text), "m.ele", ele, strlen(ele), &m),
+    char *text = edit_text(node, in_node[i].from, in_node[i].to);
+    assert_fails(corot_tetgen_parse(TEXT("m.node", text), TEXT("m.ele", ele), NULL, &m),
                  COROT_EFORMAT, in_node[i].message);
     free(text);
   }
   for (size_t i = 0; i < sizeof in_ele / sizeof *in_ele; i++) {
-    char *text = edit(ele, in_ele[i].from, in_ele[i].to);
-    assert_fails(corot_tetgen_parse("m.node", node, strlen(node), "m.ele", text, strlen(text), &m),
+    char *text = edit_text(ele, in_ele[i].from, in_ele[i].to);
+    assert_fails(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", text), NULL, &m),
                  COROT_EFORMAT, in_ele[i].message);
     free(text);
   }
@@ -342,14 +343,16 @@ static void every_tetgen_prefix_fails_cleanly(void **state) {
   for (size_t n = 0; n < node_size; n++) {
     corot_mesh *m = NULL;
     char *p = prefix(node, n);
-    corot_status status = corot_tetgen_parse("n", p, n, "e", ele, ele_size, &m);
+    corot_status status = corot_tetgen_parse(&(corot_mesh_text){"n", p, n},
+                                             &(corot_mesh_text){"e", ele, ele_size}, NULL, &m);
     assert_clean(status, m);
     free(p);
   }
   for (size_t n = 0; n < ele_size; n++) {
     corot_mesh *m = NULL;
     char *p = prefix(ele, n);
-    corot_status status = corot_tetgen_parse("n", node, node_size, "e", p, n, &m);
+    corot_status status = corot_tetgen_parse(&(corot_mesh_text){"n", node, node_size},
+                                             &(corot_mesh_text){"e", p, n}, NULL, &m);
     assert_clean(status, m);
     free(p);
   }

@@ -4,6 +4,7 @@
 #include "alloc.h"
 #include "check.h"
 #include "core/mesh/read/mesh_read.h"
+#include "mesh_text.h"
 #include "temporary.h"
 
 #define DATA SOURCE_DIR "/tests/unit/data/"
@@ -43,9 +44,9 @@ static void assert_same_mesh(const corot_mesh *a, const corot_mesh *b, bool name
 }
 
 static const char *const gmsh_files[] = {
-    DATA "two.msh41.msh",  DATA "two.msh41b.msh",  DATA "two.msh22.msh",
-    DATA "two.msh22b.msh", DATA "two.msh41p.msh",  DATA "two.msh41pb.msh",
-    DATA "two.msh22p.msh", DATA "two.msh22pb.msh", DATA "two.msh1.msh",
+    DATA "two.msh41.msh",  DATA "two.msh41b.msh",  DATA "two.msh22.msh",  DATA "two.msh22b.msh",
+    DATA "two.msh41p.msh", DATA "two.msh41pb.msh", DATA "two.msh22p.msh", DATA "two.msh22pb.msh",
+    DATA "two.msh40.msh",  DATA "two.msh40p.msh",  DATA "two.msh1.msh",
 };
 enum { NFILE = sizeof gmsh_files / sizeof *gmsh_files };
 
@@ -132,9 +133,9 @@ static void layout_and_foreign_sections_do_not_matter(void **state) {
   corot_mesh *a = parse(FORMAT_2 NODES_2 "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n");
   corot_mesh *b = parse(
       "\n$Comments\nany $thing: $EndComment \n$EndComments\n\n$MeshFormat\r\n2.2  0\t8 \r\n"
-      "$EndMeshFormat\r\n$Nodes\r\n\r\n4\r\n-7 -0e0 0. 0\r\n0 1.0E+0 0 0\r\n"
+      "$EndMeshFormat\r\n$Nodes\r\n\r\n4\r\n7 -0e0 0. 0\r\n0 1.0E+0 0 0\r\n"
       "  900 0 10.e-1 0\n5 0 0 +1\n$EndNodes\n$NodeData\n1\n\"u\"\n$EndNodeData\n"
-      "$Elements\n1\n77 4 4 0 1 1 1 -7 0 900 5\n$EndElements");
+      "$Elements\n1\n77 4 4 0 1 1 1 7 0 900 5\n$EndElements");
   assert_int_equal(b->ngroup, 0);
   b->x[0][0] = 0; /* it is -0 */
   assert_same_mesh(a, b, true);
@@ -142,12 +143,77 @@ static void layout_and_foreign_sections_do_not_matter(void **state) {
 
   b = parse(FORMAT_4
             "$Nodes\n2 4 1 1152921504606846976\n3 1 0 1\n1152921504606846976\n0 0 0\n"
-            "3 1 0 3\n2\n30\n-4\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
-            "$Elements\n1 1 1 1\n3 1 4 1\n9000000000 1152921504606846976 2 30 -4\n"
+            "3 1 0 3\n2\n30\n4\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+            "$Elements\n1 1 1 1\n3 1 4 1\n9000000000 1152921504606846976 2 30 4\n"
             "$EndElements\n");
   assert_same_mesh(a, b, true);
   corot_mesh_destroy(b);
   corot_mesh_destroy(a);
+}
+
+/* A node for each of a mesh's nodes, at the same place, in another order. */
+static void assert_same_shape(const corot_mesh *a, const corot_mesh *b) {
+  assert_int_equal(a->nnode, b->nnode);
+  assert_int_equal(a->ntet, b->ntet);
+  assert_int_equal(a->ngroup, b->ngroup);
+  assert_close(corot_mesh_measure(a).volume, corot_mesh_measure(b).volume, 1e-12, 0);
+  for (int g = 0; g < a->ngroup; g++) {
+    assert_string_equal(a->group[g].name, b->group[g].name);
+    assert_int_equal(a->group[g].nnode, b->group[g].nnode);
+    assert_int_equal(a->group[g].ntri, b->group[g].ntri);
+    assert_int_equal(a->group[g].ntet, b->group[g].ntet);
+  }
+}
+
+/* Partitions are put together again: their groups are those of the whole, and what separates them
+   is in no group. */
+static void partitioned_meshes_are_whole(void **state) {
+  (void)state;
+  static const char *const files[][2] = {{DATA "two.parts.msh", DATA "two.msh41.msh"},
+                                         {DATA "two.partsb.msh", DATA "two.msh41.msh"},
+                                         {DATA "two_2.parts.msh", DATA "two_2.msh41.msh"}};
+  for (int i = 0; i < 3; i++) {
+    corot_mesh *parts = read_mesh(files[i][0]), *whole = read_mesh(files[i][1]);
+    assert_same_shape(parts, whole);
+    corot_mesh_destroy(parts);
+    corot_mesh_destroy(whole);
+  }
+}
+
+/* One tet, spelled in the ways that are met in the wild, comes out the same. */
+static void spellings(void **state) {
+  (void)state;
+  static const char plain[] = FORMAT_2 NODES_2 "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n";
+  char *dir = temporary_folder(), cr[sizeof plain], *text;
+  corot_mesh *a = parse(plain);
+  strcpy(cr, plain);
+  for (char *c = cr; *c; c++)
+    if (*c == '\n') *c = '\r';
+  char *const spelled[] = {
+      edit_text(plain, "$Mesh", "\xef\xbb\xbf$Mesh"),
+      edit_text(cr, "$Mesh", "\r\r$Mesh"),
+      edit_text(plain, "2 1 0 0", "2 10.0D-1 0D0 +0.d+00"),
+      edit_text(plain, "1 4 2 0 1 1 2 3 4", "9000000000 4 2 0 1 1 2 3 4"),
+  };
+  for (int i = 0; i < 4; i++) {
+    put_file(in(dir, "a.msh"), spelled[i]);
+    corot_mesh *b = read_mesh(in(dir, "a.msh"));
+    assert_same_mesh(a, b, true);
+    corot_mesh_destroy(b);
+    free(spelled[i]);
+  }
+  text = edit_text(plain, "4 0 0 1\n", "3000000000 0 0 1\n");
+  char *large = edit_text(text, "1 2 3 4\n", "1 2 3 3000000000\n");
+  corot_mesh *b = parse(large);
+  assert_same_mesh(a, b, true);
+  corot_mesh_destroy(a);
+  corot_mesh_destroy(b);
+  free(text);
+  free(large);
+  put_file(in(dir, "a.msh"), "\xff\xfe$");
+  assert_fails(corot_mesh_read(in(dir, "a.msh"), &a), COROT_EFORMAT,
+               "a.msh: the text is UTF-16: save it as UTF-8 or ASCII");
+  remove_folder(dir);
 }
 
 static void other_elements_outside_groups_are_ignored(void **state) {
@@ -261,7 +327,7 @@ static void tetgen_by_either_path(void **state) {
 }
 
 static corot_status parse_tetgen(const char *node, const char *ele, corot_mesh **m) {
-  return corot_tetgen_parse("m.node", node, strlen(node), "m.ele", ele, strlen(ele), m);
+  return corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), NULL, m);
 }
 
 static void tetgen_numbers_from_1_and_either_hand(void **state) {
@@ -333,6 +399,8 @@ int main(void) {
       cmocka_unit_test(nameless_groups_are_called_by_their_numbers),
       cmocka_unit_test(names_join_and_empty_ones_go),
       cmocka_unit_test(layout_and_foreign_sections_do_not_matter),
+      cmocka_unit_test(partitioned_meshes_are_whole),
+      cmocka_unit_test(spellings),
       cmocka_unit_test(other_elements_outside_groups_are_ignored),
       cmocka_unit_test(binary_of_either_byte_order),
       cmocka_unit_test(tetgen_by_either_path),

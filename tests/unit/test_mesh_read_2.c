@@ -3,6 +3,7 @@
 #include "check.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/read/mesh_read.h"
+#include "mesh_text.h"
 #include "order_2.h"
 #include "temporary.h"
 
@@ -32,7 +33,7 @@ static void assert_straight(const corot_mesh *m) {
 
 static const char *const gmsh_files[] = {
     DATA "two_2.msh41.msh",  DATA "two_2.msh41b.msh", DATA "two_2.msh22.msh",
-    DATA "two_2.msh22b.msh", DATA "two_2.msh1.msh",
+    DATA "two_2.msh22b.msh", DATA "two_2.msh40.msh",  DATA "two_2.msh1.msh",
 };
 enum { NFILE = sizeof gmsh_files / sizeof *gmsh_files };
 
@@ -143,19 +144,6 @@ static void writing_and_reading_give_the_same_mesh(void **state) {
   remove_folder(dir);
 }
 
-/* What becomes of `text` when `from` is replaced once by `to`. */
-static char *edit(const char *text, const char *from, const char *to) {
-  const char *at = strstr(text, from);
-  if (!at) fail_msg("'%s' is not in the text", from);
-  size_t head = (size_t)(at - text), size = strlen(text) + strlen(to) + 1;
-  char *edited = malloc(size);
-  assert_non_null(edited);
-  memcpy(edited, text, head);
-  strcpy(edited + head, to);
-  strcat(edited, at + strlen(from));
-  return edited;
-}
-
 static const char sound[] =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
     "$Nodes\n14\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n5 1 0 0\n6 1 1 0\n7 0 1 0\n8 0 0 1\n"
@@ -204,7 +192,7 @@ static void faults_are_told_with_their_place(void **state) {
   corot_mesh_destroy(m);
   m = NULL;
   for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
-    char *text = edit(sound, faults[i].from, faults[i].to);
+    char *text = edit_text(sound, faults[i].from, faults[i].to);
     assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
                  faults[i].message);
     assert_null(m);
@@ -216,9 +204,9 @@ static void faults_are_told_with_their_place(void **state) {
    do not matter. */
 static void repeated_tets_are_one(void **state) {
   (void)state;
-  char *text = edit(sound, "$Elements\n4\n",
-                    "$Elements\n7\n1 11 2 6 1 1 2 3 4 5 6 7 8 9 10\n2 2 2 0 1 1 2 3\n"
-                    "3 9 2 0 1 1 2 3 5 6 4\n");
+  char *text = edit_text(sound, "$Elements\n4\n",
+                         "$Elements\n7\n1 11 2 6 1 1 2 3 4 5 6 7 8 9 10\n2 2 2 0 1 1 2 3\n"
+                         "3 9 2 0 1 1 2 3 5 6 4\n");
   corot_mesh *m = NULL;
   assert_ok(corot_gmsh_parse("good.msh", text, strlen(text), &m));
   assert_int_equal(m->ntet, 2);
@@ -239,8 +227,7 @@ static void tetgen_files_in_any_order(void **state) {
       "1 10 0\n0 0 1 2 3 9 7 4 5 8 6\n", "1 10 0\n0 1 0 2 3 9 7 4 5 8 6\n"};
   for (int i = 0; i < 4; i++) { /* the last is left-handed */
     corot_mesh *m = NULL;
-    assert_ok(
-        corot_tetgen_parse("m.node", node, strlen(node), "m.ele", good[i], strlen(good[i]), &m));
+    assert_ok(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", good[i]), NULL, &m));
     assert_straight(m);
     assert_int_equal(corot_mesh_find_group(m, "marker-3")->nnode, 6); /* three with the marker */
     corot_mesh_destroy(m);
@@ -261,9 +248,8 @@ static void faults_of_tetgen(void **state) {
   };
   corot_mesh *m = NULL;
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-    assert_fails(
-        corot_tetgen_parse("m.node", node, strlen(node), "m.ele", bad[i][0], strlen(bad[i][0]), &m),
-        COROT_EFORMAT, bad[i][1]);
+    assert_fails(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", bad[i][0]), NULL, &m),
+                 COROT_EFORMAT, bad[i][1]);
   assert_null(m);
 }
 

@@ -21,9 +21,9 @@ static void a_factor_of_ten_in_steps_adds_nine_thousand_rows(void **state) {
 
 static void what_happens_at_a_step_keeps_it(void **state) {
   (void)state;
-  const unsigned kept[] = {EVENT_KINK, EVENT_RESTART, EVENT_FAILED, EVENT_REJECTED,
-                           EVENT_FRAMES | EVENT_RESTART};
-  for (int i = 0; i < 5; i++) assert_true(thin_keeps(123457, kept[i]));
+  const unsigned kept[] = {EVENT_KINK,     EVENT_RESTART,    EVENT_FAILED,
+                           EVENT_REJECTED, EVENT_CHECKPOINT, EVENT_FRAMES | EVENT_RESTART};
+  for (int i = 0; i < 6; i++) assert_true(thin_keeps(123457, kept[i]));
   assert_false(thin_keeps(123457, EVENT_FRAMES)); /* may come with each step */
 }
 

@@ -18,6 +18,7 @@ typedef enum schema_type {
   SCHEMA_CHOICE,   /* one of `words` */
   SCHEMA_NUMBER,   /* or the one of `words`, which stands for 0 */
   SCHEMA_INTEGER,  /* the same */
+  SCHEMA_DURATION, /* a number [s], or one with a unit: 30 s, 10 min, 2 h, 1 d */
   SCHEMA_VECTOR,   /* three numbers */
   SCHEMA_COUNTS,   /* three integers */
   SCHEMA_INTEGERS, /* any number of integers */

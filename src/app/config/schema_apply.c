@@ -136,6 +136,30 @@ static corot_status check_scalar(config_node *node, const schema_key *key, check
   return check(node, key->range);
 }
 
+/* A number of seconds, or one with its unit after it; the node's number is in seconds. */
+static corot_status check_duration(config_node *node, schema_range range) {
+  static const struct {
+    const char *name;
+    double seconds;
+  } unit[] = {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}};
+  const char *text = node->kind == CONFIG_SCALAR ? node->text : "";
+  size_t length = strlen(text); /* of the number */
+  while (length > 0 && !strchr("0123456789.", text[length - 1])) length--;
+  const char *word = text + length + strspn(text + length, " ");
+  double seconds = *word ? 0 : 1;
+  for (size_t i = 0; i < sizeof unit / sizeof *unit; i++)
+    if (strcmp(word, unit[i].name) == 0) seconds = unit[i].seconds;
+  char digits[64];
+  snprintf(digits, sizeof digits, "%.*s", (int)length, text);
+  config_node number = {.kind = CONFIG_SCALAR, .text = digits};
+  if (!(seconds > 0) || length >= sizeof digits || !config_parse_number(&number, &node->number))
+    return expected(node, "seconds, such as 600, or a number and s, min, h or d, such as 10 min");
+  node->number *= seconds;
+  if (!schema_in_range(node->number, range))
+    return config_fail(node, "must be %s, found %s", schema_ranges[range].words, node->text);
+  return COROT_OK;
+}
+
 /* --- Other values --- */
 
 static corot_status check_text(const config_node *node) {
@@ -328,6 +352,8 @@ static corot_status apply_value(const application *a, config_node *node, const s
       return check_scalar(node, key, check_number);
     case SCHEMA_INTEGER:
       return check_scalar(node, key, check_integer);
+    case SCHEMA_DURATION:
+      return check_duration(node, key->range);
     case SCHEMA_VECTOR:
       return check_three(node, key, check_number);
     case SCHEMA_COUNTS:

@@ -16,6 +16,7 @@ static const char *const type_words[] = {
     [SCHEMA_CHOICE] = "choice",
     [SCHEMA_NUMBER] = "number",
     [SCHEMA_INTEGER] = "integer",
+    [SCHEMA_DURATION] = "duration",
     [SCHEMA_VECTOR] = "3 numbers",
     [SCHEMA_COUNTS] = "3 integers",
     [SCHEMA_INTEGERS] = "integers",

@@ -94,13 +94,14 @@ static corot_status remove_file(const char *dir, const char *name) {
   return status;
 }
 
-static corot_status remove_frames(const char *fields) {
+corot_status folder_remove_frames(const char *fields, long from) {
   DIR *d = opendir(fields);
   if (!d && errno == ENOENT) return COROT_OK;
   if (!d) return corot_fail(COROT_EIO, "%s: cannot list it: %s", fields, strerror(errno));
   corot_status status = COROT_OK;
   for (struct dirent *entry; status == COROT_OK && (entry = readdir(d));)
-    if (inventory_is_frame(entry->d_name)) status = remove_file(fields, entry->d_name);
+    if (inventory_is_frame(entry->d_name) && inventory_frame(entry->d_name) >= from)
+      status = remove_file(fields, entry->d_name);
   closedir(d);
   return status;
 }
@@ -110,9 +111,14 @@ corot_status folder_clean(const char *dir) {
     if (inventory[i].cleaned) COROT_TRY(remove_file(dir, inventory[i].name));
   char *fields = folder_path(dir, INVENTORY_FIELDS);
   if (!fields) return COROT_ENOMEM;
-  corot_status status = remove_frames(fields);
+  corot_status status = folder_remove_frames(fields, 0);
   free(fields);
   return status;
+}
+
+corot_status folder_clean_ends(const char *dir) {
+  COROT_TRY(remove_file(dir, "result.json"));
+  return remove_file(dir, "report.html");
 }
 
 corot_status file_check_regular(const char *path) {
@@ -180,7 +186,7 @@ corot_status file_close(int fd, const char *path) {
 }
 
 /* A descriptor that cannot be synchronised (EINVAL: a pipe, some network folders) is no error. */
-static corot_status synchronise(int fd, const char *path) {
+corot_status file_synchronise(int fd, const char *path) {
   if (fsync(fd) == 0 || errno == EINVAL) return COROT_OK;
   return corot_fail(COROT_EIO, "%s: cannot write to the disk: %s", path, strerror(errno));
 }
@@ -203,7 +209,7 @@ static corot_status write_whole(const char *path, const void *data, size_t size,
   int fd = -1;
   COROT_TRY(create_temporary(path, &fd));
   corot_status status = file_write(fd, path, data, size);
-  if (status == COROT_OK && durable) status = synchronise(fd, path);
+  if (status == COROT_OK && durable) status = file_synchronise(fd, path);
   corot_status closed = file_close(fd, path);
   if (status == COROT_OK) status = closed;
   if (status != COROT_OK) unlink(path);
@@ -238,12 +244,20 @@ static corot_status synchronise_folder_of(const char *path) {
   int fd = open(dirname(copy), O_RDONLY | O_CLOEXEC);
   free(copy);
   if (fd < 0) return COROT_OK; /* a folder that may be written but not read */
-  corot_status status = synchronise(fd, path);
+  corot_status status = file_synchronise(fd, path);
   close(fd);
   return status;
 }
 
-corot_status file_replace_durably(const char *path, const void *data, size_t size) {
+corot_status file_synchronise_named(const char *path) {
+  int fd = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return corot_fail(COROT_EIO, "%s: cannot open it: %s", path, strerror(errno));
+  corot_status status = file_synchronise(fd, path);
+  close(fd);
+  return status;
+}
+
+static corot_status put_durably(const char *path, const void *data, size_t size) {
   size_t length = strlen(path);
   char *temporary = malloc(length + 5);
   if (!temporary) return corot_fail(COROT_ENOMEM, "%s: out of memory", path);
@@ -252,8 +266,18 @@ corot_status file_replace_durably(const char *path, const void *data, size_t siz
 
   corot_status status = write_whole(temporary, data, size, true);
   if (status == COROT_OK) status = file_put_in_place(temporary, path);
-  if (status == COROT_OK && (status = synchronise_folder_of(path)) != COROT_OK)
-    unlink(path); /* what is said to have failed must not be found */
   free(temporary);
   return status;
+}
+
+corot_status file_replace_durably(const char *path, const void *data, size_t size) {
+  COROT_TRY(put_durably(path, data, size));
+  corot_status status = synchronise_folder_of(path);
+  if (status != COROT_OK) unlink(path); /* what is said to have failed must not be found */
+  return status;
+}
+
+corot_status file_renew_durably(const char *path, const void *data, size_t size) {
+  COROT_TRY(put_durably(path, data, size));
+  return synchronise_folder_of(path);
 }

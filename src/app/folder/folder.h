@@ -13,6 +13,12 @@ corot_status folder_make(const char *path);
    files stay. Call this where folder_owner.h permits it. */
 corot_status folder_clean(const char *dir);
 
+/* Removes what is made once a run is over: result.json, and a page of it. */
+corot_status folder_clean_ends(const char *dir);
+
+/* Removes the frames in DIR/fields whose number is `from` or above. */
+corot_status folder_remove_frames(const char *fields, long from);
+
 /* "DIR/NAME", the caller's to free; NULL where memory ran out (the message is set). */
 char *folder_path(const char *dir, const char *name);
 
@@ -53,5 +59,13 @@ corot_status file_replace(const char *path, const char *temporary, const void *d
 /* The same, and on the disk before it returns; the temporary file is PATH.tmp. If all but the last,
    the rename, is known to be on the disk, the file is removed again. */
 corot_status file_replace_durably(const char *path, const void *data, size_t size);
+
+/* The same, but for that: the file stays. What is replaced is worth keeping until this one is
+   safe, and this one is whole. */
+corot_status file_renew_durably(const char *path, const void *data, size_t size);
+
+/* What is in an open file, or in the file or folder of that name, is on the disk. */
+corot_status file_synchronise(int fd, const char *path);
+corot_status file_synchronise_named(const char *path);
 
 #endif

@@ -24,11 +24,13 @@ static void read_owner(int fd, char owner[OWNER]) {
   owner[strcspn(owner, "\n")] = '\0';
 }
 
+/* Over what stands there, which is cut behind it: at any time it says that the folder is a run's.
+ */
 static void write_owner(int fd) {
   char host[256] = "", owner[OWNER];
   gethostname(host, sizeof host - 1);
   int length = snprintf(owner, sizeof owner, OWNER_WORD "%ld on %s\n", (long)getpid(), host);
-  if (ftruncate(fd, 0) == 0 && pwrite(fd, owner, (size_t)length, 0) < length)
+  if (pwrite(fd, owner, (size_t)length, 0) < length || ftruncate(fd, length) != 0)
     (void)ftruncate(fd, 0); /* it is for messages only */
 }
 

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "app/text/json_text.h"
+#include "checkpoint_file.h"
 #include "core/mesh/read/reader.h"
 #include "folder.h"
 #include "folder_lock.h"
@@ -28,7 +29,7 @@ static bool is_result(const json_t *json) {
 }
 
 /* What is no regular file is not opened: it may be a pipe. */
-static corot_status has_result(const char *dir, bool *ours) {
+corot_status folder_result(const char *dir, json_t **out) {
   char *path = folder_path(dir, "result.json"), *text = NULL;
   if (!path) return COROT_ENOMEM;
   struct stat info;
@@ -42,17 +43,50 @@ static corot_status has_result(const char *dir, bool *ours) {
   free(text);
   free(path);
   if (status == COROT_EFORMAT) status = COROT_OK;
-  if (status == COROT_OK) *ours = is_result(json);
+  if (status == COROT_OK && is_result(json)) *out = json_incref(json);
   json_decref(json);
   return status;
+}
+
+bool folder_is_over(const json_t *result) {
+  const char *status = json_string_value(json_object_get(result, "status"));
+  return status && strcmp(status, "ok") == 0;
+}
+
+static corot_status has_mark(const char *dir, bool *ours) {
+  json_t *result = NULL;
+  COROT_TRY(folder_result(dir, &result));
+  *ours = result != NULL;
+  json_decref(result);
+  return *ours ? COROT_OK : checkpoint_file_stands(dir, ours);
 }
 
 corot_status folder_is_ours(const char *dir, bool *ours) {
   bool found = false;
   COROT_TRY(folder_lock_stands(dir, &found));
-  if (!found) COROT_TRY(has_result(dir, &found));
+  if (!found) COROT_TRY(has_mark(dir, &found));
   *ours = found;
   return COROT_OK;
+}
+
+corot_status folder_is_cut(const char *dir, bool *cut) {
+  json_t *result = NULL;
+  COROT_TRY(checkpoint_file_stands(dir, cut));
+  if (!*cut) return COROT_OK;
+  COROT_TRY(folder_result(dir, &result));
+  *cut = !folder_is_over(result);
+  json_decref(result);
+  return COROT_OK;
+}
+
+corot_status folder_permit_anew(const char *dir) {
+  bool cut = false;
+  COROT_TRY(folder_is_cut(dir, &cut));
+  if (!cut) return COROT_OK;
+  return corot_fail(COROT_EIO,
+                    "%s: has the checkpoint of a run that was cut; go on with corot run --resume, "
+                    "name another folder, or lose it and say --force",
+                    dir);
 }
 
 /* --- What would be replaced --- */
@@ -100,10 +134,22 @@ corot_status folder_permit_page(const char *dir) {
   return status;
 }
 
+/* One that does not begin as one does is somebody's own, of the same name. */
+static corot_status permit_checkpoint(const char *dir) {
+  char *path = folder_path(dir, CHECKPOINT_NAME);
+  if (!path) return COROT_ENOMEM;
+  corot_status status = file_permit(path, CHECKPOINT_MARK);
+  free(path);
+  return status;
+}
+
 corot_status folder_permit(const char *dir, bool locked) {
   bool ours = locked;
-  if (!ours) COROT_TRY(has_result(dir, &ours));
-  if (ours) return folder_permit_page(dir);
+  if (!ours) COROT_TRY(has_mark(dir, &ours));
+  if (ours) {
+    COROT_TRY(permit_checkpoint(dir));
+    return folder_permit_page(dir);
+  }
   for (int i = 0; i < INVENTORY_SIZE; i++)
     COROT_TRY(folder_permit_name(dir, inventory[i].name, inventory[i].writer));
   return permit_frames(dir);

@@ -55,9 +55,30 @@ corot_status hash_file(int fd, const char *path, long long *size, char digest[HA
 
 void hash_text(const char *text, char digest[HASH_SIZE]) { hash_bytes(text, strlen(text), digest); }
 
+/* A map with all but one key, whose value may be replaced (or NULL), which is taken over; values
+   are shared. NULL: no memory, of which json_copy says nothing. */
+static json_t *with_other(const json_t *map, const char *other, json_t *replacement) {
+  json_t *made = json_object(), *value;
+  const char *key;
+  json_object_foreach((json_t *)map, key, value) /* jansson's iteration wants it so */
+      if (strcmp(key, other) != 0) made = json_text_with(made, key, json_incref(value));
+  return replacement ? json_text_with(made, other, replacement) : made;
+}
+
+/* How often a checkpoint is written changes nothing of an answer. */
+static json_t *without_clock(const json_t *resolved) {
+  const json_t *checkpoint = json_object_get(resolved, "checkpoint");
+  if (!checkpoint) return json_incref((json_t *)resolved);
+  json_t *bare = with_other(checkpoint, "every", NULL);
+  return bare ? with_other(resolved, "checkpoint", bare) : NULL;
+}
+
 static corot_status hash_scenario(const json_t *resolved, char digest[HASH_SIZE]) {
+  json_t *bare = without_clock(resolved);
   char *text =
-      json_text_dump_plain(resolved, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17));
+      bare ? json_text_dump_plain(bare, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17))
+           : NULL;
+  json_decref(bare);
   if (!text) return corot_fail(COROT_ENOMEM, "the hash of the scenario: out of memory");
   hash_text(text, digest);
   free(text);

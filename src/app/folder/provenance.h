@@ -31,7 +31,10 @@ corot_status provenance_make(json_t **out);
 
 /* In which two may differ, so that their numbers or times may: all of the above but the threads of
    the BLAS, which studies and users set. NULL for either stands for a result that says nothing. */
-enum { PROVENANCE_FIELDS = 12 };
+enum {
+  PROVENANCE_OF_CODE = 4, /* the first: commit, build, corot and SUNDIALS */
+  PROVENANCE_FIELDS = 12
+};
 bool provenance_same(const json_t *a, const json_t *b, int field);
 bool provenance_equal(const json_t *a, const json_t *b);
 

@@ -33,7 +33,7 @@ struct state_writer {
   int fd, n;
   char *path;
   double *record; /* [1 + 2 n] */
-  off_t size;     /* of the header and the whole records */
+  growth whole;   /* the header and the whole records, without a sum */
 };
 
 corot_status states_close(state_writer *file) {
@@ -61,31 +61,62 @@ static corot_status write_header(state_writer *file, const corot_model *model) {
 
   corot_status status = file_write(file->fd, file->path, text, size);
   free(text);
-  file->size = (off_t)size;
+  file->whole.size = (long)size;
   return status;
 }
 
-static corot_status begin(state_writer *file, const char *dir, const corot_model *model) {
+/* Without its file. */
+static corot_status prepare(state_writer *file, const char *dir, const corot_model *model) {
   file->n = corot_model_ndof(model);
   file->path = folder_path(dir, "states.bin");
   if (!file->path) return COROT_ENOMEM;
   file->record = malloc(record_bytes((size_t)file->n));
   if (!file->record) return corot_fail(COROT_ENOMEM, "%s: out of memory", file->path);
-  COROT_TRY(file_create(file->path, &file->fd));
-  return write_header(file, model);
+  file->whole = growth_begin();
+  return COROT_OK;
 }
 
-corot_status states_create(const char *dir, const corot_model *model, state_writer **out) {
+/* On the file of a checkpoint, or from the beginning (NULL). */
+static corot_status begin(const char *dir, const corot_model *model, pack *p, state_writer **out) {
   state_writer *file = calloc(1, sizeof *file);
   if (!file) return corot_fail(COROT_ENOMEM, "%s/states.bin: out of memory", dir);
   file->fd = -1;
-  corot_status status = begin(file, dir, model);
+  corot_status status = prepare(file, dir, model);
+  if (status == COROT_OK && p) {
+    growth_exchange(p, &file->whole);
+    status = corot_pack_status(p);
+    if (status == COROT_OK) status = growth_reopen(file->path, &file->whole, &file->fd);
+  } else if (status == COROT_OK) {
+    status = file_create(file->path, &file->fd);
+    if (status == COROT_OK) status = write_header(file, model);
+  }
   if (status != COROT_OK) {
     states_close(file);
     return status;
   }
   *out = file;
   return COROT_OK;
+}
+
+corot_status states_create(const char *dir, const corot_model *model, state_writer **out) {
+  return begin(dir, model, NULL, out);
+}
+
+corot_status states_resume(const char *dir, const corot_model *model, pack *p, state_writer **out) {
+  return begin(dir, model, p, out);
+}
+
+corot_status states_pack(state_writer *file, pack *p) {
+  growth_exchange(p, &file->whole);
+  return corot_pack_status(p);
+}
+
+corot_status states_cut(state_writer *file) {
+  return growth_cut(file->fd, file->path, &file->whole);
+}
+
+corot_status states_synchronise(state_writer *file) {
+  return file_synchronise(file->fd, file->path);
 }
 
 corot_status states_add(state_writer *file, double t, const double *u, const double *v) {
@@ -95,9 +126,9 @@ corot_status states_add(state_writer *file, double t, const double *u, const dou
   memcpy(file->record + 1 + n, v, n * sizeof *v);
   corot_status status = file_write(file->fd, file->path, file->record, size);
   if (status == COROT_OK)
-    file->size += (off_t)size;
-  else if (ftruncate(file->fd, file->size) == 0)
-    lseek(file->fd, file->size, SEEK_SET);
+    file->whole.size += (long)size;
+  else if (ftruncate(file->fd, file->whole.size) == 0)
+    lseek(file->fd, file->whole.size, SEEK_SET);
   return status;
 }
 

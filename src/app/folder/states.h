@@ -14,12 +14,22 @@
 
 #include <corot/model.h>
 
+#include "growth.h"
+
 typedef struct state_writer state_writer;
 
 /* Makes DIR/states.bin. */
 corot_status states_create(const char *dir, const corot_model *model, state_writer **out);
 
 corot_status states_add(state_writer *file, double t, const double *u, const double *v);
+
+/* How far it has come; then the file as it was, which changes nothing until states_cut() takes away
+   the records since; and what is written is on the disk. As the functions of tables in write_csv.h,
+   but that only the size is looked at. */
+corot_status states_pack(state_writer *file, pack *p);
+corot_status states_resume(const char *dir, const corot_model *model, pack *p, state_writer **out);
+corot_status states_cut(state_writer *file);
+corot_status states_synchronise(state_writer *file);
 
 /* Reports an error that shows up on closing. Takes NULL; the file is closed either way. */
 corot_status states_close(state_writer *file);

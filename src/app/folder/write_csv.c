@@ -24,18 +24,18 @@ struct table {
   int fd;
   char *path;
   char *row; /* rows not handed on, and the one in the making: a comma follows each cell */
-  size_t length;
+  size_t length, capacity;
   size_t batch; /* rows are handed on when they are this long together; 0: each */
-  off_t size;   /* of the file's whole rows */
+  growth whole; /* the file's whole rows */
 };
 
 /* Hands whole rows to the system. */
 static corot_status flush(table *t) {
   corot_status status = file_write(t->fd, t->path, t->row, t->length);
   if (status == COROT_OK)
-    t->size += (off_t)t->length;
-  else if (ftruncate(t->fd, t->size) == 0) /* fails where there is no length, as on a terminal */
-    lseek(t->fd, t->size, SEEK_SET);
+    growth_add(&t->whole, t->row, t->length);
+  else if (ftruncate(t->fd, t->whole.size) == 0) /* fails where there is no length: a terminal */
+    lseek(t->fd, t->whole.size, SEEK_SET);
   t->length = 0;
   return status;
 }
@@ -51,17 +51,25 @@ corot_status table_close(table *t) {
   return status;
 }
 
-static corot_status table_open(const char *dir, const char *name, size_t capacity, table **out) {
+/* Without its file. */
+static corot_status table_create(const char *dir, const char *name, size_t capacity, table **out) {
   table *t = calloc(1, sizeof *t);
   if (!t) return corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
   t->fd = -1;
   t->path = folder_path(dir, name);
   t->row = malloc(capacity);
-  corot_status status = COROT_OK;
-  if (!t->path || !t->row)
-    status = corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
-  else
-    status = file_create(t->path, &t->fd);
+  t->capacity = capacity;
+  t->whole = growth_begin();
+  *out = t;
+  if (t->path && t->row) return COROT_OK;
+  table_close(t);
+  return corot_fail(COROT_ENOMEM, "%s/%s: out of memory", dir, name);
+}
+
+static corot_status table_open(const char *dir, const char *name, size_t capacity, table **out) {
+  table *t = NULL;
+  COROT_TRY(table_create(dir, name, capacity, &t));
+  corot_status status = file_create(t->path, &t->fd);
   if (status != COROT_OK) {
     table_close(t);
     return status;
@@ -69,6 +77,38 @@ static corot_status table_open(const char *dir, const char *name, size_t capacit
   *out = t;
   return COROT_OK;
 }
+
+corot_status table_pack(table *t, pack *p) {
+  if (t->length > 0) COROT_TRY(flush(t));
+  long capacity = (long)t->capacity, batch = (long)t->batch;
+  corot_pack_long(p, &capacity);
+  corot_pack_long(p, &batch);
+  growth_exchange(p, &t->whole);
+  return corot_pack_status(p);
+}
+
+corot_status table_resume(const char *dir, const char *name, pack *p, table **out) {
+  long capacity = 0, batch = 0;
+  growth whole = growth_begin();
+  table *t = NULL;
+  corot_pack_long(p, &capacity);
+  corot_pack_long(p, &batch);
+  growth_exchange(p, &whole);
+  COROT_TRY(corot_pack_status(p));
+  COROT_TRY(table_create(dir, name, (size_t)capacity, &t));
+  t->batch = (size_t)batch;
+  t->whole = whole;
+  corot_status status = growth_reopen(t->path, &whole, &t->fd);
+  if (status == COROT_OK)
+    *out = t;
+  else
+    table_close(t);
+  return status;
+}
+
+corot_status table_cut(table *t) { return growth_cut(t->fd, t->path, &t->whole); }
+
+corot_status table_synchronise(table *t) { return file_synchronise(t->fd, t->path); }
 
 /* A cell as it is. The capacity given to table_open has room for all cells of a row. */
 static void add_text(table *t, const char *text) {
@@ -262,9 +302,10 @@ const char *const frame_reason_words[FRAME_REASONS] = {
 };
 
 static void add_events(table *t, unsigned events) {
-  static const char *const word[] = {"kink", "frames", "restart", "failed", "rejected"};
+  static const char *const word[] = {"kink",   "frames",   "restart",
+                                     "failed", "rejected", "checkpoint"};
   char cell[64] = "";
-  for (int i = 0; i < 5; i++) {
+  for (int i = 0; i < 6; i++) {
     if (!(events & 1u << i)) continue;
     if (cell[0]) strcat(cell, "+");
     strcat(cell, word[i]);

@@ -10,6 +10,8 @@
 #include <corot/integrate.h>
 #include <corot/modes.h>
 
+#include "growth.h"
+
 typedef struct table table;
 
 /* probes.csv: what the probes say, one row an output time
@@ -70,6 +72,7 @@ corot_status history_row(table *history, const ledger *row, int ncolumn, const d
                       restart   the integrator dropped its history
                       failed    the update failed, and the run ended
                       rejected  longer steps were tried before, and refused (statics)
+                      checkpoint  the integrator began anew, so that a run can go on from there
      angle_max, angle_mean       largest and mean turn of a frame in that update [rad]
      frame_energy   elastic energy that update put in [J]
      reason         of the update: step, interval, angle, cap (as far as an extrapolation may
@@ -78,7 +81,14 @@ corot_status history_row(table *history, const ledger *row, int ncolumn, const d
    Of more than 10 000 steps not all have a row: app/run/steps_kept.h, and steps_csv in result.json.
  */
 
-enum { EVENT_KINK = 1, EVENT_FRAMES = 2, EVENT_RESTART = 4, EVENT_FAILED = 8, EVENT_REJECTED = 16 };
+enum {
+  EVENT_KINK = 1,
+  EVENT_FRAMES = 2,
+  EVENT_RESTART = 4,
+  EVENT_FAILED = 8,
+  EVENT_REJECTED = 16,
+  EVENT_CHECKPOINT = 32,
+};
 
 typedef struct step_row {
   double t, h;
@@ -138,6 +148,14 @@ corot_status reactions_row(table *reactions, double t, int ngroup, const double 
 
 corot_status modes_open(const char *dir, table **modes);
 corot_status modes_row(table *modes, int number, const corot_mode *mode);
+
+/* How far it has come, with all rows so far handed to the system. Then the table of DIR/NAME as it
+   was, which changes nothing of the file until table_cut() takes away the rows since; failures as
+   of growth_reopen. And that what is in the file is on the disk. */
+corot_status table_pack(table *table, pack *p);
+corot_status table_resume(const char *dir, const char *name, pack *p, table **table);
+corot_status table_cut(table *table);
+corot_status table_synchronise(table *table);
 
 /* Reports an error that shows up on closing. Takes NULL; the table is gone either way. */
 corot_status table_close(table *table);

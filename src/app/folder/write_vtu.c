@@ -7,11 +7,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
 #include "core/element/element.h"
 #include "folder.h"
+#include "inventory.h"
 
 enum { HEADER = 4096 };
 
@@ -97,11 +99,12 @@ struct vtu {
   char *array[NARRAY]; /* in the image */
   char *path;          /* DIR/fields/fields_NNNNNN.vtu, the number being rewritten */
   size_t path_size, number_at;
+  char *folder;    /* DIR/fields */
   char *temporary; /* DIR/fields/frame.tmp */
   char *pvd_path;
   int pvd;
-  off_t pvd_end; /* where the closing tags stand */
-  int nframe;
+  growth list; /* of the pvd, up to its closing tags */
+  int nframe, nsynchronised;
 };
 
 corot_status vtu_finish(vtu *w) {
@@ -115,6 +118,7 @@ void vtu_destroy(vtu *w) {
   vtu_finish(w);
   free(w->image);
   free(w->path);
+  free(w->folder);
   free(w->temporary);
   free(w->pvd_path);
   free(w);
@@ -227,35 +231,59 @@ static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *materi
 static corot_status extend_list(vtu *w, const char *text) {
   char block[256];
   int length = snprintf(block, sizeof block, "%s%s", text, pvd_tail);
-  if (lseek(w->pvd, w->pvd_end, SEEK_SET) < 0)
+  if (lseek(w->pvd, w->list.size, SEEK_SET) < 0)
     return corot_fail(COROT_EIO, "%s: not a file one can write to anywhere", w->pvd_path);
   COROT_TRY(file_write(w->pvd, w->pvd_path, block, (size_t)length));
-  w->pvd_end += (off_t)strlen(text);
+  growth_add(&w->list, text, strlen(text));
   return COROT_OK;
 }
 
-static corot_status open_files(vtu *w, const char *dir) {
+static corot_status name_files(vtu *w, const char *dir) {
   static const char frame_name[] = "fields/fields_";
-  char *fields = folder_path(dir, "fields");
-  if (!fields) return COROT_ENOMEM;
-  corot_status status = folder_make(fields);
-  free(fields);
-  COROT_TRY(status);
-
   w->number_at = strlen(dir) + sizeof frame_name;
   w->path_size = w->number_at + 32;
   w->path = malloc(w->path_size);
+  w->folder = folder_path(dir, INVENTORY_FIELDS);
   w->temporary = folder_path(dir, "fields/frame.tmp");
   w->pvd_path = folder_path(dir, "fields.pvd");
-  if (!w->path || !w->temporary || !w->pvd_path)
+  if (!w->path || !w->folder || !w->temporary || !w->pvd_path)
     return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
   snprintf(w->path, w->path_size, "%s/%s", dir, frame_name);
+  return COROT_OK;
+}
+
+static corot_status make_files(vtu *w) {
+  COROT_TRY(folder_make(w->folder));
   COROT_TRY(file_create(w->pvd_path, &w->pvd));
   return extend_list(w, pvd_head);
 }
 
+static void set_number(vtu *w, int number) {
+  snprintf(w->path + w->number_at, w->path_size - w->number_at, "%06d.vtu", number);
+}
+
+/* Every frame is as long as the next one. */
+static corot_status check_frame(vtu *w, int number) {
+  struct stat info;
+  set_number(w, number);
+  if (lstat(w->path, &info) == 0 && S_ISREG(info.st_mode) && (size_t)info.st_size == w->size)
+    return COROT_OK;
+  return corot_fail(COROT_EFORMAT, "%s: is not what it was at the checkpoint", w->path);
+}
+
+/* Those of a checkpoint, as they are. */
+static corot_status find_files(vtu *w, pack *p) {
+  growth_exchange(p, &w->list);
+  corot_pack_int(p, &w->nframe);
+  COROT_TRY(corot_pack_status(p));
+  w->nsynchronised = w->nframe;
+  for (int i = 0; i < w->nframe; i++) COROT_TRY(check_frame(w, i));
+  return growth_reopen(w->pvd_path, &w->list, &w->pvd);
+}
+
+/* On the files of a checkpoint, or from the beginning (NULL). */
 static corot_status create(const char *dir, const corot_mesh *mesh, const int *material,
-                           unsigned what, vtu **out) {
+                           unsigned what, pack *p, vtu **out) {
   if (mesh->ntet > INT32_MAX / kind_of(mesh)->nnode)
     return corot_fail(COROT_EINVAL, "%d tets are too many for the fields' 32-bit indices",
                       mesh->ntet);
@@ -263,8 +291,10 @@ static corot_status create(const char *dir, const corot_mesh *mesh, const int *m
   if (!w) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
   w->pvd = -1;
   w->is = corot_mesh_order(mesh) == 2 ? what | OF_ORDER_2 : what;
+  w->list = growth_begin();
   corot_status status = make_image(w, mesh, material);
-  if (status == COROT_OK) status = open_files(w, dir);
+  if (status == COROT_OK) status = name_files(w, dir);
+  if (status == COROT_OK) status = p ? find_files(w, p) : make_files(w);
   if (status != COROT_OK) {
     vtu_destroy(w);
     return status;
@@ -274,12 +304,17 @@ static corot_status create(const char *dir, const corot_mesh *mesh, const int *m
 }
 
 corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out) {
-  return create(dir, mesh, material, OF_MOTION, out);
+  return create(dir, mesh, material, OF_MOTION, NULL, out);
+}
+
+corot_status vtu_resume(const char *dir, const corot_mesh *mesh, const int *material, pack *p,
+                        vtu **out) {
+  return create(dir, mesh, material, OF_MOTION, p, out);
 }
 
 corot_status vtu_create_modes(const char *dir, const corot_mesh *mesh, const int *material,
                               vtu **out) {
-  return create(dir, mesh, material, OF_MODES, out);
+  return create(dir, mesh, material, OF_MODES, NULL, out);
 }
 
 vtu_fields vtu_arrays(vtu *w) {
@@ -300,7 +335,7 @@ vtu_fields vtu_arrays(vtu *w) {
 
 corot_status vtu_write(vtu *w, double t) {
   memcpy(w->array[TIME], &t, sizeof t);
-  snprintf(w->path + w->number_at, w->path_size - w->number_at, "%06d.vtu", w->nframe);
+  set_number(w, w->nframe);
   COROT_TRY(file_replace(w->path, w->temporary, w->image, w->size));
 
   char entry[160];
@@ -309,4 +344,31 @@ corot_status vtu_write(vtu *w, double t) {
   COROT_TRY(extend_list(w, entry));
   w->nframe++;
   return COROT_OK;
+}
+
+/* --- Checkpoints --- */
+
+corot_status vtu_pack(vtu *w, pack *p) {
+  growth_exchange(p, &w->list);
+  corot_pack_int(p, &w->nframe);
+  return corot_pack_status(p);
+}
+
+corot_status vtu_synchronise(vtu *w) {
+  bool more = w->nsynchronised < w->nframe;
+  for (; w->nsynchronised < w->nframe; w->nsynchronised++) {
+    set_number(w, w->nsynchronised);
+    COROT_TRY(file_synchronise_named(w->path));
+  }
+  if (more) COROT_TRY(file_synchronise_named(w->folder));
+  return file_synchronise(w->pvd, w->pvd_path);
+}
+
+/* The closing tags first: the list is well-formed at any time. */
+corot_status vtu_cut(vtu *w) {
+  COROT_TRY(extend_list(w, ""));
+  growth whole = w->list;
+  whole.size += (long)sizeof pvd_tail - 1;
+  COROT_TRY(growth_cut(w->pvd, w->pvd_path, &whole));
+  return folder_remove_frames(w->folder, w->nframe);
 }

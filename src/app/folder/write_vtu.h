@@ -32,6 +32,8 @@
 
 #include <corot/mesh.h>
 
+#include "growth.h"
+
 typedef struct vtu vtu;
 
 /* Where the next frame's values are put; the arrays belong to the writer and stay where they are.
@@ -59,6 +61,15 @@ vtu_fields vtu_arrays(vtu *w);
 
 /* Writes the arrays as they are now to DIR/fields/fields_NNNNNN.vtu, counting from 0. */
 corot_status vtu_write(vtu *w, double t);
+
+/* How far it has come. Then the writer as it was, which changes nothing of the files until
+   vtu_cut() takes away the frames since; the frames before are looked at for their sizes. And what
+   is written is on the disk. Failures as of growth_reopen. */
+corot_status vtu_pack(vtu *w, pack *p);
+corot_status vtu_resume(const char *dir, const corot_mesh *mesh, const int *material, pack *p,
+                        vtu **out);
+corot_status vtu_cut(vtu *w);
+corot_status vtu_synchronise(vtu *w);
 
 /* Ends the list of frames and reports an error that shows up on closing; the arrays stay. */
 corot_status vtu_finish(vtu *w);

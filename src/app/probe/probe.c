@@ -139,6 +139,19 @@ static json_t *vector(const double x[3]) {
   return json_pack("[o, o, o]", json_text_real(x[0]), json_text_real(x[1]), json_text_real(x[2]));
 }
 
+void probe_where_exchange(pack *p, probe_where *where) {
+  corot_pack_bool(p, &where->known);
+  corot_pack_int(p, &where->node);
+  corot_pack_int(p, &where->tet);
+  corot_pack_doubles(p, where->x, 3);
+}
+
+void probes_exchange(pack *p, probes *all) {
+  corot_pack_same(p, (uint64_t)all->ncolumn, "the number of columns of the probes");
+  for (int i = 0; i < all->n; i++)
+    for (int c = 0; c < all->probe[i].n; c++) probe_where_exchange(p, &all->probe[i].where[c]);
+}
+
 json_t *probe_where_json(const probe_where *where) {
   bool node = where->node >= 0;
   return json_pack("{s:i, s:o}", node ? "node" : "tet", node ? where->node : where->tet, "x",

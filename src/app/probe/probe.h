@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 
+#include "core/base/pack.h"
 #include "probe_moment.h"
 
 typedef struct probes probes;
@@ -35,6 +36,10 @@ probe_facts probes_known(const probes *p, int i);
 
 /* Of column c of probe i when it was last evaluated; not known where it is no extreme. */
 probe_where probes_where(const probes *p, int i, int c);
+
+/* Writes or reads what probes_where() says. */
+void probes_exchange(pack *p, probes *all);
+void probe_where_exchange(pack *p, probe_where *where);
 
 /* {"node" or "tet", "x"}; NULL: no memory. */
 json_t *probe_where_json(const probe_where *where);

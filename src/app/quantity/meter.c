@@ -214,6 +214,36 @@ void meter_close(meter *m) {
   }
 }
 
+/* --- Checkpoints --- */
+
+static void exchange_place(pack *p, place *x) {
+  corot_pack_double(p, &x->value);
+  corot_pack_double(p, &x->t);
+}
+
+static void exchange_track(pack *p, track *k) {
+  corot_pack_int(p, &k->n);
+  corot_pack_int(p, &k->next);
+  corot_pack_doubles(p, k->t, POINTS);
+  corot_pack_doubles(p, k->x, POINTS);
+  corot_pack_doubles(p, k->rate, POINTS);
+  corot_pack_bool(p, &k->seen);
+  corot_pack_double(p, &k->begin);
+  corot_pack_double(p, &k->end);
+  corot_pack_double(p, &k->hole);
+  exchange_place(p, &k->at);
+  exchange_place(p, &k->low);
+  exchange_place(p, &k->high);
+  corot_pack_double(p, &k->integral);
+  turning_exchange(p, &k->turning);
+}
+
+void meter_exchange(pack *p, meter *m) {
+  corot_pack_same(p, (uint64_t)m->n, "the number of quantities");
+  corot_pack_double(p, &m->t);
+  for (int i = 0; i < m->n; i++) exchange_track(p, &m->track[i]);
+}
+
 /* --- What has come of it --- */
 
 /* Turns that a period has at least: three are two ways, there and back. */

@@ -12,6 +12,7 @@
 #ifndef COROT_APP_QUANTITY_METER_H
 #define COROT_APP_QUANTITY_METER_H
 
+#include "core/base/pack.h"
 #include "quantity.h"
 
 typedef struct meter meter;
@@ -41,6 +42,9 @@ typedef struct quantity_value {
 
 /* Quantity i, once the meter is closed. */
 quantity_value meter_value(const meter *m, int i);
+
+/* Writes or reads what has been seen so far, of a meter of the same quantities. */
+void meter_exchange(pack *p, meter *m);
 
 /* Takes NULL. */
 void meter_destroy(meter *m);

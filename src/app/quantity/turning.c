@@ -35,3 +35,10 @@ void turning_follow(turning *n, double span, double value, double t) {
 }
 
 double turning_mean(const turning *n) { return n->weight > 0 ? n->weighted / n->weight : 0; }
+
+void turning_exchange(pack *p, turning *n) {
+  double *const number[] = {&n->value, &n->t, &n->last, &n->t_last, &n->weight, &n->weighted};
+  for (size_t i = 0; i < sizeof number / sizeof *number; i++) corot_pack_double(p, number[i]);
+  corot_pack_int(p, &n->direction);
+  corot_pack_long(p, &n->count);
+}

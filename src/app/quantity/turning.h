@@ -3,6 +3,8 @@
 #ifndef COROT_APP_QUANTITY_TURNING_H
 #define COROT_APP_QUANTITY_TURNING_H
 
+#include "core/base/pack.h"
+
 typedef struct turning {
   int direction;           /* 1, -1; 0: it has not moved yet */
   double value, t;         /* the furthest point since the last turn */
@@ -16,6 +18,9 @@ turning turning_begin(double value, double t);
 
 /* Its next point; `span` is from its smallest value so far to its largest. */
 void turning_follow(turning *n, double span, double value, double t);
+
+/* Writes or reads all of it. */
+void turning_exchange(pack *p, turning *n);
 
 /* The mean time between turns, weighted by how far the signal goes between them; 0: it has gone
    nowhere between turns. */

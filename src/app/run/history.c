@@ -116,6 +116,36 @@ corot_status history_add(history *h, const ledger *now, const double *value, con
   return h->table ? history_row(h->table, now, probes_ncolumn(h->probes), value) : COROT_OK;
 }
 
+/* --- Checkpoints --- */
+
+static void exchange_extreme(pack *p, extreme *e) {
+  corot_pack_double(p, &e->value);
+  corot_pack_double(p, &e->t);
+}
+
+static void exchange_signal(pack *p, signal_seen *s) {
+  exchange_extreme(p, &s->min);
+  exchange_extreme(p, &s->max);
+  probe_where_exchange(p, &s->at_min);
+  probe_where_exchange(p, &s->at_max);
+  turning_exchange(p, &s->turning);
+}
+
+void history_exchange(pack *p, history *h) {
+  corot_pack_same(p, (uint64_t)h->nsignal, "the number of signals");
+  for (int i = 0; i < h->nsignal + OF_ENERGY; i++) exchange_signal(p, &h->signal[i]);
+  corot_pack_long(p, &h->count);
+  corot_pack_double(p, &h->balance);
+  corot_pack_double(p, &h->dissipated);
+  corot_pack_double(p, &h->t_elastic);
+  corot_pack_doubles(p, h->u, (size_t)h->ndof);
+  corot_pack_doubles(p, h->v, (size_t)h->ndof);
+}
+
+table *history_table(const history *h) { return h->table; }
+
+void history_use(history *h, table *t) { h->table = t; }
+
 /* --- What is known in the end --- */
 
 static json_t *extreme_json(extreme e, const probe_where *where) {

@@ -55,6 +55,12 @@ typedef struct history_facts {
 
 history_facts history_known(const history *h);
 
+/* Writes or reads what has been seen so far, without the table; of a history of the same probes.
+   And the table: its place, and the table of a checkpoint (table_resume) to go on with. */
+void history_exchange(pack *p, history *h);
+table *history_table(const history *h);
+void history_use(history *h, table *t);
+
 /* Closes the table and reports an error that shows up on closing. */
 corot_status history_close(history *h);
 

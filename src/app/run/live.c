@@ -67,6 +67,10 @@ static corot_status enter(live *l, double t, bool first, bool *changed) {
 
 corot_status live_enter(live *l, double t, bool *changed) { return enter(l, t, false, changed); }
 
+void live_exchange(pack *p, live *l) {
+  for (int i = 0; i < l->scenario->ninput; i++) corot_pack_int(p, &l->window[i]);
+}
+
 corot_status live_create(const scenario *s, const corot_model *model, double t, live **out) {
   bool changed;
   live *l = calloc(1, sizeof *l);

@@ -6,6 +6,7 @@
 #include <corot/inputs.h>
 
 #include "app/scenario/scenario.h"
+#include "core/base/pack.h"
 
 typedef struct live live;
 
@@ -21,6 +22,10 @@ corot_inputs *live_inputs(const live *l);
 /* The times within (0, end) at which something changes, ascending for each input; at most `max` are
    written to `time`. Returns how many there are. */
 int live_times(const live *l, double end, int max, double *time);
+
+/* Writes or reads how far they have come; what they say then is the state's (corot/checkpoint.h).
+ */
+void live_exchange(pack *p, live *l);
 
 /* What holds from t on. *changed: the integrator has to be told. */
 corot_status live_enter(live *l, double t, bool *changed);

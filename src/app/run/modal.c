@@ -236,6 +236,7 @@ static int search(const scenario *s, const run_options *options) {
   r.wall_at_start = wall_clock();
   r.cpu_at_start = cpu_clock();
 
+  run_without_checkpoints(s, options, "corot modes");
   corot_status status = run_begin(s, options);
   if (status == COROT_OK) status = run_preparing(prepare(&r));
   if (status == COROT_OK) status = open_outputs(&r);

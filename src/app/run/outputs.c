@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "app/folder/folder.h"
+#include "app/folder/write_groups.h"
 #include "compare.h"
 #include "fields.h"
 #include "quantities.h"
@@ -72,13 +73,17 @@ static corot_status allocate(outputs *o) {
   return history_create(o->probes, corot_model_ndof(o->model), &o->history);
 }
 
+static writer_source source_of(outputs *o, const char *dir) {
+  return (writer_source){.dir = dir,
+                         .scenario = o->scenario,
+                         .model = o->model,
+                         .probes = o->probes,
+                         .history = o->history,
+                         .steps = &o->steps};
+}
+
 static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
-  const writer_source source = {.dir = dir,
-                                .scenario = o->scenario,
-                                .model = o->model,
-                                .probes = o->probes,
-                                .history = o->history,
-                                .steps = &o->steps};
+  const writer_source source = source_of(o, dir);
   for (int i = 0; i < NWRITER; i++) {
     const writer_ops *ops = writers[i];
     if (ops->use != use) continue;
@@ -87,6 +92,85 @@ static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
   return COROT_OK;
 }
 
+/* --- Checkpoints --- */
+
+static void exchange_ledger(pack *p, ledger *row) {
+  double *const number[] = {&row->t,           &row->kinetic,       &row->elastic,
+                            &row->dissipated,  &row->external_work, &row->balance,
+                            &row->frame_energy};
+  for (size_t i = 0; i < sizeof number / sizeof *number; i++) corot_pack_double(p, number[i]);
+  corot_pack_doubles(p, row->momentum, 3);
+  corot_pack_doubles(p, row->angular_momentum, 3);
+}
+
+static void exchange_deformation(pack *p, corot_deformation *d) {
+  double *const number[] = {&d->strained, &d->stretch_min, &d->stretch_max,
+                            &d->turned,   &d->turn_max,    &d->det_min};
+  for (size_t i = 0; i < sizeof number / sizeof *number; i++) corot_pack_double(p, number[i]);
+  corot_pack_int(p, &d->det_tet);
+  corot_pack_int(p, &d->ninverted);
+}
+
+static void exchange_seen(pack *p, observed *s) {
+  corot_pack_double(p, &s->displacement);
+  exchange_deformation(p, &s->strained);
+  exchange_deformation(p, &s->turned);
+  exchange_deformation(p, &s->inverted);
+  corot_pack_double(p, &s->t_strained);
+  corot_pack_double(p, &s->t_turned);
+  corot_pack_double(p, &s->t_inverted);
+}
+
+/* All but the writers. */
+static void exchange(pack *p, outputs *o) {
+  size_t nnode = (size_t)corot_model_mesh(o->model)->nnode;
+  probes_exchange(p, o->probes);
+  corot_pack_doubles(p, o->probed, (size_t)probes_ncolumn(o->probes));
+  corot_pack_doubles(p, &o->nodal[0][0], 6 * nnode);
+  exchange_ledger(p, &o->ledger);
+  history_exchange(p, o->history);
+  quantities_exchange(p, o->quantities);
+  exchange_seen(p, &o->seen);
+  corot_pack_double(p, &o->energy_at_start);
+  corot_pack_long(p, &o->count);
+}
+
+corot_status outputs_pack(outputs *o, pack *p) {
+  exchange(p, o);
+  for (int i = 0; i < NWRITER; i++)
+    if (o->writer[i]) COROT_TRY(writers[i]->pack(o->writer[i], p));
+  return corot_pack_status(p);
+}
+
+corot_status outputs_synchronise(outputs *o) {
+  for (int i = 0; i < NWRITER; i++)
+    if (o->writer[i]) COROT_TRY(writers[i]->synchronise(o->writer[i]));
+  return COROT_OK;
+}
+
+static corot_status resume_all(outputs *o, const char *dir, pack *p) {
+  COROT_TRY(allocate(o));
+  exchange(p, o);
+  COROT_TRY(corot_pack_status(p));
+  const writer_source source = source_of(o, dir);
+  for (int i = 0; i < NWRITER; i++) {
+    const writer_ops *ops = writers[i];
+    if (ops->use == WRITER_OF_STATICS || (ops->wanted && !ops->wanted(o->scenario))) continue;
+    COROT_TRY(ops->resume(&source, p, &o->writer[i]));
+  }
+  return COROT_OK;
+}
+
+corot_status outputs_cut(outputs *o, const char *dir) {
+  for (int i = 0; i < NWRITER; i++)
+    if (o->writer[i]) COROT_TRY(writers[i]->cut(o->writer[i]));
+  if (o->scenario->write_fields)
+    COROT_TRY(groups_write(dir, o->scenario->resolved, corot_model_mesh(o->model)));
+  return folder_clean_ends(dir);
+}
+
+/* --- The files --- */
+
 static corot_status open_all(outputs *o, const char *dir) {
   COROT_TRY(allocate(o));
   COROT_TRY(folder_make(dir));
@@ -94,20 +178,31 @@ static corot_status open_all(outputs *o, const char *dir) {
   return open_writers(o, dir, WRITER_COMMON);
 }
 
-corot_status outputs_open(const scenario *s, const corot_model *model, const char *dir,
-                          outputs **out) {
+/* With the files of a checkpoint, or new ones (NULL). */
+static corot_status create(const scenario *s, const corot_model *model, const char *dir, pack *p,
+                           outputs **out) {
   outputs *o = calloc(1, sizeof *o);
   if (!o) return corot_fail(COROT_ENOMEM, "%s: out of memory", dir);
   o->scenario = s;
   o->model = model;
   o->seen.strained.det_tet = -1;
-  corot_status status = open_all(o, dir);
+  corot_status status = p ? resume_all(o, dir, p) : open_all(o, dir);
   if (status != COROT_OK) {
     outputs_destroy(o);
     return status;
   }
   *out = o;
   return COROT_OK;
+}
+
+corot_status outputs_open(const scenario *s, const corot_model *model, const char *dir,
+                          outputs **out) {
+  return create(s, model, dir, NULL, out);
+}
+
+corot_status outputs_resume(const scenario *s, const corot_model *model, const char *dir, pack *p,
+                            outputs **out) {
+  return create(s, model, dir, p, out);
 }
 
 corot_status outputs_open_run(outputs *o, const char *dir) {

@@ -91,6 +91,20 @@ struct observed {
 /* All zero if no moment was written. COROT_ENOMEM. */
 corot_status outputs_observed(const outputs *o, corot_state *state, observed *out);
 
+/* Packs what the outputs are at a checkpoint, all that they have handed to the system included.
+   Failures as of corot_pack_status, and of files that cannot be written to. */
+corot_status outputs_pack(outputs *o, pack *p);
+
+/* What the files have is on the disk. */
+corot_status outputs_synchronise(outputs *o);
+
+/* In the place of outputs_open and outputs_open_run: the outputs of a checkpoint, whose files in
+   `dir` are looked at only. COROT_EFORMAT: one of them lacks what it had. Then outputs_cut takes
+   away what was written since, and the result and the page of the run that was cut. */
+corot_status outputs_resume(const scenario *s, const corot_model *model, const char *dir, pack *p,
+                            outputs **out);
+corot_status outputs_cut(outputs *o, const char *dir);
+
 /* Closes the files and reports an error that shows up on closing; what was written last remains
    readable. */
 corot_status outputs_close(outputs *o);

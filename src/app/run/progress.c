@@ -18,7 +18,7 @@ void progress_show(progress *p, const corot_step *step) {
   if (now - p->shown < 0.2) return;
   p->shown = now;
   double done = step->t / p->end;
-  double left = (now - p->started) * (1 - done) / done;
+  double left = (now - p->started) * (p->end - step->t) / (step->t - p->from);
   fprintf(stderr, "\r\033[Kt = %.4g of %.4g s  h = %.2e s  order %d  %3.0f %%  %.0f s left",
           step->t, p->end, step->h, step->order, 100 * done, left);
   fflush(stderr);

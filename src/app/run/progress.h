@@ -6,7 +6,7 @@
 
 typedef struct progress {
   bool on;
-  double end;            /* of the run [s] */
+  double from, end;      /* where it began, or went on; its end [s] */
   double started, shown; /* wall clock [s] */
 } progress;
 

@@ -141,6 +141,8 @@ void quantities_row(quantities *q, const ledger *now, const double *probed,
 
 void quantities_break(quantities *q) { meter_break(q->meter); }
 
+void quantities_exchange(pack *p, quantities *q) { meter_exchange(p, q->meter); }
+
 void quantities_close(quantities *q) { meter_close(q->meter); }
 
 /* --- What has come of them --- */

@@ -35,6 +35,9 @@ bool quantities_wanted(const quantities *q);
 /* Loads or supports bend or jump at the time of the last row. */
 void quantities_break(quantities *q);
 
+/* Writes or reads what has been seen so far, of the same quantities. */
+void quantities_exchange(pack *p, quantities *q);
+
 /* After the last row; before what follows. */
 void quantities_close(quantities *q);
 

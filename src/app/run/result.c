@@ -170,6 +170,8 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       space_json(outputs_recorded(o), &run->seen->space), "versions", result_versions(),
       "provenance", provenance, "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
       "scenario", s->resolved);
+  if (!run->statics && run->nresume >= 0)
+    result = json_text_with(result, "resumed", integer(run->nresume));
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");
   *out = result;
   return COROT_OK;

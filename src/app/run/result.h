@@ -20,6 +20,8 @@
    same of the displacement with the error added [m] t             the time of that moment [s]
        indefinite    the tangent was not positive definite, so that stress has no part in it
        probes        {NAME: [x, y, z]}: to be added to the displacement of each [m]
+     resumed    how often the run went on from a checkpoint; only of one that makes them. Its times
+                on the clock are those of all its processes, less what was lost between them
      provenance what it was made by, see provenance.h */
 #ifndef COROT_APP_RUN_RESULT_H
 #define COROT_APP_RUN_RESULT_H
@@ -55,6 +57,7 @@ typedef struct run_summary {
   hashes hashes;
   const warnings *warnings;
   const observed *seen;
+  long nresume; /* how often the run went on from a checkpoint; -1: it makes none */
 } run_summary;
 
 /* The caller's to json_decref. */

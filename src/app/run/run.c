@@ -1,6 +1,7 @@
 /* The loop of a run: next event, advance, handle; then the books are closed. */
 #include "run.h"
 
+#include <corot/checkpoint.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +13,8 @@
 #include "progress.h"
 #include "quantities.h"
 #include "result.h"
+#include "resume.h"
+#include "run_checkpoint.h"
 #include "run_clock.h"
 #include "run_common.h"
 #include "schedule.h"
@@ -30,11 +33,15 @@ typedef struct run {
   corot_frame_clock *clock;
   schedule *schedule;
   outputs *outputs;
+  hashes hashes;
+  checkpoint *checkpoint; /* NULL: none is made */
+  resume resume;          /* what there is to go on from */
   progress progress;
-  double *u, *v; /* [n] scratch */
-  double t;      /* reached [s]; at a constant step, it may pass the end */
-  double before; /* where the last step began [s] */
-  double shown;  /* time of the last row of the tables [s]; -1: there is none */
+  double *u, *v;       /* [n] scratch */
+  double t;            /* reached [s]; at a constant step, it may pass the end */
+  double before;       /* where the last step began [s] */
+  double shown;        /* time of the last row of the tables [s]; -1: there is none */
+  long nstep, nresume; /* steps so far; how often it has gone on from a checkpoint */
   frame_totals frames;
   run_failure failure;
   folder_lock lock;
@@ -57,6 +64,15 @@ static corot_status make_schedule(run *r) {
   return status;
 }
 
+/* Where a run begins; what goes on has it in its checkpoint. */
+static corot_status find_start(run *r) {
+  const scenario *s = r->scenario;
+  if (r->resume.found == RESUME_CHECKPOINT) return COROT_OK;
+  if (s->start_at_equilibrium) COROT_TRY(static_start(s, r->refinement, r->model, r->u));
+  scenario_start(s, r->model, r->u, r->v);
+  return COROT_OK;
+}
+
 static corot_status start_integrator(run *r) {
   const scenario *s = r->scenario;
   size_t n = (size_t)corot_model_ndof(r->model);
@@ -65,8 +81,7 @@ static corot_status start_integrator(run *r) {
   if (!r->u || !r->v) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
 
   COROT_TRY(corot_state_create(r->model, &r->state));
-  if (s->start_at_equilibrium) COROT_TRY(static_start(s, r->refinement, r->model, r->u));
-  scenario_start(s, r->model, r->u, r->v);
+  COROT_TRY(find_start(r));
   corot_state_enter(r->state, 0);
   COROT_TRY(live_create(s, r->model, 0, &r->live));
   COROT_TRY(corot_state_use_inputs(r->state, live_inputs(r->live)));
@@ -78,11 +93,33 @@ static corot_status start_integrator(run *r) {
                                   &r->clock);
 }
 
-static corot_status prepare(run *r) {
+static corot_status build(run *r) {
   COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->refinement, &r->model));
   COROT_TRY(quantities_check(r->scenario, r->model, false));
-  COROT_TRY(run_warn_before(r->scenario, r->model, false, r->options, &r->warnings));
-  COROT_TRY(start_integrator(r));
+  return run_warn_before(r->scenario, r->model, false, r->options, &r->warnings);
+}
+
+/* Takes the folder if there is a checkpoint, before anything that takes long and is in it. */
+static corot_status look_for_checkpoint(run *r) {
+  const scenario *s = r->scenario;
+  const run_options *o = r->options;
+  if (s->checkpoint_steps == 0 && !o->resume) return COROT_OK;
+  COROT_TRY(hashes_of(s->resolved, r->mesh, &r->hashes));
+  COROT_TRY(checkpoint_create(s, r->hashes.run, o, &r->checkpoint));
+  if (!o->resume) return COROT_OK;
+  COROT_TRY(resume_find(s, r->hashes.run, o, &r->resume));
+  if (r->resume.found == RESUME_FINISHED) return COROT_OK;
+  if (resume_is_over(o->dir)) COROT_TRY(run_prepare_stop(s, o));
+  if (r->resume.found == RESUME_NOTHING) return COROT_OK;
+  COROT_TRY(run_enter(s->path, o, &r->lock));
+  return resume_read(s, r->hashes.run, o, &r->resume);
+}
+
+static corot_status prepare(run *r) {
+  COROT_TRY(run_preparing(build(r)));
+  COROT_TRY(look_for_checkpoint(r));
+  if (r->resume.found == RESUME_FINISHED) return COROT_OK;
+  COROT_TRY(run_preparing(start_integrator(r)));
   r->setup_s = wall_clock() - r->wall_at_start;
   return COROT_OK;
 }
@@ -90,6 +127,8 @@ static corot_status prepare(run *r) {
 static void release(run *r) {
   space_clear(&r->seen.space);
   outputs_destroy(r->outputs);
+  checkpoint_destroy(r->checkpoint);
+  checkpoint_file_free(&r->resume.file);
   corot_frame_clock_destroy(r->clock);
   corot_integrator_destroy(r->integrator);
   schedule_destroy(r->schedule);
@@ -101,6 +140,97 @@ static void release(run *r) {
   warnings_free(&r->warnings);
   free(r->u);
   free(r->v);
+}
+
+/* Checkpoints. */
+
+static void exchange_frames(pack *p, frame_totals *f) {
+  corot_pack_long(p, &f->count);
+  for (int i = 0; i < FRAME_REASONS; i++) corot_pack_long(p, &f->by[i]);
+  corot_pack_double(p, &f->angle_max);
+  corot_pack_double(p, &f->angle_mean);
+  corot_pack_double(p, &f->energy);
+}
+
+/* Times on the clock add up over the processes of a run. */
+static void exchange_clocks(pack *p, run *r) {
+  double s[] = {wall_clock() - r->wall_at_start, cpu_clock() - r->cpu_at_start, r->setup_s,
+                r->frames_s, r->output_s};
+  corot_pack_doubles(p, s, sizeof s / sizeof *s);
+  if (!p->reading) return;
+  r->wall_at_start -= s[0];
+  r->cpu_at_start -= s[1];
+  r->setup_s += s[2];
+  r->frames_s += s[3];
+  r->output_s += s[4];
+}
+
+/* All but the outputs and the integrator. */
+static void exchange(pack *p, run *r) {
+  corot_pack_double(p, &r->t);
+  corot_pack_double(p, &r->before);
+  corot_pack_double(p, &r->shown);
+  corot_pack_long(p, &r->nstep);
+  corot_pack_long(p, &r->nresume);
+  exchange_frames(p, &r->frames);
+  exchange_clocks(p, r);
+  schedule_exchange(p, r->schedule);
+  live_exchange(p, r->live);
+}
+
+/* The integrator begins anew, whether this is written or not. */
+static corot_status pack_run(run *r, pack *p) {
+  void *blob = NULL;
+  size_t bytes;
+  COROT_TRY(corot_integrator_save(r->integrator, &blob, &bytes));
+  long size = (long)bytes;
+  exchange(p, r);
+  corot_pack_long(p, &size);
+  corot_pack_bytes(p, blob, bytes);
+  corot_blob_free(blob);
+  return outputs_pack(r->outputs, p);
+}
+
+static corot_status make_checkpoint(run *r) {
+  double started = wall_clock();
+  corot_status status = pack_run(r, checkpoint_begin(r->checkpoint, r->t));
+  if (status == COROT_OK) status = checkpoint_keep(r->checkpoint, r->outputs);
+  r->output_s += wall_clock() - started;
+  if (status == COROT_OK) return COROT_OK;
+  return corot_fail(status, "checkpoint at t = %g s: %s", r->t, corot_error());
+}
+
+static corot_status restore_integrator(run *r, pack *p) {
+  long size = 0;
+  corot_pack_long(p, &size);
+  COROT_TRY(corot_pack_status(p));
+  if (size < 0 || (size_t)size > corot_pack_left(p))
+    return corot_fail(COROT_EFORMAT, "the state is cut short");
+  COROT_TRY(corot_integrator_restore(r->integrator, p->data + p->at, (size_t)size));
+  p->at += (size_t)size;
+  return COROT_OK;
+}
+
+/* Nothing in the folder is changed before all is known to fit. */
+static corot_status unpack_run(run *r, pack *p) {
+  exchange(p, r);
+  COROT_TRY(restore_integrator(r, p));
+  COROT_TRY(outputs_resume(r->scenario, r->model, r->options->dir, p, &r->outputs));
+  if (corot_pack_left(p) > 0)
+    return corot_fail(COROT_EFORMAT, "%zu bytes are left of the state", corot_pack_left(p));
+  return outputs_cut(r->outputs, r->options->dir);
+}
+
+static corot_status go_on(run *r) {
+  corot_status status = unpack_run(r, &r->resume.file.state);
+  if (status != COROT_OK)
+    return corot_fail(status == COROT_EINVAL ? COROT_EFORMAT : status, "%s/%s: %s", r->options->dir,
+                      CHECKPOINT_NAME, corot_error());
+  r->nresume++;
+  checkpoint_goes_on(r->checkpoint, r->t);
+  checkpoint_file_free(&r->resume.file);
+  stop_reached(r->t);
+  return COROT_OK;
 }
 
 /* Step by step. */
@@ -239,6 +369,13 @@ static corot_status handle_events(run *r, step_row *row) {
   return corot_fail(status, "update of the frames at t = %g s: %s", row->t, corot_error());
 }
 
+/* By steps alone, so that it is the same in every process; the last step needs none. A request to
+   stop may have left outputs of the step out. */
+static bool is_checkpoint_due(const run *r, const step_row *row) {
+  return checkpoint_is_due(r->checkpoint, r->nstep) && !schedule_over(r->schedule, row->t) &&
+         r->t == row->t;
+}
+
 static corot_status integrate(run *r) {
   COROT_TRY(write_outputs(r, 0));
   while (!schedule_over(r->schedule, r->t) && !stop_signal()) {
@@ -249,6 +386,7 @@ static corot_status integrate(run *r) {
     COROT_TRY(corot_integrator_step(r->integrator, stop, &step));
     r->before = r->t;
     r->t = step.t;
+    r->nstep++;
     COROT_TRY(record_step(r));
     COROT_TRY(write_outputs(r, step.t));
     stop_reached(r->t);
@@ -257,8 +395,11 @@ static corot_status integrate(run *r) {
     step_row row = {
         .t = step.t, .h = step.h, .order = step.order, .error = step.error, .newton = step.newton};
     corot_status handled = handle_events(r, &row);
+    bool due = handled == COROT_OK && is_checkpoint_due(r, &row);
+    if (due) row.events |= EVENT_CHECKPOINT;
     COROT_TRY(write_step(r, &row));
     COROT_TRY(handled);
+    if (due) COROT_TRY(make_checkpoint(r));
     progress_show(&r->progress, &step);
   }
   return COROT_OK;
@@ -292,6 +433,7 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
       .cpu_s = cpu_clock() - r->cpu_at_start,
       .warnings = &r->warnings,
       .seen = &r->seen,
+      .nresume = r->checkpoint ? r->nresume : -1,
   };
   return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
 }
@@ -301,6 +443,9 @@ static void tell(const run *r, const run_summary *summary) {
   if (summary->reason)
     say("%s: stopped at t = %.6g s of %g s: %s\n", path, summary->t_reached, r->scenario->t_end,
         summary->reason);
+  double kept = checkpoint_written(r->checkpoint);
+  if (summary->reason && kept == kept && !r->options->quiet)
+    say("%s: corot run --resume goes on from t = %.6g s\n", path, kept);
   if (r->options->quiet) return;
   char space[64];
   space_words(&r->seen.space, sizeof space, space);
@@ -329,6 +474,7 @@ static int conclude(run *r, corot_status status) {
   }
   if (code > EXIT_SIGNAL) stop_heeded();
   progress_clear(&r->progress);
+  if (run_failure_of(status, code).retry) checkpoint_write(r->checkpoint, r->outputs);
 
   /* What could be written before can be written now. */
   corot_status late = COROT_OK;
@@ -350,6 +496,7 @@ static int conclude(run *r, corot_status status) {
   if (late == COROT_OK) late = summed;
   if (late == COROT_OK) late = run_write_result(r->scenario, r->outputs, &summary, r->options);
   if (late != COROT_OK) say_error();
+  if (late == COROT_OK && !r->failure.retry) checkpoint_remove(r->checkpoint);
   stop_forget();
   stop_release();
   tell(r, &summary);
@@ -357,7 +504,8 @@ static int conclude(run *r, corot_status status) {
 }
 
 static corot_status open_outputs(run *r) {
-  COROT_TRY(run_enter(r->scenario->path, r->options, &r->lock));
+  if (r->resume.found == RESUME_CHECKPOINT) return go_on(r);
+  if (!r->lock.path) COROT_TRY(run_enter(r->scenario->path, r->options, &r->lock));
   COROT_TRY(outputs_open(r->scenario, r->model, r->options->dir, &r->outputs));
   return outputs_open_run(r->outputs, r->options->dir);
 }
@@ -369,12 +517,18 @@ static int integrate_scenario(const scenario *s, const run_options *options) {
 
   int code;
   corot_status status = run_begin(s, options);
-  if (status == COROT_OK) status = run_preparing(prepare(&r));
-  if (status == COROT_OK) status = open_outputs(&r);
+  if (status == COROT_OK) status = prepare(&r);
+  bool finished = status == COROT_OK && r.resume.found == RESUME_FINISHED;
+  if (status == COROT_OK && !finished) status = open_outputs(&r);
   if (status != COROT_OK) {
     code = run_end_early(s, options, &r.lock, &r.warnings, status);
+  } else if (finished) {
+    code = r.resume.exit_code;
+    stop_forget();
+    stop_release();
   } else {
     r.progress = progress_start(options->progress && !options->quiet, s->t_end);
+    r.progress.from = r.t;
     code = conclude(&r, integrate(&r));
   }
   folder_leave(&r.lock); /* its files are closed, even if a library crashes below */

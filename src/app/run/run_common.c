@@ -12,6 +12,7 @@
 #include "app/folder/folder_owner.h"
 #include "app/text/say.h"
 #include "result_brief.h"
+#include "resume.h"
 #include "stop.h"
 
 int run_interrupted(size_t size, char *reason) {
@@ -47,16 +48,27 @@ run_failure run_failure_of(corot_status status, int code) {
 }
 
 corot_status run_begin(const scenario *s, const run_options *options) {
-  char *text = NULL;
   bool locked = false;
   if (!options->force) {
     COROT_TRY(folder_lock_stands(options->dir, &locked));
     COROT_TRY(folder_permit(options->dir, locked));
+    if (!options->resume) COROT_TRY(folder_permit_anew(options->dir));
   }
+  /* what a run has ended well with is not replaced before it is known to be another run's */
+  return options->resume && resume_is_over(options->dir) ? COROT_OK : run_prepare_stop(s, options);
+}
+
+corot_status run_prepare_stop(const scenario *s, const run_options *options) {
+  char *text = NULL;
   COROT_TRY(result_for_stop(s, &text));
   corot_status status = stop_prepare(options->dir, text);
   free(text);
   return status;
+}
+
+void run_without_checkpoints(const scenario *s, const run_options *options, const char *what) {
+  if (s->checkpoint_steps > 0 && !options->quiet)
+    say("%s: %s makes no checkpoints, which are of corot run alone\n", s->path, what);
 }
 
 static corot_status leave_brief(const scenario *s, const brief_result *what, const char *dir) {
@@ -77,13 +89,15 @@ corot_status run_preparing(corot_status status) {
 corot_status run_enter(const char *path, const run_options *options, folder_lock *lock) {
   COROT_TRY(folder_enter(options->dir, lock));
   corot_status status = options->force ? COROT_OK : folder_permit(options->dir, lock->taken);
+  if (status == COROT_OK && !options->force && !options->resume)
+    status = folder_permit_anew(options->dir);
   if (status != COROT_OK) {
     folder_leave(lock);
     return status;
   }
   lock->keeps = true;
   stop_hold();
-  if (lock->taken && !options->quiet)
+  if (lock->taken && !options->quiet && !options->resume)
     say("%s: %s was writing to %s and has left no result; its files are replaced\n", path,
         lock->taken, options->dir);
   return COROT_OK;
@@ -96,9 +110,16 @@ static bool may_enter(const run_options *options, int code) {
   return code != EXIT_SCENARIO || (folder_is_ours(options->dir, &ours) == COROT_OK && ours);
 }
 
+/* Whether there is a checkpoint, whose run may go on whatever has become of this one. */
+static bool is_cut(const run_options *options) {
+  bool cut = false;
+  return folder_is_cut(options->dir, &cut) != COROT_OK || cut;
+}
+
 /* If it cannot, all is said. */
 static void leave_failure(const char *path, const scenario *s, const run_options *options,
                           folder_lock *lock, const brief_result *what) {
+  if (is_cut(options)) return;
   if (!lock->path &&
       (!may_enter(options, what->exit_code) || run_enter(path, options, lock) != COROT_OK))
     return;

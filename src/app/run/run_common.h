@@ -28,6 +28,13 @@ run_failure run_failure_of(corot_status status, int code);
    notice (stop.h). COROT_EIO: it may not. */
 corot_status run_begin(const scenario *s, const run_options *options);
 
+/* The second of these alone. */
+corot_status run_prepare_stop(const scenario *s, const run_options *options);
+
+/* Says, unless the options ask for quiet, that `what` makes no checkpoints where the scenario asks
+   for some. */
+void run_without_checkpoints(const scenario *s, const run_options *options, const char *what);
+
 /* The status of a preparation, in which all is the fault of scenario or mesh but lack of memory,
    and that there is no equilibrium to start from. */
 corot_status run_preparing(corot_status status);
@@ -38,9 +45,9 @@ corot_status run_preparing(corot_status status);
 corot_status run_enter(const char *path, const run_options *options, folder_lock *lock);
 
 /* The end of a run that failed before its first output: says why, and leaves a result.json unless
-   another process writes there, or the folder is not a run's. Where it is the scenario's fault,
-   that is left only in place of another run's. `warned` is what was warned of before. Returns the
-   exit code. */
+   another process writes there, or the folder is not a run's, or has a checkpoint to go on from.
+   Where it is the scenario's fault, that is left only in place of another run's. `warned` is what
+   was warned of before. Returns the exit code. */
 int run_end_early(const scenario *s, const run_options *options, folder_lock *lock,
                   const warnings *warned, corot_status status);
 

@@ -16,6 +16,7 @@ typedef enum modes_about {
 typedef struct run_options {
   const char *dir; /* made if need be; files of an earlier run in it are replaced */
   bool force;      /* files of others, too, where they have the names of a run's */
+  bool resume;     /* go on from a checkpoint there, if there is one; of runs alone */
   bool progress;   /* a line on stderr while it runs, if that is a terminal */
   bool quiet;      /* nothing on stderr but the reason of a failure */
   bool json;       /* result.json on stdout, too */

@@ -48,6 +48,12 @@ corot_status schedule_create(const corot_model *model, double end, double output
   return COROT_OK;
 }
 
+void schedule_exchange(pack *p, schedule *s) {
+  corot_pack_same(p, (uint64_t)s->nkink, "the number of kinks");
+  corot_pack_int(p, &s->next_kink);
+  corot_pack_long(p, &s->next_output);
+}
+
 static double kink_time(const schedule *s) {
   return s->next_kink < s->nkink ? s->kink[s->next_kink] : INFINITY;
 }

@@ -9,6 +9,8 @@
 
 #include <corot/model.h>
 
+#include "core/base/pack.h"
+
 typedef struct schedule {
   double end;         /* [s] */
   double output_step; /* [s]; 0: at the start and the end only */
@@ -24,6 +26,9 @@ typedef struct schedule {
 corot_status schedule_create(const corot_model *model, double end, double output_step, int nchange,
                              const double *change, schedule **out);
 void schedule_destroy(schedule *s);
+
+/* Writes or reads how far it has come. */
+void schedule_exchange(pack *p, schedule *s);
 
 /* The first of the next kink, `other` and the end. */
 double schedule_stop(const schedule *s, double other);

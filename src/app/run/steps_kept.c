@@ -4,8 +4,24 @@
 bool thin_keeps(long number, unsigned events) {
   long every = 1;
   while (number / every > THIN_FROM) every *= 10;
-  return number % every == 0 ||
-         (events & (EVENT_KINK | EVENT_RESTART | EVENT_FAILED | EVENT_REJECTED)) != 0;
+  return number % every == 0 || (events & (EVENT_KINK | EVENT_RESTART | EVENT_FAILED |
+                                           EVENT_REJECTED | EVENT_CHECKPOINT)) != 0;
+}
+
+void step_row_exchange(pack *p, step_row *row) {
+  corot_frame_event *e = &row->update;
+  int events = (int)row->events, reason = (int)e->reason;
+  double *const number[] = {
+      &row->t,          &row->h, &row->error, &e->change.angle_max, &e->change.angle_mean,
+      &e->change.energy};
+  for (size_t i = 0; i < sizeof number / sizeof *number; i++) corot_pack_double(p, number[i]);
+  corot_pack_int(p, &row->order);
+  corot_pack_int(p, &row->newton);
+  corot_pack_int(p, &events);
+  corot_pack_int(p, &reason);
+  corot_pack_bool(p, &e->restarted);
+  row->events = (unsigned)events;
+  e->reason = (corot_frame_reason)reason;
 }
 
 const char *thin_rule(const steps_count *count) {

@@ -4,7 +4,8 @@
      1 to 10^4            each
      10^4 to 10^5         each tenth
      10^5 to 10^6         each hundredth, and so on: 9000 rows for each factor of ten
-     kinks, restarts of the integrator, failures and refused steps, and the last step   always */
+     kinks, restarts of the integrator, failures, refused steps, checkpoints, and the last step
+                          always */
 #ifndef COROT_APP_RUN_STEPS_KEPT_H
 #define COROT_APP_RUN_STEPS_KEPT_H
 
@@ -20,6 +21,9 @@ typedef struct steps_count {
 
 /* Whether step `number` has a row, not counting that it may be the last. */
 bool thin_keeps(long number, unsigned events);
+
+/* Writes or reads a step. */
+void step_row_exchange(pack *p, step_row *row);
 
 /* The rule in words; static. */
 const char *thin_rule(const steps_count *count);

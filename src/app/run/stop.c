@@ -12,6 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "app/folder/checkpoint_file.h"
 #include "app/folder/folder.h"
 #include "app/folder/folder_lock.h"
 #include "app/text/no_memory.h"
@@ -35,6 +36,12 @@ static struct {
   size_t length[PARTS];
   char reached[2][32];
   volatile sig_atomic_t latest; /* of the two */
+  struct {
+    const char *data;
+    size_t size;
+  } checkpoint[2];
+  volatile sig_atomic_t keeps; /* the number of one of them, from 1; 0: none */
+  char *checkpoint_path, *checkpoint_temporary;
 } stop;
 
 /* --- In handlers --- */
@@ -84,10 +91,23 @@ static bool put_prepared(void) {
   return whole;
 }
 
+static void put_checkpoint(void) {
+  const char *data = stop.checkpoint[stop.keeps - 1].data;
+  size_t size = stop.checkpoint[stop.keeps - 1].size;
+  unlink(stop.checkpoint_temporary);
+  int fd = open(stop.checkpoint_temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0) return;
+  put(fd, data, size);
+  bool whole = lseek(fd, 0, SEEK_CUR) == (off_t)size && fsync(fd) == 0;
+  whole = close(fd) == 0 && whole && rename(stop.checkpoint_temporary, stop.checkpoint_path) == 0;
+  if (!whole) unlink(stop.checkpoint_temporary);
+}
+
 /* Where another process writes, what it says is not to be replaced. */
 static void write_prepared(void) {
   make_folder(stop.dir);
   if (!stop.held && folder_lock_try(stop.lock) < 0) return;
+  if (stop.held && stop.keeps) put_checkpoint();
   if (put_prepared()) unlink(stop.lock);
 }
 
@@ -183,8 +203,11 @@ corot_status stop_prepare(const char *dir, const char *text) {
   stop.path = folder_path(dir, "result.json");
   stop.temporary = folder_path(dir, "result.json.tmp");
   stop.lock = folder_path(dir, FOLDER_LOCK_NAME);
+  stop.checkpoint_path = folder_path(dir, CHECKPOINT_NAME);
+  stop.checkpoint_temporary = folder_path(dir, CHECKPOINT_NAME ".tmp");
   stop.text = malloc(strlen(text) + 1);
-  if (!stop.dir || !stop.path || !stop.temporary || !stop.lock || !stop.text) {
+  if (!stop.checkpoint_path || !stop.checkpoint_temporary || !stop.dir || !stop.path ||
+      !stop.temporary || !stop.lock || !stop.text) {
     stop_release();
     return no_memory();
   }
@@ -197,14 +220,26 @@ corot_status stop_prepare(const char *dir, const char *text) {
   return status;
 }
 
+void stop_keep(const void *data, size_t size) {
+  int next = data ? (stop.keeps == 1 ? 2 : 1) : 0;
+  if (next) {
+    stop.checkpoint[next - 1].data = data;
+    stop.checkpoint[next - 1].size = size;
+  }
+  stop.keeps = next;
+}
+
 void stop_hold(void) { stop.held = 1; }
 
 void stop_release(void) {
-  stop.prepared = stop.held = 0;
+  stop.prepared = stop.held = stop.keeps = 0;
   free(stop.dir);
   free(stop.path);
   free(stop.temporary);
   free(stop.lock);
   free(stop.text);
+  free(stop.checkpoint_path);
+  free(stop.checkpoint_temporary);
   stop.dir = stop.path = stop.temporary = stop.lock = stop.text = NULL;
+  stop.checkpoint_path = stop.checkpoint_temporary = NULL;
 }

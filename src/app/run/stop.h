@@ -11,6 +11,7 @@
 
 #include <corot/base.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 enum { STOP_SIGNALS = 6 };
 extern const int stop_signals[STOP_SIGNALS];
@@ -38,6 +39,10 @@ enum { STOP_NUMBER = 990000001, STOP_CODE = 990000002, STOP_REACHED = 990000003 
    COROT_ENOMEM; COROT_EINVAL: one of them is missing. */
 corot_status stop_prepare(const char *dir, const char *text);
 void stop_release(void);
+
+/* The checkpoint that is to be put in place then, too, complete: the bytes stay until the next call
+   or stop_release(); NULL: none is. For a folder that was prepared for. */
+void stop_keep(const void *data, size_t size);
 
 /* This process has taken the folder that was prepared for. */
 void stop_hold(void);

@@ -31,7 +31,8 @@ typedef struct moment {
 /* Who begins it: a run, a search for an equilibrium, or both. */
 typedef enum writer_use { WRITER_COMMON, WRITER_OF_RUN, WRITER_OF_STATICS } writer_use;
 
-/* What `open` makes is handed to the others. All but `open` and `close` may be NULL: nothing. */
+/* What `open` makes is handed to the others. All but `open` and `close` may be NULL: nothing; what
+   belongs to checkpoints, only of what no run writes. */
 typedef struct writer_ops {
   const char *file; /* its name, as in app/folder/inventory.c */
   writer_use use;
@@ -41,6 +42,13 @@ typedef struct writer_ops {
   corot_status (*evaluate)(void *writer, const moment *now);
   corot_status (*moment)(void *writer, const moment *now);
   corot_status (*step)(void *writer, const step_row *row);
+  /* Checkpoints: how far it has come, for `resume`; and that what is written is on the disk. */
+  corot_status (*pack)(void *writer, pack *p);
+  corot_status (*synchronise)(void *writer);
+  /* In the place of `open`: the writer as it was, if its files have all that it had written by
+     then, which it only looks at. Then `cut` takes away what was written later. */
+  corot_status (*resume)(const writer_source *source, pack *p, void **writer);
+  corot_status (*cut)(void *writer);
   /* Ends the file, reports an error that shows up then, and frees the writer in any case. */
   corot_status (*close)(void *writer);
 } writer_ops;

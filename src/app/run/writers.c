@@ -7,6 +7,9 @@
 #include "history.h"
 
 static corot_status close_table(void *writer) { return table_close(writer); }
+static corot_status pack_table(void *writer, pack *p) { return table_pack(writer, p); }
+static corot_status synchronise_table(void *writer) { return table_synchronise(writer); }
+static corot_status cut_table(void *writer) { return table_cut(writer); }
 
 /* --- probes.csv --- */
 
@@ -35,6 +38,28 @@ static corot_status open_probes(const writer_source *source, void **writer) {
   return status;
 }
 
+static corot_status pack_probes(void *writer, pack *p) {
+  return table_pack(((probes_table *)writer)->table, p);
+}
+
+static corot_status synchronise_probes(void *writer) {
+  return table_synchronise(((probes_table *)writer)->table);
+}
+
+static corot_status resume_probes(const writer_source *source, pack *p, void **writer) {
+  probes_table *made = calloc(1, sizeof *made);
+  if (!made) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
+  made->ncolumn = probes_ncolumn(source->probes);
+  corot_status status = table_resume(source->dir, probes_writer.file, p, &made->table);
+  if (status == COROT_OK)
+    *writer = made;
+  else
+    free(made);
+  return status;
+}
+
+static corot_status cut_probes(void *writer) { return table_cut(((probes_table *)writer)->table); }
+
 static corot_status write_probes(void *writer, const moment *now) {
   const probes_table *p = writer;
   return probes_row(p->table, now->t, p->ncolumn, now->probed);
@@ -44,6 +69,10 @@ const writer_ops probes_writer = {
     .file = "probes.csv",
     .open = open_probes,
     .moment = write_probes,
+    .pack = pack_probes,
+    .synchronise = synchronise_probes,
+    .resume = resume_probes,
+    .cut = cut_probes,
     .close = close_probes,
 };
 
@@ -56,6 +85,13 @@ static corot_status open_energy(const writer_source *source, void **writer) {
   return COROT_OK;
 }
 
+static corot_status resume_energy(const writer_source *source, pack *p, void **writer) {
+  table *t = NULL;
+  COROT_TRY(table_resume(source->dir, energy_writer.file, p, &t));
+  *writer = t;
+  return COROT_OK;
+}
+
 static corot_status write_energy(void *writer, const moment *now) {
   return energy_row(writer, now->ledger);
 }
@@ -64,6 +100,10 @@ const writer_ops energy_writer = {
     .file = "energy.csv",
     .open = open_energy,
     .moment = write_energy,
+    .pack = pack_table,
+    .synchronise = synchronise_table,
+    .resume = resume_energy,
+    .cut = cut_table,
     .close = close_table,
 };
 
@@ -76,19 +116,53 @@ typedef struct steps {
   bool waits; /* the last step has no row yet */
 } steps;
 
-static corot_status open_steps(const writer_source *source, void **writer) {
+/* All but the table. */
+static void exchange_steps(pack *p, steps *s) {
+  corot_pack_long(p, &s->count->steps);
+  corot_pack_long(p, &s->count->rows);
+  corot_pack_bool(p, &s->waits);
+  step_row_exchange(p, &s->last);
+}
+
+static corot_status open_table_of_steps(const writer_source *source, pack *p, steps *s) {
+  if (!p) return steps_open(source->dir, &s->table);
+  exchange_steps(p, s);
+  return table_resume(source->dir, steps_writer.file, p, &s->table);
+}
+
+/* On the table of a checkpoint, or from the beginning (NULL). */
+static corot_status begin_steps(const writer_source *source, pack *p, void **writer) {
   steps *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "the steps: out of memory");
-  corot_status status = steps_open(source->dir, &s->table);
-  if (status != COROT_OK) {
-    free(s);
-    return status;
-  }
   s->count = source->steps;
   *s->count = (steps_count){.all = source->scenario->write_all_steps};
-  *writer = s;
-  return COROT_OK;
+  corot_status status = open_table_of_steps(source, p, s);
+  if (status == COROT_OK)
+    *writer = s;
+  else
+    free(s);
+  return status;
 }
+
+static corot_status open_steps(const writer_source *source, void **writer) {
+  return begin_steps(source, NULL, writer);
+}
+
+static corot_status resume_steps(const writer_source *source, pack *p, void **writer) {
+  return begin_steps(source, p, writer);
+}
+
+static corot_status pack_steps(void *writer, pack *p) {
+  steps *s = writer;
+  exchange_steps(p, s);
+  return table_pack(s->table, p);
+}
+
+static corot_status synchronise_steps(void *writer) {
+  return table_synchronise(((steps *)writer)->table);
+}
+
+static corot_status cut_steps(void *writer) { return table_cut(((steps *)writer)->table); }
 
 static corot_status write_step(void *writer, const step_row *row) {
   steps *s = writer;
@@ -116,6 +190,10 @@ const writer_ops steps_writer = {
     .file = "steps.csv",
     .open = open_steps,
     .step = write_step,
+    .pack = pack_steps,
+    .synchronise = synchronise_steps,
+    .resume = resume_steps,
+    .cut = cut_steps,
     .close = close_steps,
 };
 
@@ -129,6 +207,24 @@ static corot_status open_history(const writer_source *source, void **writer) {
   return COROT_OK;
 }
 
+static corot_status pack_history(void *writer, pack *p) {
+  return table_pack(history_table(writer), p);
+}
+
+static corot_status synchronise_history(void *writer) {
+  return table_synchronise(history_table(writer));
+}
+
+static corot_status resume_history(const writer_source *source, pack *p, void **writer) {
+  table *t = NULL;
+  COROT_TRY(table_resume(source->dir, history_writer.file, p, &t));
+  history_use(source->history, t);
+  *writer = source->history;
+  return COROT_OK;
+}
+
+static corot_status cut_history(void *writer) { return table_cut(history_table(writer)); }
+
 static corot_status close_history(void *writer) { return history_close(writer); }
 
 const writer_ops history_writer = {
@@ -136,6 +232,10 @@ const writer_ops history_writer = {
     .use = WRITER_OF_RUN,
     .wanted = wants_history,
     .open = open_history,
+    .pack = pack_history,
+    .synchronise = synchronise_history,
+    .resume = resume_history,
+    .cut = cut_history,
     .close = close_history,
 };
 
@@ -154,6 +254,19 @@ static corot_status write_state(void *writer, const moment *now) {
   return states_add(writer, now->t, now->u, now->v);
 }
 
+static corot_status pack_states(void *writer, pack *p) { return states_pack(writer, p); }
+
+static corot_status synchronise_states(void *writer) { return states_synchronise(writer); }
+
+static corot_status resume_states(const writer_source *source, pack *p, void **writer) {
+  state_writer *file = NULL;
+  COROT_TRY(states_resume(source->dir, source->model, p, &file));
+  *writer = file;
+  return COROT_OK;
+}
+
+static corot_status cut_states(void *writer) { return states_cut(writer); }
+
 static corot_status close_states(void *writer) { return states_close(writer); }
 
 const writer_ops states_writer = {
@@ -161,5 +274,9 @@ const writer_ops states_writer = {
     .wanted = wants_states,
     .open = open_states,
     .moment = write_state,
+    .pack = pack_states,
+    .synchronise = synchronise_states,
+    .resume = resume_states,
+    .cut = cut_states,
     .close = close_states,
 };

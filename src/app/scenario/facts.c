@@ -315,6 +315,9 @@ static void print_probe(const probe_def *p, const corot_location *at, const coro
 static void print_run(const scenario *s, const facts *f, FILE *out) {
   print_integrator(s, &f->chosen, out);
   fprintf(out, "time           0 to %g s, output every %g s\n", s->t_end, s->output_step);
+  if (s->checkpoint_steps > 0)
+    fprintf(out, "checkpoint     after each %ld step%s, written every %g s of the clock\n",
+            s->checkpoint_steps, plural(s->checkpoint_steps), s->checkpoint_every);
   for (int i = 0; i < s->nprobe; i++) print_probe(&s->probe[i], &f->probe[i], f->mesh, out);
 }
 
@@ -437,6 +440,10 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
+  if (s->checkpoint_steps > 0)
+    j = json_text_with(j, "checkpoint",
+                       json_pack("{s:f, s:I}", "every", s->checkpoint_every, "steps",
+                                 (json_int_t)s->checkpoint_steps));
   j = json_text_with(j, "probes", probes_json(s, f));
   j = json_text_with(j, "quantities", quantities_json(s));
   return json_text_with(j, "warnings", warnings_json(&f->warnings));

@@ -116,6 +116,8 @@ typedef struct scenario {
   bool write_all_steps; /* output.steps: all */
   bool write_states;    /* output.states: binary */
   space_error space_error;
+  double checkpoint_every; /* [s] on the clock */
+  long checkpoint_steps;   /* 0: no checkpoints */
 
   json_t *resolved;      /* the whole scenario, defaults and overrides included */
   struct config *source; /* the file as a tree, for the places in messages; owns the memory */

@@ -59,6 +59,8 @@ static json_t *plain_schema(const schema_key *key) {
       return scalar_schema("number", key);
     case SCHEMA_INTEGER:
       return scalar_schema("integer", key);
+    case SCHEMA_DURATION:
+      return json_pack("{s:[o, o]}", "anyOf", ranged("number", key->range), of_type("string"));
     case SCHEMA_VECTOR:
       return list_schema(ranged("number", key->range), 3, 3);
     case SCHEMA_COUNTS:

@@ -40,7 +40,7 @@ static const schema_key keys[] = {
   {"title",                   TEXT,            OPTIONAL, ANY,          "",        "''", 0, "what the run is about"},
 
   {"mesh",                    MAP,             REQUIRED, ANY,          "",        0, 0, "the solid: a file or a box"},
-  {"mesh.file",               TEXT,            ONE_OF,   ANY,          "",        0, 0, "gmsh 1, 2.2, 4.1 or TetGen file, relative to the scenario's folder"},
+  {"mesh.file",               TEXT,            ONE_OF,   ANY,          "",        0, 0, "gmsh 1, 2.2, 4.0, 4.1, TetGen, MEDIT or Abaqus file, relative to the scenario's folder"},
   {"mesh.box",                MAP,             ONE_OF,   ANY,          "",        0, 0, "a box; its sides are groups xmin xmax ymin ymax zmin zmax"},
   {"mesh.box.size",           VECTOR,          REQUIRED, POSITIVE,     "m",       0, 0, "lengths of the edges"},
   {"mesh.box.cells",          SCHEMA_COUNTS,   REQUIRED, POSITIVE,     "",        0, 0, "cells along each axis, six tets each; see split"},
@@ -202,6 +202,10 @@ static const schema_key keys[] = {
   {"output.steps",            CHOICE,          OPTIONAL, ANY,          "",        0, "thin|all", "rows of steps.csv; thin, the default: each step up to 10 000, each tenth up to 100 000, each hundredth up to 1 000 000 and so on, and kinks, restarts, failures and the last one; result.json says what is there"},
   {"output.states",           CHOICE,          OPTIONAL, ANY,          "",        "none", "binary|none", "states.bin: displacement and velocity of all degrees of freedom at the output times, to the last bit"},
   {"output.space_error",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|true|false", "what the mesh of four-node tets leaves out of the displacement, in result.json and, above 5 %, as a warning; auto: where it takes at most a tenth of the run, or next to no time, some 0.05 s"},
+
+  {"checkpoint",              SCHEMA_SHORT,    OPTIONAL, ANY,          "",        0, 0, "what corot run --resume goes on from, checkpoint.bin in the run's folder, which a run that is over removes; to the last bit as if nothing had ended it. A number is checkpoint.every"},
+  {"checkpoint.every",        SCHEMA_DURATION, OPTIONAL, NOT_NEGATIVE, "s",       "600.0", 0, "time on the clock from one writing of it to the next; or with a unit: 30 s, 10 min, 2 h, 1 d; 0: as often as steps says. kill -9 costs at most that time and checkpoint.steps steps; a request to end (SIGTERM, SIGINT, a limit of time) at most these steps. It changes nothing of the answer"},
+  {"checkpoint.steps",        INTEGER,         OPTIONAL, POSITIVE,     "",        "500", 0, "the integrator begins anew after every so many steps, from what is to be written, whether it is written or not; cvode and ida take some ten short steps of low order then, so that few steps cost, and many lose more. It is part of the answer, as a tolerance is"},
 };
 /* clang-format on */
 

@@ -177,6 +177,13 @@ static void read_output(scenario *s) {
   s->field_every = (int)number_at(root, "output.every");
 }
 
+static void read_checkpoint(scenario *s) {
+  config_node *node = config_find(s->source->root, "checkpoint");
+  if (!node) return;
+  s->checkpoint_every = number_at(node, "every");
+  s->checkpoint_steps = (long)number_at(node, "steps");
+}
+
 /* --- All of it --- */
 
 /* What is to be put in the place of the file's values: the texts, or the nodes. */
@@ -220,6 +227,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_probes(s));
   COROT_TRY(scenario_read_quantities(s));
   read_output(s);
+  read_checkpoint(s);
   s->resolved = schema_resolve(s->source);
   return s->resolved ? COROT_OK : no_memory();
 }

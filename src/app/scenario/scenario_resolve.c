@@ -105,6 +105,8 @@ static json_t *resolve_value(const config_node *node, const schema_key *key) {
     case SCHEMA_INTEGER:
       if (key->words && strcmp(node->text, key->words) == 0) return json_string(node->text);
       return number(node, whole);
+    case SCHEMA_DURATION:
+      return number(node, false);
     default:
       return numbers(node, whole);
   }

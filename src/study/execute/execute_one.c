@@ -108,7 +108,7 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
   const study_run *run = e->task[i].run;
   char *dir = store_path(e->o->dir, run, folder);
   char *messages = store_path(e->o->dir, run, "messages.txt");
-  const char **argv = calloc(2 * (size_t)run->nset + 12, sizeof *argv);
+  const char **argv = calloc(2 * (size_t)run->nset + 13, sizeof *argv);
   corot_status status = dir && messages && argv ? COROT_OK : no_memory();
   if (status == COROT_OK) {
     int n = 0;
@@ -118,6 +118,8 @@ corot_status execution_start(execution *e, int i, const char *folder, const char
     argv[n++] = "--quiet";
     argv[n++] = "--lean";  /* what a cell costs is the cost of its answer */
     argv[n++] = "--force"; /* the folder is the study's, whatever an earlier attempt has left */
+    /* an attempt that was cut goes on; one that is timed begins */
+    if (!e->m->still && !*folder) argv[n++] = "--resume";
     argv[n++] = "--output";
     argv[n++] = dir;
     for (int k = 0; k < run->nset; k++) {

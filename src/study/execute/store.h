@@ -2,6 +2,7 @@
 
      study.json            what it consists of (manifest.h)
      runs/ID/              one run each, as `corot run` leaves it; result.json says that it is over
+     runs/ID/checkpoint.bin  what a run that was cut goes on from, if its scenario asks for it
      runs/ID/failure.json  why there is no result.json: {"hash", "reason", "exit_code" | "signal",
                            "failure": {"kind", "retry"}} as in result.json; the kind is "crash" or
                            "timeout", too

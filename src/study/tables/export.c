@@ -117,7 +117,7 @@ corot_status export_snakemake(const manifest *m, const export_target *t, FILE *o
       "    params: settings=lambda wildcards: RUNS[wildcards.id]\n"
       "    shell: \"" ONE_THREAD "{PROGRAM:q} ",
       out);
-  fputs(m->still ? "static" : "run", out);
+  fputs(m->still ? "static" : "run --resume", out);
   fputs(
       " {BASE:q} --quiet --lean --force --output {DIR:q}/runs/{wildcards.id} "
       "{params.settings} || test $? -eq 1\"\n" /* a quantity without a value is no failure */

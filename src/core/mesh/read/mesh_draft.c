@@ -35,6 +35,11 @@ static bool consecutive(const corot_draft *d) {
 }
 
 corot_status corot_draft_index_nodes(corot_draft *d) {
+  for (int i = 0; i < d->nnode; i++)
+    if (d->node[i].tag < 0)
+      return corot_reader_fail(d->node_file, d->node[i].at,
+                               "node %lld: the number of a node may not be negative",
+                               (long long)d->node[i].tag);
   if (consecutive(d)) return COROT_OK;
   COROT_TRY(COROT_ALLOC(d->by_tag, d->nnode));
   for (int i = 0; i < d->nnode; i++) d->by_tag[i] = (corot_draft_node){d->node[i].tag, (size_t)i};
@@ -67,8 +72,8 @@ corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_eleme
                                    int64_t tag, int *index) {
   int i = index_of(d, tag);
   if (i < 0)
-    return corot_reader_fail(d->element_file, element->at, "element %lld: node %lld does not exist",
-                             (long long)element->tag, (long long)tag);
+    return corot_draft_fail(d, element, "%s %lld: node %lld does not exist",
+                            corot_draft_word(d, element), (long long)element->tag, (long long)tag);
   *index = i;
   return COROT_OK;
 }
@@ -80,6 +85,18 @@ corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size) 
   if (!p) return corot_fail(COROT_ENOMEM, "out of memory: %zu times %zu bytes", more, size);
   *items = p;
   *room = more;
+  return COROT_OK;
+}
+
+corot_status corot_draft_add_node(corot_draft *d, corot_draft_node node, const double x[3]) {
+  void *nodes = d->node, *places = d->x;
+  if (d->nnode == INT_MAX) return corot_fail(COROT_ENOMEM, "too many nodes: %d", d->nnode);
+  COROT_TRY(corot_make_room(&nodes, (size_t)d->nnode, &d->node_room, sizeof node));
+  d->node = nodes;
+  COROT_TRY(corot_make_room(&places, (size_t)d->nnode, &d->x_room, sizeof *d->x));
+  d->x = places;
+  d->node[d->nnode] = node;
+  memcpy(d->x[d->nnode++], x, sizeof *d->x);
   return COROT_OK;
 }
 

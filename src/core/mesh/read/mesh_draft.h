@@ -39,10 +39,13 @@ typedef struct corot_draft_name {
 /* Zero is an empty draft. */
 typedef struct corot_draft {
   const corot_reader *node_file, *element_file; /* for messages */
-  bool repeats;            /* an element in several groups is listed once for each */
+  const corot_reader *face_file; /* of triangles; NULL: they are in the file of the elements */
+  bool repeats;                  /* an element in several groups is listed once for each */
+  bool raises;             /* triangles may lack the nodes on their edges, which the tets have */
   const char *unused_hint; /* if there are no groups: why a node may be in no tet */
 
   int nnode;
+  size_t node_room, x_room; /* of nodes that are added one by one */
   double (*x)[3];
   corot_draft_node *node;   /* [nnode] */
   corot_draft_node *by_tag; /* [nnode] ascending tags, `at` being the index; NULL: tags are
@@ -66,13 +69,26 @@ typedef struct corot_draft {
 void corot_draft_clear(corot_draft *d);
 
 /* Room for n nodes, which the caller fills in; then the index of their tags.
-   COROT_EFORMAT: a tag occurs twice. */
+   COROT_EFORMAT: a tag is negative or occurs twice. */
 corot_status corot_draft_alloc_nodes(corot_draft *d, int n);
 corot_status corot_draft_index_nodes(corot_draft *d);
+
+/* How messages call an element: where faces have a file, they have numbers of their own. */
+static inline const char *corot_draft_word(const corot_draft *d, const corot_draft_element *e) {
+  return e->dim == 2 && d->face_file ? "face" : "element";
+}
+
+/* COROT_EFORMAT with the place of the element before the message. */
+#define corot_draft_fail(d, element, ...)                                                       \
+  corot_reader_fail((element)->dim == 2 && (d)->face_file ? (d)->face_file : (d)->element_file, \
+                    (element)->at, __VA_ARGS__)
 
 /* The index of a node. COROT_EFORMAT, naming the element, if there is none. */
 corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_element *element,
                                    int64_t tag, int *index);
+
+/* Appends a node, before the index is made. */
+corot_status corot_draft_add_node(corot_draft *d, corot_draft_node node, const double x[3]);
 
 /* Makes room for one more item of `size` bytes. */
 corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size);

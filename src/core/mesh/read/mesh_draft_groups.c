@@ -189,13 +189,19 @@ static corot_status check_middles(const gather *g, const corot_draft_element *t,
   for (int k = 0; k < 3; k++) {
     int a = t->node[k], b = t->node[(k + 1) % 3], m = g->d->middle[t->middle - 1 + k];
     if (m != tet_middle(g->mesh, g->face[f].side / 4, a, b))
-      return corot_reader_fail(
-          g->d->element_file, t->at,
-          "element %lld has node %lld on the edge %lld %lld, the tets have another",
+      return corot_draft_fail(
+          g->d, t, "element %lld has node %lld on the edge %lld %lld, the tets have another",
           (long long)t->tag, (long long)g->d->node[m].tag, (long long)g->d->node[a].tag,
           (long long)g->d->node[b].tag);
   }
   return COROT_OK;
+}
+
+/* Adds the nodes on the edges of a triangle that is face f of a ten-node tet. */
+static void take_middles(const gather *g, const int tri[3], int f, corot_group *group) {
+  for (int k = 0; k < 3; k++)
+    group->node[group->nnode++] =
+        tet_middle(g->mesh, g->face[f].side / 4, tri[k], tri[(k + 1) % 3]);
 }
 
 static corot_status take_triangles(gather *g, const part *p, corot_group *group) {
@@ -203,10 +209,11 @@ static corot_status take_triangles(gather *g, const part *p, corot_group *group)
     const corot_draft_element *e = element(g, p, i);
     int f = corot_face_find(4 * g->mesh->ntet, g->face, e->node), *tri = group->tri[group->ntri];
     if (f < 0)
-      return corot_reader_fail(g->d->element_file, e->at,
-                               "element %lld: the triangle is no face of a tet", (long long)e->tag);
-    if (g->mesh->mid) COROT_TRY(check_middles(g, e, f));
+      return corot_draft_fail(g->d, e, "%s %lld: the triangle is no face of a tet",
+                              corot_draft_word(g->d, e), (long long)e->tag);
+    if (e->middle) COROT_TRY(check_middles(g, e, f));
     if (g->face_seen[f] == g->pass) continue;
+    if (g->mesh->mid && !e->middle) take_middles(g, e->node, f, group);
     g->face_seen[f] = g->pass;
     memcpy(tri, e->node, sizeof *group->tri);
     bool reversed = g->d->member[p->first + i].physical < 0;
@@ -230,16 +237,16 @@ static corot_status fill_group(gather *g, const part *p, size_t npart, corot_gro
   }
   group->nnode = take_nodes(g, p, npart, NULL);
   COROT_TRY(COROT_ALLOC(group->name, strlen(p->name) + 1));
-  COROT_TRY(COROT_ALLOC(group->node, group->nnode));
+  COROT_TRY(COROT_ALLOC(group->node, (size_t)group->nnode + 3 * ntri));
   COROT_TRY(COROT_ALLOC(group->tri, ntri));
   COROT_TRY(COROT_ALLOC(group->tet, ntet));
   strcpy(group->name, p->name);
   take_nodes(g, p, npart, group->node);
-  corot_ints_unique(&group->nnode, group->node);
   for (size_t k = 0; k < npart; k++) {
     if (p[k].dim == 2) COROT_TRY(take_triangles(g, &p[k], group));
     if (p[k].dim == 3) take_tets(g, &p[k], group);
   }
+  corot_ints_unique(&group->nnode, group->node);
   corot_ints_unique(&group->ntet, group->tet);
   return COROT_OK;
 }

@@ -15,6 +15,7 @@ corot_status corot_draft_check_orders(const corot_draft *d) {
     const corot_draft_element *e = &d->element[d->member[i].element];
     int order = e->middle ? 2 : 1;
     if (e->dim == 0 || order == d->order) continue;
+    if (e->dim == 2 && order == 1 && d->raises) continue;
     return corot_reader_fail(
         d->element_file, e->at,
         "element %lld of a physical group is a %s, but the tets have %d nodes: orders do not mix",

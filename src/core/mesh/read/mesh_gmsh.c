@@ -69,11 +69,10 @@ corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element
   return COROT_OK;
 }
 
-/* Node tags have 8 bytes in format 4.1, 4 before. */
-static corot_status read_tag(corot_gmsh *g, int64_t *tag) {
+corot_status corot_gmsh_tag(corot_gmsh *g, const char *what, int64_t *tag) {
   int v;
-  if (g->version == 4) return corot_reader_long(&g->r, "a node", tag);
-  COROT_TRY(corot_reader_int(&g->r, "a node", &v));
+  if (!g->r.binary || g->version == 4) return corot_reader_long(&g->r, what, tag);
+  COROT_TRY(corot_reader_int(&g->r, what, &v));
   *tag = v;
   return COROT_OK;
 }
@@ -101,7 +100,7 @@ corot_status corot_gmsh_add_element(corot_gmsh *g, corot_draft_element *element,
     int ignored, *to = &ignored;
     if (order && i <= type->dim) to = &element->node[i];
     if (order && i > type->dim) to = &middle[i - type->dim - 1];
-    COROT_TRY(read_tag(g, &tag));
+    COROT_TRY(corot_gmsh_tag(g, "a node", &tag));
     COROT_TRY(corot_draft_find_node(&g->d, element, tag, to));
   }
   COROT_TRY(corot_reader_end_line(&g->r));
@@ -131,18 +130,23 @@ static corot_status read_format(corot_gmsh *g) {
   COROT_TRY(corot_reader_real(r, "the version of the format", &version));
   if (version >= 2 && version < 3)
     g->version = 2;
-  else if (version == 4.1)
+  else if (version == 4.1 || version == 4)
     g->version = 4;
   else
     return corot_reader_fail(r, at,
                              "gmsh format %g is not supported: save it as 4.1 or 2.2 (gmsh FILE "
                              "-save -format msh41)",
                              version);
+  g->is_4_0 = version == 4;
   COROT_TRY(corot_reader_int(r, "0 (ASCII) or 1 (binary)", &binary));
   COROT_TRY(corot_reader_int(r, "the size of a number", &size));
   if (binary != 0 && binary != 1)
     return corot_reader_fail(r, at, "the file type is %d, not 0 (ASCII) or 1 (binary)", binary);
   if (size != 8) return corot_reader_fail(r, at, "the size of a number is %d, not 8 bytes", size);
+  if (g->is_4_0 && binary)
+    return corot_reader_fail(r, at,
+                             "format 4.0 is supported in ASCII only: save it as 4.1 (gmsh FILE "
+                             "-save -format msh41)");
   g->binary = r->bytes = binary;
   COROT_TRY(corot_gmsh_start_data(g));
   if (!binary) return COROT_OK;
@@ -188,10 +192,6 @@ static corot_status read_names(corot_gmsh *g) {
   return COROT_OK;
 }
 
-static corot_status refuse_partitions(corot_gmsh *g) {
-  return corot_reader_fail(&g->r, g->r.at, "partitioned meshes are not supported");
-}
-
 /* A section of the formats first to last. */
 typedef struct section {
   const char *name, *end;
@@ -208,7 +208,7 @@ static const section sections[] = {
     {"$ParametricNodes", "$EndParametricNodes", 2, 2, corot_gmsh_parametric_nodes_2},
     {"$Elements", "$EndElements", 2, 2, corot_gmsh_elements_2},
     {"$Entities", "$EndEntities", 4, 4, corot_gmsh_entities_4},
-    {"$PartitionedEntities", "$EndPartitionedEntities", 4, 4, refuse_partitions},
+    {"$PartitionedEntities", "$EndPartitionedEntities", 4, 4, corot_gmsh_partitioned_entities_4},
     {"$Nodes", "$EndNodes", 4, 4, corot_gmsh_nodes_4},
     {"$Elements", "$EndElements", 4, 4, corot_gmsh_elements_4},
 };

@@ -4,7 +4,7 @@
 
 #include "mesh_draft.h"
 
-/* A geometric entity of format 4.1 and the physical groups it is in. */
+/* A geometric entity of format 4 and the physical groups it is in. */
 typedef struct corot_gmsh_entity {
   int dim, tag;
   int first, count; /* range of `physical` */
@@ -14,8 +14,9 @@ typedef struct corot_gmsh {
   corot_reader r;
   corot_draft d;
   int version; /* 1, 2 or 4; 0: not known yet */
+  bool is_4_0; /* version 4 is 4.0, not 4.1 */
   bool binary;
-  bool has_nodes, has_elements, has_entities;
+  bool has_nodes, has_elements, has_entities, has_partitions;
 
   size_t nentity, entity_room;
   corot_gmsh_entity *entity; /* [nentity] by dim, then tag */
@@ -36,6 +37,9 @@ corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element
 /* Begins the numbers of a section, which are binary if the file is. */
 corot_status corot_gmsh_start_data(corot_gmsh *g);
 
+/* The number of a node or element: 8 bytes in format 4.1, 4 before, of any size in text. */
+corot_status corot_gmsh_tag(corot_gmsh *g, const char *what, int64_t *tag);
+
 /* Reads an element's nodes and, unless it is of a type to be ignored, adds it to the draft, as a
    member of the groups `physical` [n], 0 being none. */
 corot_status corot_gmsh_add_element(corot_gmsh *g, corot_draft_element *element,
@@ -47,6 +51,7 @@ corot_status corot_gmsh_parametric_nodes_2(corot_gmsh *g); /* 2.2 */
 corot_status corot_gmsh_elements_1(corot_gmsh *g);
 corot_status corot_gmsh_elements_2(corot_gmsh *g);
 corot_status corot_gmsh_entities_4(corot_gmsh *g);
+corot_status corot_gmsh_partitioned_entities_4(corot_gmsh *g);
 corot_status corot_gmsh_nodes_4(corot_gmsh *g);
 corot_status corot_gmsh_elements_4(corot_gmsh *g);
 

@@ -21,14 +21,13 @@ static corot_status skip_parameters(corot_gmsh *g) {
 
 static corot_status read_nodes(corot_gmsh *g, bool parametric) {
   corot_reader *r = &g->r;
-  int n, tag;
+  int n;
   if (g->has_nodes) return corot_reader_fail(r, r->at, "nodes are listed twice");
   COROT_TRY(start_list(g, "the number of nodes", 7, 28, &n));
   COROT_TRY(corot_draft_alloc_nodes(&g->d, n));
   for (int i = 0; i < n; i++) {
     g->d.node[i].at = r->at;
-    COROT_TRY(corot_reader_int(r, "a node", &tag));
-    g->d.node[i].tag = tag;
+    COROT_TRY(corot_gmsh_tag(g, "a node", &g->d.node[i].tag));
     COROT_TRY(corot_reader_point(r, g->d.x[i]));
     if (parametric) COROT_TRY(skip_parameters(g));
     COROT_TRY(corot_reader_end_line(r));
@@ -51,11 +50,8 @@ static corot_status start_elements(corot_gmsh *g, int *n) {
 }
 
 static corot_status read_element_tag(corot_gmsh *g, corot_draft_element *element) {
-  int tag;
   *element = (corot_draft_element){.at = g->r.at};
-  COROT_TRY(corot_reader_int(&g->r, "an element", &tag));
-  element->tag = tag;
-  return COROT_OK;
+  return corot_gmsh_tag(g, "an element", &element->tag);
 }
 
 /* "ELEMENT TYPE PHYSICAL ENTITY NNODE NODE..." */

@@ -1,7 +1,9 @@
 /* Which format a mesh file has. */
 #include "mesh_read.h"
 
+#include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/base/c_locale.h"
 
@@ -19,32 +21,89 @@ static corot_status change_suffix(const char *path, size_t cut, const char *suff
   return COROT_OK;
 }
 
-/* A TetGen mesh, of which one of the two files has been loaded. */
+/* A file of a TetGen mesh: its path and what is in it, both to be freed. */
+typedef struct companion {
+  char *path, *data;
+  size_t size;
+} companion;
+
+static corot_status load(const char *path, size_t cut, const char *suffix, companion *c) {
+  COROT_TRY(change_suffix(path, cut, suffix, &c->path));
+  return corot_reader_load(c->path, &c->data, &c->size);
+}
+
+/* The same, but it may be missing: `data` is NULL then. */
+static corot_status load_if_there(const char *path, size_t cut, const char *suffix, companion *c) {
+  struct stat info;
+  COROT_TRY(change_suffix(path, cut, suffix, &c->path));
+  if (stat(c->path, &info) != 0 && errno == ENOENT) return COROT_OK;
+  return corot_reader_load(c->path, &c->data, &c->size);
+}
+
+/* A TetGen mesh, of which one of the files has been loaded: NAME.node or NAME.ele. */
 static corot_status read_tetgen(const char *path, const char *data, size_t size,
                                 corot_mesh **mesh) {
   bool is_node = has_suffix(path, ".node");
-  char *other, *other_data;
-  size_t other_size;
-  COROT_TRY(change_suffix(path, is_node ? 5 : 4, is_node ? ".ele" : ".node", &other));
-  corot_status status = corot_file_load(other, &other_data, &other_size);
+  size_t cut = is_node ? 5 : 4;
+  companion other = {0}, face = {0};
+  corot_status status = load(path, cut, is_node ? ".ele" : ".node", &other);
+  if (!status) status = load_if_there(path, cut, ".face", &face);
   if (!status) {
-    status = is_node ? corot_tetgen_parse(path, data, size, other, other_data, other_size, mesh)
-                     : corot_tetgen_parse(other, other_data, other_size, path, data, size, mesh);
-    free(other_data);
+    const corot_mesh_text given = {path, data, size}, found = {other.path, other.data, other.size},
+                          faces = {face.path, face.data, face.size};
+    status = corot_tetgen_parse(is_node ? &given : &found, is_node ? &found : &given,
+                                face.data ? &faces : NULL, mesh);
   }
-  free(other);
+  free(other.path);
+  free(other.data);
+  free(face.path);
+  free(face.data);
   return status;
 }
 
-static corot_status read_any(const char *path, const char *data, size_t size, corot_mesh **mesh) {
-  size_t blank = strspn(data, " \t\r\n");
-  if (blank == size) return corot_fail(COROT_EFORMAT, "%s: the file is empty", path);
-  if (data[blank] == '$') return corot_gmsh_parse(path, data, size, mesh);
-  if (has_suffix(path, ".node") || has_suffix(path, ".ele"))
-    return read_tetgen(path, data, size, mesh);
+/* `text` is where the file's first character stands that is not blank. */
+static bool is_gmsh(const char *path, const char *text) {
+  (void)path;
+  return *text == '$';
+}
+
+/* Comments may come first. */
+static bool is_medit(const char *path, const char *text) {
+  static const char word[] = "MeshVersionFormatted";
+  return strncmp(text, word, sizeof word - 1) == 0 ||
+         (has_suffix(path, ".mesh") && *text == '#' && strstr(text, word));
+}
+
+static bool is_inp(const char *path, const char *text) {
+  (void)path;
+  return *text == '*';
+}
+
+static bool is_tetgen(const char *path, const char *text) {
+  (void)text;
+  return has_suffix(path, ".node") || has_suffix(path, ".ele");
+}
+
+/* The formats; what is first recognized decides. */
+static const struct {
+  bool (*recognize)(const char *path, const char *text);
+  corot_status (*parse)(const char *path, const char *data, size_t size, corot_mesh **mesh);
+} formats[] = {
+    {is_gmsh, corot_gmsh_parse},
+    {is_medit, corot_medit_parse},
+    {is_inp, corot_inp_parse},
+    {is_tetgen, read_tetgen},
+};
+
+corot_status corot_mesh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
+  const char *text = data + strspn(data, " \t\r\n");
+  if (text == data + size) return corot_fail(COROT_EFORMAT, "%s: the file is empty", path);
+  for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+    if (formats[i].recognize(path, text)) return formats[i].parse(path, data, size, mesh);
   return corot_fail(COROT_EFORMAT,
-                    "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, TetGen files "
-                    "are called NAME.node and NAME.ele",
+                    "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, MEDIT files "
+                    "with MeshVersionFormatted, Abaqus files with *, TetGen files are called "
+                    "NAME.node and NAME.ele",
                     path);
 }
 
@@ -53,9 +112,9 @@ corot_status corot_mesh_read(const char *path, corot_mesh **mesh) {
   size_t size;
   COROT_TRY(COROT_GIVEN(path));
   COROT_TRY(COROT_GIVEN(mesh));
-  COROT_TRY(corot_file_load(path, &data, &size));
+  COROT_TRY(corot_reader_load(path, &data, &size));
   corot_c_locale locale = corot_c_locale_enter();
-  corot_status status = read_any(path, data, size, mesh);
+  corot_status status = corot_mesh_parse(path, data, size, mesh);
   corot_c_locale_leave(locale);
   free(data);
   return status;

@@ -4,10 +4,23 @@
 
 #include "mesh_draft.h"
 
-/* `path` is what messages call the file; data[size] must be 0. The locale must be C. */
+/* A file in memory, `path` being what messages call it; data[size] must be 0. */
+typedef struct corot_mesh_text {
+  const char *path, *data;
+  size_t size;
+} corot_mesh_text;
+
+/* A file that has been loaded, of the format that it has; others that it needs are looked for
+   beside it. The locale must be C. */
+corot_status corot_mesh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
+
+/* The formats. */
 corot_status corot_gmsh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
-corot_status corot_tetgen_parse(const char *node_path, const char *node_data, size_t node_size,
-                                const char *ele_path, const char *ele_data, size_t ele_size,
-                                corot_mesh **mesh);
+corot_status corot_inp_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
+corot_status corot_medit_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
+
+/* `face` may be NULL: there are no boundary faces. */
+corot_status corot_tetgen_parse(const corot_mesh_text *node, const corot_mesh_text *ele,
+                                const corot_mesh_text *face, corot_mesh **mesh);
 
 #endif

@@ -1,4 +1,4 @@
-/* TetGen's NAME.node and NAME.ele. */
+/* TetGen's NAME.node, NAME.ele and NAME.face. */
 #include <stdio.h>
 #include <string.h>
 
@@ -129,21 +129,81 @@ static void turn_left_handed(corot_draft *d) {
   }
 }
 
-/* Groups of tets by their regions, and of nodes by their markers; `distinct` is scratch. */
-static corot_status add_groups(corot_draft *d, const double *region, const double *marker,
-                               double *distinct) {
-  int n, ntet = (int)d->nelement;
-  COROT_TRY(name_values(d, 3, "region", ntet, region, distinct, &n));
-  for (int e = 0; e < ntet; e++)
-    COROT_TRY(corot_draft_add_member(d, e, number_of(region[e], n, distinct)));
-  COROT_TRY(name_values(d, 0, "marker", d->nnode, marker, distinct, &n));
+/* "INDEX NODE NODE NODE [three nodes on edges] [MARKER] [two tets]"; those in brackets are there or
+   not as -o2, the first line of the file and -nn say. A face without a marker is left out. */
+static corot_status read_face(corot_reader *r, int nmarker, corot_draft *d, double *marker) {
+  corot_draft_element element = {.at = r->at, .dim = 2};
+  int64_t tag, rest[6];
+  int n = 0;
+  COROT_TRY(corot_reader_long(r, "a face", &element.tag));
+  for (int k = 0; k < 3; k++) {
+    COROT_TRY(corot_reader_long(r, "a node", &tag));
+    COROT_TRY(corot_draft_find_node(d, &element, tag, &element.node[k]));
+  }
+  for (; n < 6 && corot_reader_more(r); n++) COROT_TRY(corot_reader_long(r, "a number", &rest[n]));
+  if (n < nmarker) return corot_reader_fail(r, r->at, "expected a marker, found the end");
+  COROT_TRY(corot_reader_end_line(r));
+  int64_t m = rest[n - nmarker >= 3 ? 3 : 0];
+  if (m == 0) return COROT_OK;
+  *marker = (double)m;
+  return corot_draft_add_element(d, &element, NULL);
+}
+
+/* "N NMARKER", then the faces; marker [N], of those that have one, is the caller's to free, on
+   failure too. */
+static corot_status read_faces(corot_reader *r, corot_draft *d, double **marker) {
+  int n, nmarker = 0;
+  size_t ntet = d->nelement;
+  corot_reader_skip_lines(r);
+  size_t at = r->at;
+  COROT_TRY(corot_reader_count(r, "the number of faces", 7, &n));
+  if (corot_reader_more(r)) COROT_TRY(corot_reader_int(r, "0 or 1 (boundary markers)", &nmarker));
+  if (nmarker < 0 || nmarker > 1)
+    return corot_reader_fail(r, at, "faces with %d boundary markers", nmarker);
+  COROT_TRY(corot_reader_end_line(r));
+  if (nmarker == 0) return COROT_OK;
+  COROT_TRY(COROT_ALLOC(*marker, n));
+  d->raises = true;
+  for (int i = 0; i < n; i++) COROT_TRY(read_face(r, nmarker, d, &(*marker)[d->nelement - ntet]));
+  if (r->at < r->size) return corot_reader_fail(r, r->at, "expected the end after %d faces", n);
+  return COROT_OK;
+}
+
+/* The numbers that a file gives its nodes, faces and tets; 0: none. */
+typedef struct marks {
+  double *region; /* [ntet] */
+  double *face;   /* [nface] of the triangles in the draft; NULL: there are none */
+  double *node;   /* [nnode] */
+  double *distinct;
+} marks;
+
+/* Groups of the elements first to first + n - 1, by their values. */
+static corot_status add_groups_of(corot_draft *d, int dim, const char *word, int first, int n,
+                                  const double *value, double *distinct) {
+  int ndistinct;
+  COROT_TRY(name_values(d, dim, word, n, value, distinct, &ndistinct));
+  for (int i = 0; i < n; i++)
+    COROT_TRY(corot_draft_add_member(d, first + i, number_of(value[i], ndistinct, distinct)));
+  return COROT_OK;
+}
+
+static corot_status add_points(corot_draft *d) {
   for (int i = 0; i < d->nnode; i++) {
     const corot_draft_element point = {.tag = d->node[i].tag, .node = {i}};
-    if (marker[i] == 0) continue;
     COROT_TRY(corot_draft_add_element(d, &point, NULL));
-    COROT_TRY(corot_draft_add_member(d, (int)d->nelement - 1, number_of(marker[i], n, distinct)));
   }
   return COROT_OK;
+}
+
+/* Groups of tets by their regions, and of faces and nodes by their markers. */
+static corot_status add_groups(corot_draft *d, int ntet, marks *m) {
+  int nface = (int)d->nelement - ntet;
+  COROT_TRY(COROT_ALLOC(m->distinct, d->nelement + (size_t)d->nnode));
+  COROT_TRY(add_groups_of(d, 3, "region", 0, ntet, m->region, m->distinct));
+  if (m->face) COROT_TRY(add_groups_of(d, 2, "face", ntet, nface, m->face, m->distinct));
+  if (find_distinct(d->nnode, m->node, m->distinct) == 0) return COROT_OK;
+  COROT_TRY(add_points(d));
+  return add_groups_of(d, 0, "marker", ntet + nface, d->nnode, m->node, m->distinct);
 }
 
 /* The nodes on edges have no markers: they are in the groups of both ends, as after octasection. */
@@ -168,23 +228,35 @@ static corot_status finish(corot_draft *d, corot_mesh **mesh) {
   return status;
 }
 
-corot_status corot_tetgen_parse(const char *node_path, const char *node_data, size_t node_size,
-                                const char *ele_path, const char *ele_data, size_t ele_size,
-                                corot_mesh **mesh) {
-  corot_reader node = {.path = node_path, .data = node_data, .size = node_size, .comment = '#'};
-  corot_reader ele = {.path = ele_path, .data = ele_data, .size = ele_size, .comment = '#'};
-  corot_draft d = {.node_file = &node, .element_file = &ele};
-  double *marker = NULL, *region = NULL, *distinct = NULL;
-  corot_status status = read_nodes(&node, &d, &marker);
-  if (!status) status = read_tets(&ele, &d, &region);
-  if (!status) turn_left_handed(&d);
-  if (!status && d.order == 2) status = corot_draft_order_middles(&d);
-  if (!status) status = COROT_ALLOC(distinct, d.nelement + (size_t)d.nnode);
-  if (!status) status = add_groups(&d, region, marker, distinct);
-  if (!status) status = finish(&d, mesh);
-  free(distinct);
-  free(region);
-  free(marker);
+static corot_status parse(corot_reader *node, corot_reader *ele, corot_reader *face, corot_draft *d,
+                          marks *m, corot_mesh **mesh) {
+  COROT_TRY(read_nodes(node, d, &m->node));
+  COROT_TRY(read_tets(ele, d, &m->region));
+  int ntet = (int)d->nelement;
+  turn_left_handed(d);
+  if (d->order == 2) COROT_TRY(corot_draft_order_middles(d));
+  if (face) {
+    d->face_file = face;
+    COROT_TRY(read_faces(face, d, &m->face));
+  }
+  COROT_TRY(add_groups(d, ntet, m));
+  return finish(d, mesh);
+}
+
+static corot_reader over(const corot_mesh_text *text) {
+  return (corot_reader){.path = text->path, .data = text->data, .size = text->size, .comment = '#'};
+}
+
+corot_status corot_tetgen_parse(const corot_mesh_text *node, const corot_mesh_text *ele,
+                                const corot_mesh_text *face, corot_mesh **mesh) {
+  corot_reader n = over(node), e = over(ele), f = face ? over(face) : e;
+  corot_draft d = {.node_file = &n, .element_file = &e};
+  marks m = {0};
+  corot_status status = parse(&n, &e, face ? &f : NULL, &d, &m, mesh);
+  free(m.region);
+  free(m.face);
+  free(m.node);
+  free(m.distinct);
   corot_draft_clear(&d);
   return status;
 }

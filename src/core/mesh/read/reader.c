@@ -40,10 +40,34 @@ corot_status corot_file_load(const char *path, char **data, size_t *size) {
   return COROT_OK;
 }
 
-static long line_of(const corot_reader *r, size_t at) {
-  long line = 1;
-  for (size_t i = 0; i < at; i++) line += r->data[i] == '\n';
-  return line;
+/* Files of old Macintosh programs end their lines with CR alone. Binary files have 0 bytes. */
+static void end_lines(char *data, size_t size) {
+  if (memchr(data, '\n', size) || memchr(data, 0, size)) return;
+  for (size_t i = 0; i < size; i++)
+    if (data[i] == '\r') data[i] = '\n';
+}
+
+corot_status corot_reader_load(const char *path, char **data, size_t *size) {
+  COROT_TRY(corot_file_load(path, data, size));
+  char *d = *data;
+  if (*size >= 2 && (memcmp(d, "\xff\xfe", 2) == 0 || memcmp(d, "\xfe\xff", 2) == 0)) {
+    free(d);
+    return corot_fail(COROT_EFORMAT, "%s: the text is UTF-16: save it as UTF-8 or ASCII", path);
+  }
+  if (*size >= 3 && memcmp(d, "\xef\xbb\xbf", 3) == 0) {
+    *size -= 3;
+    memmove(d, d + 3, *size + 1);
+  }
+  end_lines(d, *size);
+  return COROT_OK;
+}
+
+/* The file and line of a place, counted from where the piece begins in which it is. */
+static corot_reader_piece place_of(const corot_reader *r, size_t at) {
+  corot_reader_piece p = {0, r->path, 1};
+  for (size_t i = 0; i < r->npiece && r->piece[i].start <= at; i++) p = r->piece[i];
+  for (size_t i = p.start; i < at; i++) p.line += r->data[i] == '\n';
+  return p;
 }
 
 corot_status corot_reader_fail(const corot_reader *r, size_t at, const char *format, ...) {
@@ -53,13 +77,16 @@ corot_status corot_reader_fail(const corot_reader *r, size_t at, const char *for
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
   if (r->bytes) return corot_fail(COROT_EFORMAT, "%s: byte %zu: %s", r->path, at, text);
-  return corot_fail(COROT_EFORMAT, "%s:%ld: %s", r->path, line_of(r, at), text);
+  corot_reader_piece place = place_of(r, at);
+  return corot_fail(COROT_EFORMAT, "%s:%ld: %s", place.path, place.line, text);
 }
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /* Whether a value ends before c. */
-static bool is_end(char c) { return is_blank(c) || c == '\n' || c == 0; }
+static bool is_end(const corot_reader *r, char c) {
+  return is_blank(c) || c == '\n' || c == 0 || c == r->separator;
+}
 
 bool corot_reader_more(corot_reader *r) {
   while (is_blank(r->data[r->at])) r->at++;
@@ -91,8 +118,8 @@ static excerpt found(corot_reader *r) {
   }
   int n = 0;
   const char *p = r->data + r->at;
-  while (n < 24 && !is_end(p[n])) n++;
-  snprintf(e.text, sizeof e.text, "'%.*s%s'", n, p, is_end(p[n]) ? "" : "...");
+  while (n < 24 && !is_end(r, p[n])) n++;
+  snprintf(e.text, sizeof e.text, "'%.*s%s'", n, p, is_end(r, p[n]) ? "" : "...");
   for (char *c = e.text; *c; c++)
     if ((unsigned char)*c < 0x20 || (unsigned char)*c >= 0x7f) *c = '?';
   return e;
@@ -100,7 +127,7 @@ static excerpt found(corot_reader *r) {
 
 corot_status corot_reader_end_line(corot_reader *r) {
   if (r->binary) return COROT_OK;
-  if (corot_reader_more(r))
+  if (corot_reader_more(r) && !r->flows)
     return corot_reader_fail(r, r->at, "%s is too much on this line", found(r).text);
   corot_reader_skip_lines(r);
   return COROT_OK;
@@ -108,9 +135,21 @@ corot_status corot_reader_end_line(corot_reader *r) {
 
 bool corot_reader_word(corot_reader *r, const char *word) {
   size_t n = strlen(word);
-  if (strncmp(r->data + r->at, word, n) != 0 || !is_end(r->data[r->at + n])) return false;
+  if (strncmp(r->data + r->at, word, n) != 0 || !is_end(r, r->data[r->at + n])) return false;
   r->at += n;
   return true;
+}
+
+bool corot_reader_separator(corot_reader *r) {
+  if (!corot_reader_more(r) || r->data[r->at] != r->separator) return false;
+  r->at++;
+  return true;
+}
+
+/* Goes to the next value; false if there is none where it may stand. */
+static bool next_value(corot_reader *r) {
+  if (r->flows) corot_reader_skip_lines(r);
+  return corot_reader_more(r);
 }
 
 static corot_status expected(corot_reader *r, const char *what) {
@@ -123,11 +162,11 @@ corot_status corot_reader_expect(corot_reader *r, const char *word) {
 }
 
 static corot_status text_long(corot_reader *r, const char *what, int64_t *value) {
-  if (!corot_reader_more(r)) return expected(r, what);
+  if (!next_value(r)) return expected(r, what);
   const char *start = r->data + r->at, *p = start + (*start == '-' || *start == '+');
   int64_t v = 0;
-  if (is_end(*p)) return expected(r, what);
-  for (; !is_end(*p); p++) {
+  if (is_end(r, *p)) return expected(r, what);
+  for (; !is_end(r, *p); p++) {
     if (*p < '0' || *p > '9') return expected(r, what);
     int digit = *p - '0';
     if (v < (INT64_MIN + digit) / 10)
@@ -142,6 +181,7 @@ static corot_status text_long(corot_reader *r, const char *what, int64_t *value)
 }
 
 static corot_status text_int(corot_reader *r, const char *what, int *value) {
+  next_value(r);
   size_t at = r->at;
   int64_t v = 0;
   COROT_TRY(text_long(r, what, &v));
@@ -151,12 +191,26 @@ static corot_status text_int(corot_reader *r, const char *what, int *value) {
   return COROT_OK;
 }
 
+/* Fortran's 1.5D-3; NaN if it is no number. `end` is where it ends. */
+static double fortran_real(const corot_reader *r, const char *start, const char **end) {
+  char text[64], *stop;
+  size_t n = 0;
+  for (; n + 1 < sizeof text && !is_end(r, start[n]); n++)
+    text[n] = start[n] == 'D' || start[n] == 'd' ? 'e' : start[n];
+  text[n] = 0;
+  double v = strtod(text, &stop);
+  *end = start + (*stop ? 0 : n);
+  return v;
+}
+
 static corot_status text_real(corot_reader *r, const char *what, double *value) {
-  if (!corot_reader_more(r)) return expected(r, what);
-  const char *start = r->data + r->at;
-  char *end;
-  double v = strtod(start, &end);
-  if (end == start || !is_end(*end)) return expected(r, what);
+  if (!next_value(r)) return expected(r, what);
+  const char *start = r->data + r->at, *end;
+  char *stop;
+  double v = strtod(start, &stop);
+  end = stop;
+  if (end != start && (*end == 'D' || *end == 'd')) v = fortran_real(r, start, &end);
+  if (end == start || !is_end(r, *end)) return expected(r, what);
   *value = v;
   r->at = (size_t)(end - r->data);
   return COROT_OK;
@@ -195,6 +249,7 @@ corot_status corot_reader_point(corot_reader *r, double x[3]) {
 }
 
 corot_status corot_reader_count(corot_reader *r, const char *what, size_t bytes, int *value) {
+  if (!r->binary) next_value(r);
   size_t at = r->at;
   int64_t v = 0;
   COROT_TRY(corot_reader_long(r, what, &v));

@@ -10,19 +10,34 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Where text of a file begins in what is read. */
+typedef struct corot_reader_piece {
+  size_t start;
+  const char *path;
+  long line;
+} corot_reader_piece;
+
 typedef struct corot_reader {
   const char *path; /* as messages call it */
   const char *data; /* data[size] is 0 */
   size_t size;
   size_t at;
-  char comment; /* from here to the end of its line; 0: none */
-  bool bytes;   /* messages give the byte instead of the line */
-  bool binary;  /* the values that follow are binary */
-  bool swap;    /* and of the other byte order */
+  size_t npiece;
+  const corot_reader_piece *piece; /* [npiece] ascending; none: all is of the file `path` */
+  char comment;                    /* from here to the end of its line; 0: none */
+  char separator;                  /* a value ends before it; 0: blanks only separate */
+  bool flows;  /* a value may stand on a later line; the ends of lines mean nothing */
+  bool bytes;  /* messages give the byte instead of the line */
+  bool binary; /* the values that follow are binary */
+  bool swap;   /* and of the other byte order */
 } corot_reader;
 
 /* The whole file, a 0 added behind it; the caller frees. COROT_EIO: it cannot be read. */
 corot_status corot_file_load(const char *path, char **data, size_t *size);
+
+/* The same of a mesh file, as the readers want it: without a byte order mark, and with an end of
+   line that they know, where there is none but CR. COROT_EFORMAT: it is UTF-16. */
+corot_status corot_reader_load(const char *path, char **data, size_t *size);
 
 /* COROT_EFORMAT with "FILE:LINE: " or "FILE: byte N: " before the message. */
 corot_status corot_reader_fail(const corot_reader *r, size_t at, const char *format, ...)
@@ -49,7 +64,11 @@ bool corot_reader_word(corot_reader *r, const char *word);
 /* The word must be here. */
 corot_status corot_reader_expect(corot_reader *r, const char *word);
 
-/* One value, decimal in text, 4 or 8 bytes in binary. `what` it is, for messages. */
+/* Goes past blanks and one separator; false if there is none on this line. */
+bool corot_reader_separator(corot_reader *r);
+
+/* One value, decimal in text, 4 or 8 bytes in binary. A real may have Fortran's exponent, 1D-3.
+ * `what` it is, for messages. */
 corot_status corot_reader_int(corot_reader *r, const char *what, int *value);
 corot_status corot_reader_long(corot_reader *r, const char *what, int64_t *value);
 corot_status corot_reader_real(corot_reader *r, const char *what, double *value);
