@@ -93,6 +93,39 @@ assert read(s["inputs"]["push"]["values"]["file"]) == "0 1\n0.05 2\n"
 assert z.testzip() is None
 PY
 
+# Meshes of several files: TetGen's, whose faces are optional, and Abaqus' with one that it includes.
+mkdir many
+cat >many/tet.node <<'NODES'
+4 3 0 0
+1 0 0 0
+2 0.1 0 0
+3 0 0.1 0
+4 0 0 0.1
+NODES
+printf '1 4 0\n1 1 2 3 4\n' >many/tet.ele
+printf '1 1\n1 1 3 2 7\n' >many/tet.face
+printf '*NODE\n1, 0, 0, 0\n2, 0.1, 0, 0\n3, 0, 0.1, 0\n4, 0, 0, 0.1\n' >many/nodes.txt
+printf '*INCLUDE, INPUT=nodes.txt\n*ELEMENT, TYPE=C3D4, ELSET=all\n1, 1, 2, 3, 4\n*NSET, NSET=face-7\n1, 2, 3\n' >many/tet.inp
+for kind in ele inp; do
+  cat >many/$kind.yaml <<YAML
+mesh: {file: tet.$kind}
+groups: {}
+material: {lambda: 1.0e5, mu: 1.0e4, density: 1000.0}
+boundary: [{group: face-7, fix: [x, y, z]}]
+loads: [{gravity: [0, 0, -9.81]}]
+time: {end: 0.01}
+YAML
+  expect 0 export-fmu many/$kind.yaml -o $kind.fmu --json
+done
+python3 - <<'PY' || complain "the resources of meshes of several files"
+import zipfile
+names = lambda fmu: {n[10:] for n in zipfile.ZipFile(fmu).namelist() if n.startswith("resources/")}
+assert names("ele.fmu") == {"scenario.json", "tet.ele", "tet.node", "tet.face"}, names("ele.fmu")
+assert names("inp.fmu") == {"scenario.json", "tet.inp"}, names("inp.fmu")
+text = zipfile.ZipFile("inp.fmu").read("resources/tet.inp").decode()
+assert "INCLUDE" not in text and "*NODE" in text, text
+PY
+
 # A name that is none of C, and a title that is not of XML.
 cp model.yaml "7 bars-of <steel>.yaml"
 expect 0 export-fmu "7 bars-of <steel>.yaml" --json --set 'title="a & b <c> \"d\""'

@@ -83,7 +83,9 @@ static corot_status add_resources(const resources *r, archive *a) {
     char *name = malloc(size);
     if (!name) return no_memory();
     snprintf(name, size, "resources/%s", r->file[i].name);
-    corot_status status = archive_add_file(a, name, r->file[i].path);
+    const resource *f = &r->file[i];
+    corot_status status =
+        f->data ? archive_add(a, name, f->data, f->size) : archive_add_file(a, name, f->path);
     free(name);
     COROT_TRY(status);
   }

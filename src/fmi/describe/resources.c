@@ -12,6 +12,7 @@
 #include "app/config/config.h"
 #include "app/text/json_text.h"
 #include "app/text/no_memory.h"
+#include "core/mesh/read/mesh_inp.h"
 
 static const char scenario_name[] = "scenario.json";
 
@@ -38,35 +39,63 @@ static corot_status add(resources *r, const char *path, const char *name) {
     r->room = room;
   }
   resource *made = &r->file[r->n++];
-  *made = (resource){strdup(path), strdup(name)};
+  *made = (resource){.path = strdup(path), .name = strdup(name)};
   return made->path && made->name ? COROT_OK : no_memory();
 }
 
-/* TetGen's meshes are two files of one name: the other one, if this is of the kind; else NULL. */
-static const char *other_suffix(const char *path) {
-  size_t n = strlen(path);
-  if (n > 5 && strcmp(path + n - 5, ".node") == 0) return ".ele";
-  if (n > 4 && strcmp(path + n - 4, ".ele") == 0) return ".node";
-  return NULL;
+/* --- Files that belong to a mesh --- */
+
+/* NAME.node, NAME.ele and, if it is there, NAME.face are one mesh of TetGen's. */
+static const char *const tetgen[] = {".node", ".ele", ".face"};
+enum { TETGEN = sizeof tetgen / sizeof *tetgen };
+
+static bool ends_with(const char *path, const char *suffix) {
+  size_t n = strlen(path), m = strlen(suffix);
+  return n > m && strcmp(path + n - m, suffix) == 0;
 }
 
-static corot_status add_other(resources *r, const char *path, const char *name) {
-  const char *suffix = other_suffix(path);
-  if (!suffix) return COROT_OK;
+static corot_status add_companion(resources *r, const char *path, const char *name,
+                                  const char *suffix) {
   char *file = malloc(strlen(path) + 8), *called = malloc(strlen(name) + 8);
   corot_status status = file && called ? COROT_OK : no_memory();
   if (!status) {
     strcpy(file, path), strcpy(strrchr(file, '.'), suffix);
     strcpy(called, name), strcpy(strrchr(called, '.'), suffix);
-    status = add(r, file, called);
+    if (access(file, F_OK) == 0) status = add(r, file, called);
   }
   free(file);
   free(called);
   return status;
 }
 
+static corot_status add_companions(resources *r, const char *path, const char *name) {
+  if (!ends_with(path, tetgen[0]) && !ends_with(path, tetgen[1])) return COROT_OK;
+  for (int k = 0; k < TETGEN; k++)
+    if (!ends_with(path, tetgen[k])) COROT_TRY(add_companion(r, path, name, tetgen[k]));
+  return COROT_OK;
+}
+
+/* An Abaqus file takes what it includes along: in its place. */
+static corot_status expand_mesh(resource *mesh) {
+  char *data;
+  size_t size;
+  corot_inp_text text = {0};
+  COROT_TRY(corot_reader_load(mesh->path, &data, &size));
+  corot_status status = COROT_OK;
+  if (data[strspn(data, " \t\r\n")] == '*') {
+    status = corot_inp_expand(mesh->path, data, size, &text);
+    if (status == COROT_OK && text.npath > 0) {
+      mesh->data = text.data, mesh->size = text.size;
+      text.data = NULL;
+    }
+  }
+  corot_inp_text_clear(&text);
+  free(data);
+  return status;
+}
+
 /* The name under which a file goes: its own, with a number before it where that is taken. */
-static corot_status name_file(resources *r, const char *path, char **name) {
+static corot_status name_file(const scenario *s, resources *r, const char *path, char **name) {
   const char *base = base_of(path);
   size_t size = strlen(base) + 16;
   for (int i = 0; i < r->n; i++)
@@ -79,7 +108,9 @@ static corot_status name_file(resources *r, const char *path, char **name) {
   snprintf(made, size, "%s", base);
   for (int k = 2; is_taken(r, made); k++) snprintf(made, size, "%d_%s", k, base);
   corot_status status = add(r, path, made);
-  if (status == COROT_OK) status = add_other(r, path, made);
+  if (status == COROT_OK && s->mesh_file && strcmp(path, s->mesh_file) == 0)
+    status = expand_mesh(&r->file[r->n - 1]);
+  if (status == COROT_OK) status = add_companions(r, path, made);
   if (status)
     free(made);
   else
@@ -94,7 +125,7 @@ static corot_status take_file(const scenario *s, json_t *object, const char *key
   const char *path =
       config_beside(s->source, s->path, json_string_value(json_object_get(object, key)));
   if (!path) return no_memory();
-  COROT_TRY(name_file(r, path, &name));
+  COROT_TRY(name_file(s, r, path, &name));
   int failed = json_object_set_new(object, key, json_text_string(name));
   free(name);
   return failed ? no_memory() : COROT_OK;
@@ -146,6 +177,7 @@ void resources_clear(resources *r) {
   for (int i = 0; i < r->n; i++) {
     free(r->file[i].path);
     free(r->file[i].name);
+    free(r->file[i].data);
   }
   free(r->file);
   free(r->scenario);
@@ -166,11 +198,12 @@ static char *inside(const char *dir, const char *name) {
   return path;
 }
 
-static corot_status write_scenario(const resources *r, const char *dir) {
-  char *path = inside(dir, scenario_name);
+static corot_status write_file(const char *dir, const char *name, const char *data, size_t size) {
+  char *path = inside(dir, name);
   if (!path) return no_memory();
+  unlink(path);
   FILE *out = fopen(path, "w");
-  bool written = out && fputs(r->scenario, out) != EOF;
+  bool written = out && fwrite(data, 1, size, out) == size;
   if (out && fclose(out) != 0) written = false;
   corot_status status = written ? COROT_OK : refused(path);
   free(path);
@@ -191,8 +224,11 @@ static corot_status link_file(const resource *file, const char *dir) {
 
 corot_status resources_lay_out(const resources *r, const char *dir) {
   if (mkdir(dir, 0777) != 0 && errno != EEXIST) return refused(dir);
-  COROT_TRY(write_scenario(r, dir));
-  for (int i = 0; i < r->n; i++) COROT_TRY(link_file(&r->file[i], dir));
+  COROT_TRY(write_file(dir, scenario_name, r->scenario, strlen(r->scenario)));
+  for (int i = 0; i < r->n; i++) {
+    const resource *f = &r->file[i];
+    COROT_TRY(f->data ? write_file(dir, f->name, f->data, f->size) : link_file(f, dir));
+  }
   return COROT_OK;
 }
 

@@ -8,6 +8,8 @@
 typedef struct resource {
   char *path; /* where it is */
   char *name; /* in the folder of resources */
+  char *data; /* [size] what is to be in it; NULL: what is in the file */
+  size_t size;
 } resource;
 
 typedef struct resources {
