@@ -83,7 +83,8 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
      TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1, and NAME.face if it
      is there;
      MEDIT (.mesh), ASCII;
-     Abaqus and CalculiX (.inp), with the files that it includes.
+     Abaqus and CalculiX (.inp), with the files that it includes;
+     VTK (.vtk), legacy files of unstructured grids, ASCII and binary.
 
    gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
    1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
@@ -115,6 +116,10 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
    single one. Triangles (S3, CPS3, M3D3, S6, ...) are faces of tets, which a set may have. Other
    solids, a second *PART or *INSTANCE, and what generates nodes or elements are refused; other
    elements, also in sets, and other keywords are skipped.
+
+   VTK: cells of types 10 and 24, tets of 4 and 10 nodes; positive numbers in an array of cells that
+   is called CellEntityIds (gmsh), gmsh:physical or medit:ref (meshio) become groups, called as gmsh's
+   nameless ones, of the triangles (types 5 and 22), too. Other solids are refused, other cells skipped.
 
    Text may begin with a byte order mark of UTF-8, end its lines with LF, CR LF or CR, and have
    Fortran's exponents, 1D-3; numbers of nodes are not negative.

@@ -92,6 +92,16 @@ expect 2 mesh refine one.msh --near 0,0,0 --times 0 -o none.msh; err "--times 0:
 expect 2 mesh refine one.msh --times 2 -o none.msh; err "--times is for --near"
 [ ! -e none.msh ] || complain "none.msh was written"
 
+# formats by what is in a file, whatever it is called; refinement keeps the groups
+data=$(cd "$(dirname "$0")/../unit/data" && pwd)
+for file in two.inp two.mesh two.vtk two.vtkb.vtk two.parts.msh two.msh40.msh; do
+  expect 0 mesh info "$data/$file"; out "tets      48"; out "volume    2 m^3"
+done
+expect 0 mesh info "$data/sides_2.ele"; out "face-3: 9 nodes, 2 triangles"
+expect 0 mesh refine "$data/quarter.inp" --levels 1 -o fine.msh
+expect 0 mesh info fine.msh; out "order     2"; out "round: 165 nodes, 72 triangles"
+rm fine.msh
+
 expect 3 mesh info none.msh; err "none.msh"; no_out
 echo garbage >bad.msh
 expect 3 mesh info bad.msh; err "bad.msh"; no_out

@@ -137,8 +137,8 @@ int command_mesh_box(int argc, char **argv) {
 static const char info_help[] =
     "usage: corot mesh info FILE [--json]\n"
     "\n"
-    "Size, shape, parts and groups of a mesh (gmsh 1, 2.2, 4.0, 4.1; TetGen .node, .ele, .face; "
-    "MEDIT; .inp).\n"
+    "Size, shape, parts and groups of a mesh. Read are gmsh 1, 2.2, 4.0 and 4.1 (.msh), TetGen\n"
+    "(.node, .ele, .face), MEDIT (.mesh), Abaqus and CalculiX (.inp), VTK (.vtk).\n"
     "\n"
     "      --json           the same as JSON\n"
     "\n"

@@ -79,6 +79,11 @@ static bool is_inp(const char *path, const char *text) {
   return *text == '*';
 }
 
+static bool is_vtk(const char *path, const char *text) {
+  (void)path;
+  return strncmp(text, "# vtk DataFile", 14) == 0;
+}
+
 static bool is_tetgen(const char *path, const char *text) {
   (void)text;
   return has_suffix(path, ".node") || has_suffix(path, ".ele");
@@ -89,10 +94,8 @@ static const struct {
   bool (*recognize)(const char *path, const char *text);
   corot_status (*parse)(const char *path, const char *data, size_t size, corot_mesh **mesh);
 } formats[] = {
-    {is_gmsh, corot_gmsh_parse},
-    {is_medit, corot_medit_parse},
-    {is_inp, corot_inp_parse},
-    {is_tetgen, read_tetgen},
+    {is_gmsh, corot_gmsh_parse}, {is_vtk, corot_vtk_parse}, {is_medit, corot_medit_parse},
+    {is_inp, corot_inp_parse},   {is_tetgen, read_tetgen},
 };
 
 corot_status corot_mesh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
@@ -102,7 +105,8 @@ corot_status corot_mesh_parse(const char *path, const char *data, size_t size, c
     if (formats[i].recognize(path, text)) return formats[i].parse(path, data, size, mesh);
   return corot_fail(COROT_EFORMAT,
                     "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, MEDIT files "
-                    "with MeshVersionFormatted, Abaqus files with *, TetGen files are called "
+                    "with MeshVersionFormatted, Abaqus files with *, VTK files with # vtk "
+                    "DataFile, TetGen files are called "
                     "NAME.node and NAME.ele",
                     path);
 }

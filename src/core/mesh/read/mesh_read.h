@@ -18,6 +18,7 @@ corot_status corot_mesh_parse(const char *path, const char *data, size_t size, c
 corot_status corot_gmsh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
 corot_status corot_inp_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
 corot_status corot_medit_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
+corot_status corot_vtk_parse(const char *path, const char *data, size_t size, corot_mesh **mesh);
 
 /* `face` may be NULL: there are no boundary faces. */
 corot_status corot_tetgen_parse(const corot_mesh_text *node, const corot_mesh_text *ele,
