@@ -1,11 +1,35 @@
-/* Mesh files that are strings. */
+/* Mesh files, of the folder data and as strings. */
 #ifndef MESH_TEXT_H
 #define MESH_TEXT_H
 
 #include "check.h"
 #include "core/mesh/read/mesh_read.h"
 
+#define DATA SOURCE_DIR "/tests/unit/data/"
+
 #define TEXT(path, text) (&(corot_mesh_text){path, text, strlen(text)})
+
+static inline corot_mesh *read_mesh(const char *path) {
+  corot_mesh *m = NULL;
+  assert_ok(corot_mesh_read(path, &m));
+  return m;
+}
+
+/* A text of whatever format. */
+static inline corot_mesh *parse_text(const char *text) {
+  corot_mesh *m = NULL;
+  assert_ok(corot_mesh_parse("text", text, strlen(text), &m));
+  return m;
+}
+
+/* Reads the file, for tests of allocations that fail. */
+static inline corot_status try_read(void *path) {
+  corot_mesh *m = NULL;
+  corot_status status = corot_mesh_read(path, &m);
+  assert_true(!status == !!m);
+  corot_mesh_destroy(m);
+  return status;
+}
 
 /* What becomes of `text` when `from` is replaced once by `to`. */
 static inline char *edit_text(const char *text, const char *from, const char *to) {

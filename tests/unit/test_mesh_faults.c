@@ -4,8 +4,6 @@
 #include "mesh_text.h"
 #include "temporary.h"
 
-#define DATA SOURCE_DIR "/tests/unit/data/"
-
 /* An edit of a sound file and the message it leads to. */
 typedef struct fault {
   const char *from, *to, *message;

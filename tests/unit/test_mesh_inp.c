@@ -5,20 +5,6 @@
 #include "mesh_text.h"
 #include "temporary.h"
 
-#define DATA SOURCE_DIR "/tests/unit/data/"
-
-static corot_mesh *read_mesh(const char *path) {
-  corot_mesh *m = NULL;
-  assert_ok(corot_mesh_read(path, &m));
-  return m;
-}
-
-static corot_mesh *parse(const char *text) {
-  corot_mesh *m = NULL;
-  assert_ok(corot_mesh_parse("text", text, strlen(text), &m));
-  return m;
-}
-
 static const corot_group *group(const corot_mesh *m, const char *name) {
   const corot_group *g = corot_mesh_find_group(m, name);
   if (!g) fail_msg("there is no group %s", name);
@@ -62,7 +48,7 @@ static const char sound[] =
 
 static void sets_and_surfaces_become_groups(void **state) {
   (void)state;
-  corot_mesh *m = parse(sound);
+  corot_mesh *m = parse_text(sound);
   assert_int_equal(m->ngroup, 7);
   assert_int_equal(m->ntet, 2);
   assert_close(corot_mesh_measure(m).volume, 0.5, 1e-15, 0);
@@ -90,7 +76,7 @@ static void faces_of_elements(void **state) {
              "9,1,0,1\n10,0,1,1\n*ELEMENT, TYPE=C3D10M\n1,1,2,3,4,5,6,7,8,9,\n10\n"
              "*SURFACE, NAME=face, TYPE=ELEMENT\n1, S%d\n",
              k + 1);
-    corot_mesh *m = parse(text);
+    corot_mesh *m = parse_text(text);
     assert_int_equal(corot_mesh_order(m), 2);
     const corot_group *g = group(m, "face");
     assert_int_equal(g->ntri, 1);
@@ -104,7 +90,7 @@ static void faces_of_elements(void **state) {
    them, and internal sets make no groups. */
 static void a_file_of_one_part(void **state) {
   (void)state;
-  corot_mesh *m = parse(
+  corot_mesh *m = parse_text(
       "*Part, name=Part-1\n*Node\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n"
       "*Element, type=C3D4\n1,1,2,3,4\n*End Part\n*Assembly, name=A\n"
       "*Instance, name=Part-1-1, part=Part-1\n0., 0., 0.\n*End Instance\n"
@@ -198,7 +184,7 @@ static void sets_of_sets_end(void **state) {
     snprintf(line, sizeof line, "*NSET,NSET=s%d\ns%d,s%d\n", i, i - 1, i - 1);
     strcat(text, line);
   }
-  corot_mesh *m = parse(text);
+  corot_mesh *m = parse_text(text);
   assert_int_equal(m->ngroup, 60);
   assert_int_equal(group(m, "s59")->nnode, 2);
   corot_mesh_destroy(m);
@@ -208,13 +194,6 @@ static void damage(void **state) {
   (void)state;
   assert_prefixes_fail_cleanly("m.inp", sound, sizeof sound - 1);
   assert_damage_fails_cleanly("m.inp", sound, sizeof sound - 1);
-}
-
-static corot_status try_read(void *path) {
-  corot_mesh *m = NULL;
-  corot_status status = corot_mesh_read(path, &m);
-  corot_mesh_destroy(m);
-  return status;
 }
 
 static void failed_allocations(void **state) {

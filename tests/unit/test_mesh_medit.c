@@ -4,20 +4,6 @@
 #include "mesh_text.h"
 #include "temporary.h"
 
-#define DATA SOURCE_DIR "/tests/unit/data/"
-
-static corot_mesh *read_mesh(const char *path) {
-  corot_mesh *m = NULL;
-  assert_ok(corot_mesh_read(path, &m));
-  return m;
-}
-
-static corot_mesh *parse(const char *text) {
-  corot_mesh *m = NULL;
-  assert_ok(corot_mesh_parse("text", text, strlen(text), &m));
-  return m;
-}
-
 /* The bodies are those of the gmsh files, of curved tets too, whose volume depends on the order of
    the nodes on edges; the references are gmsh's numbers of entities. */
 static void bodies_are_those_of_gmsh(void **state) {
@@ -59,8 +45,8 @@ static const char sound[] =
 /* Values need no lines of their own; what is not needed, or is behind the end, does not matter. */
 static void lines_do_not_matter(void **state) {
   (void)state;
-  corot_mesh *a = parse(sound),
-             *b = parse(
+  corot_mesh *a = parse_text(sound),
+             *b = parse_text(
                  "MeshVersionFormatted\n1 # single\nDimension\n3 Vertices 5 0 0 0 0 1 0 0\n0\n"
                  "0 1 0 0 # the third\n0 0 1.D0 0 1 1 1 7\r\nRidges 1\n1\nTriangles 2 1 2 3 9 "
                  "2 3\n5\n8 Tetrahedra 2 1 2 3 4 1 2 3 4 5 0 Hexahedra 0 End x Vertices");
@@ -77,7 +63,7 @@ static void lines_do_not_matter(void **state) {
 /* Triangles with their corners only, on ten-node tets. */
 static void triangles_take_the_nodes_on_their_edges(void **state) {
   (void)state;
-  corot_mesh *m = parse(
+  corot_mesh *m = parse_text(
       "MeshVersionFormatted 2 Dimension 3 Vertices 10 0 0 0 0 2 0 0 0 0 2 0 0 0 0 2 0 1 0 0 0 "
       "1 1 0 0 0 1 0 0 0 0 1 0 1 0 1 0 0 1 1 0 TetrahedraP2 1 1 2 3 4 5 6 7 8 9 10 0 "
       "Triangles 1 1 2 3 5 TrianglesP2 1 1 2 4 5 9 8 6");
@@ -122,13 +108,6 @@ static void damage(void **state) {
   (void)state;
   assert_prefixes_fail_cleanly("m.mesh", sound, sizeof sound - 1);
   assert_damage_fails_cleanly("m.mesh", sound, sizeof sound - 1);
-}
-
-static corot_status try_read(void *path) {
-  corot_mesh *m = NULL;
-  corot_status status = corot_mesh_read(path, &m);
-  corot_mesh_destroy(m);
-  return status;
 }
 
 static void failed_allocations(void **state) {

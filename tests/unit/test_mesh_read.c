@@ -7,14 +7,6 @@
 #include "mesh_text.h"
 #include "temporary.h"
 
-#define DATA SOURCE_DIR "/tests/unit/data/"
-
-static corot_mesh *read_mesh(const char *path) {
-  corot_mesh *m = NULL;
-  assert_ok(corot_mesh_read(path, &m));
-  return m;
-}
-
 static corot_mesh *parse(const char *text) {
   corot_mesh *m = NULL;
   assert_ok(corot_gmsh_parse("text", text, strlen(text), &m));
@@ -376,13 +368,6 @@ static void numbers_do_not_depend_on_the_locale(void **state) {
   corot_mesh_destroy(a);
   corot_mesh_destroy(b);
   remove_folder(dir);
-}
-
-static corot_status try_read(void *path) {
-  corot_mesh *m = NULL;
-  corot_status status = corot_mesh_read(path, &m);
-  corot_mesh_destroy(m);
-  return status;
 }
 
 static void failed_allocations(void **state) {

@@ -4,8 +4,6 @@
 #include "mesh_text.h"
 #include "temporary.h"
 
-#define DATA SOURCE_DIR "/tests/unit/data/"
-
 static double area(const corot_mesh *m, const corot_group *g) {
   double sum[3] = {0};
   for (int t = 0; t < g->ntri; t++) {
@@ -107,13 +105,6 @@ static void a_file_of_faces_that_cannot_be_read(void **state) {
   assert_fails(corot_mesh_read(in(dir, "m.ele"), &m), COROT_EIO, "m.face: Is a directory");
   assert_null(m);
   remove_folder(dir);
-}
-
-static corot_status try_read(void *path) {
-  corot_mesh *m = NULL;
-  corot_status status = corot_mesh_read(path, &m);
-  corot_mesh_destroy(m);
-  return status;
 }
 
 static void failed_allocations(void **state) {

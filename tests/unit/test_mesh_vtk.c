@@ -4,14 +4,6 @@
 #include "mesh_text.h"
 #include "temporary.h"
 
-#define DATA SOURCE_DIR "/tests/unit/data/"
-
-static corot_mesh *read_mesh(const char *path) {
-  corot_mesh *m = NULL;
-  assert_ok(corot_mesh_read(path, &m));
-  return m;
-}
-
 /* ASCII and binary, of version 2.0 and 5.1: the bodies are those of the gmsh files, of curved tets
    too, whose volume depends on the order of the nodes on edges. */
 static void bodies_are_those_of_gmsh(void **state) {
@@ -113,13 +105,6 @@ static void damage(void **state) {
   assert_prefixes_fail_cleanly("b.vtk", binary, size);
   assert_damage_fails_cleanly("b.vtk", binary, size);
   free(binary);
-}
-
-static corot_status try_read(void *path) {
-  corot_mesh *m = NULL;
-  corot_status status = corot_mesh_read(path, &m);
-  corot_mesh_destroy(m);
-  return status;
 }
 
 static void failed_allocations(void **state) {
