@@ -38,8 +38,8 @@ COROT_API corot_status corot_integrator_save(corot_integrator *integrator, void 
 /* Puts that state in the place of the integrator's own, forwards or backwards in time. The integrator
    is of the same definition, on a model of the same definition, with inputs and a frame clock if the
    saved one had them; or it is the saved one itself. Its corot_state changes with it: frames, side of
-   kinks, and what the inputs say. To take a stretch of time once more with other inputs, restore, set
-   them, and call corot_integrator_changed.
+   kinks, and what the inputs say; corot_integrator_time() is the time it is taken to. To take a stretch
+   of time once more with other inputs, restore, set them, and call corot_integrator_changed.
 
    COROT_EINVAL: the blob is cut short or damaged, of another version of its format or another byte
    order, or of another model, definition or linear solver. COROT_ENOMEM; COROT_EINTEGRATE,

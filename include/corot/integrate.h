@@ -102,6 +102,9 @@ COROT_API corot_status corot_integrator_create(const corot_integrator_def *def,
 /* Takes NULL. */
 COROT_API void corot_integrator_destroy(corot_integrator *integrator);
 
+/* The time reached [s]: where it began, the end of the last step, or where a state was restored. */
+COROT_API double corot_integrator_time(const corot_integrator *integrator);
+
 /* One internal step. */
 typedef struct corot_step {
   double t;     /* reached [s] */

@@ -137,9 +137,11 @@ static void check(const plan *p) {
   for (int leg = 0; leg < 2; leg++) {
     assert_ok(corot_integrator_save(first.integrator, &blob, &bytes));
     double stop = corot_frame_clock_stop(first.clock);
+    double t = corot_integrator_time(first.integrator);
     go(&first, 2, &went_on);
     assert_ok(corot_integrator_restore(other.integrator, blob, bytes));
     assert_true(corot_frame_clock_stop(other.clock) == stop);
+    assert_true(corot_integrator_time(other.integrator) == t);
     go(&other, 2, &elsewhere);
     assert_equal(n, &went_on, &elsewhere);
     assert_ok(corot_integrator_restore(first.integrator, blob, bytes));

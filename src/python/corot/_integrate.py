@@ -18,7 +18,7 @@ from ._model import _list_kinds
 from ._state import State
 
 _EPSILON = sys.float_info.epsilon
-_SAVED = struct.Struct("<8sdd")  # before what C saves: our mark, the time, and that of the last kink
+_SAVED = struct.Struct("<8sd")  # before what C saves: our mark, and the time of the last kink
 _MARK = b"corot-py"
 
 
@@ -250,7 +250,7 @@ class Integrator(Handle):
             with self._evaluate() as pointer:
                 self._check(lib.corot_integrator_save(pointer, blob, size))
             try:
-                return _SAVED.pack(_MARK, self._t, self._kinked) + bytes(ffi.buffer(blob[0], size[0]))
+                return _SAVED.pack(_MARK, self._kinked) + bytes(ffi.buffer(blob[0], size[0]))
             finally:
                 lib.corot_blob_free(blob[0])
 
@@ -263,10 +263,11 @@ class Integrator(Handle):
             saved = bytes(saved)
             if len(saved) < _SAVED.size or _SAVED.unpack_from(saved)[0] != _MARK:
                 raise FormatError(f"{len(saved)} bytes that Integrator.save has not made")
-            _, t, kinked = _SAVED.unpack_from(saved)
+            _, kinked = _SAVED.unpack_from(saved)
             blob = ffi.from_buffer(saved)[_SAVED.size:len(saved)]
             with self._evaluate() as pointer:
                 self._check(lib.corot_integrator_restore(pointer, blob, len(saved) - _SAVED.size))
+                t = float(lib.corot_integrator_time(pointer))
                 self._t, self._kinked, self._now = t, kinked, None
 
 

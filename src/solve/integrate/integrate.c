@@ -194,6 +194,8 @@ void corot_integrator_destroy(corot_integrator *self) {
   free(self);
 }
 
+double corot_integrator_time(const corot_integrator *self) { return self->t; }
+
 /* Two clocks that mean one instant differ by rounding, over which there is no step to take. */
 static bool within_rounding(const corot_integrator *self, double t_stop) {
   return t_stop - self->t <= 100 * DBL_EPSILON * (fabs(self->t) + self->t - self->before);
