@@ -193,7 +193,9 @@ class Examples(Folder):
         code = [line for line in text.split('"""')[2].splitlines() if line.strip()]
         self.assertLessEqual(len(code), 11)
         corner = np.array(self.run_file(ROOT / "models" / "python" / "bar.py").stdout.split()[-3:], float)
-        np.testing.assert_allclose(corner, [0.17419, 0.00998, -0.05255], atol=5e-6)  # models/bar/README.md
+        # That of models/bar/README.md, but for what its tolerance of 1e-4 leaves to other steps: those of
+        # another SUNDIALS end 1e-4 m from it.
+        np.testing.assert_allclose(corner, [0.17419, 0.00998, -0.05255], atol=5e-4)
 
     def test_programs_of_the_documents(self):
         os.symlink(ROOT / "models", self.folder / "models")
