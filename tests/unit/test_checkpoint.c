@@ -327,7 +327,7 @@ static void any_damage_is_refused_and_nothing_is_lost(void **state) {
   assert_ok(corot_integrator_save(r.integrator, &blob, &bytes));
   unsigned char *copy = malloc(bytes + 1);
 
-  /* every byte in turn, of which single bits are enough; and every length */
+  /* one bit of each byte of the header, and of every 37th behind it; and cut there */
   for (size_t k = 0; k < bytes; k += k < 200 ? 1 : 37) {
     memcpy(copy, blob, bytes);
     copy[k] ^= (unsigned char)(1 << k % 8);
