@@ -33,26 +33,26 @@ static corot_status close_comparison(void *writer) {
   return status;
 }
 
-/* On the table of a checkpoint, or from the beginning (NULL). */
-static corot_status open_all(comparison *c, const char *dir, pack *p) {
+static corot_status open_all(comparison *c, const writer_source *source) {
   size_t nnode = (size_t)c->nnode;
   c->memory = malloc(4 * nnode * sizeof *c->memory);
   c->error = malloc((size_t)c->nmeasure * sizeof *c->error);
   if (!c->memory || !c->error) return corot_fail(COROT_ENOMEM, "the comparison: out of memory");
   c->green = (force){.pressure = c->memory, .shear = c->memory + nnode};
   c->other = (force){.pressure = c->memory + 2 * nnode, .shear = c->memory + 3 * nnode};
-  return p ? table_resume(dir, comparison_writer.file, p, &c->table)
-           : compare_open(dir, c->nmeasure, c->measure, &c->table);
+  if (source->from)
+    return table_resume(source->dir, comparison_writer.file, source->from, &c->table);
+  return compare_open(source->dir, c->nmeasure, c->measure, &c->table);
 }
 
-static corot_status begin(const writer_source *source, pack *p, void **writer) {
+static corot_status open_comparison(const writer_source *source, void **writer) {
   comparison *c = calloc(1, sizeof *c);
   if (!c) return corot_fail(COROT_ENOMEM, "the comparison: out of memory");
   *c = (comparison){.model = source->model,
                     .nnode = corot_model_mesh(source->model)->nnode,
                     .nmeasure = source->scenario->ncompare,
                     .measure = source->scenario->compare};
-  corot_status status = open_all(c, source->dir, p);
+  corot_status status = open_all(c, source);
   if (status != COROT_OK) {
     close_comparison(c);
     return status;
@@ -61,24 +61,8 @@ static corot_status begin(const writer_source *source, pack *p, void **writer) {
   return COROT_OK;
 }
 
-static corot_status open_comparison(const writer_source *source, void **writer) {
-  return begin(source, NULL, writer);
-}
-
-static corot_status resume_comparison(const writer_source *source, pack *p, void **writer) {
-  return begin(source, p, writer);
-}
-
-static corot_status pack_comparison(void *writer, pack *p) {
-  return table_pack(((comparison *)writer)->table, p);
-}
-
-static corot_status synchronise_comparison(void *writer) {
-  return table_synchronise(((comparison *)writer)->table);
-}
-
-static corot_status cut_comparison(void *writer) {
-  return table_cut(((comparison *)writer)->table);
+static table *table_of_comparison(const void *writer) {
+  return ((const comparison *)writer)->table;
 }
 
 static corot_status find_force(const comparison *c, corot_state *state, double t, const double *u,
@@ -128,9 +112,6 @@ const writer_ops comparison_writer = {
     .wanted = wants_comparison,
     .open = open_comparison,
     .moment = write_comparison,
-    .pack = pack_comparison,
-    .synchronise = synchronise_comparison,
-    .resume = resume_comparison,
-    .cut = cut_comparison,
+    .table = table_of_comparison,
     .close = close_comparison,
 };

@@ -34,39 +34,31 @@ static corot_status close_fields(void *writer) {
   return status;
 }
 
-/* On the files of a checkpoint, or from the beginning (NULL). */
-static corot_status begin(fields *f, const writer_source *source, pack *p) {
+static corot_status begin(fields *f, const writer_source *source) {
   const corot_mesh *mesh = corot_model_mesh(f->model);
   int *material = calloc((size_t)mesh->ntet, sizeof *material);
   if (!material) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", source->dir);
   fields_number_materials(&source->scenario->model, mesh, material);
-  corot_status status = p ? vtu_resume(source->dir, mesh, material, p, &f->file)
-                          : vtu_create(source->dir, mesh, material, &f->file);
+  corot_status status = source->from
+                            ? vtu_resume(source->dir, mesh, material, source->from, &f->file)
+                            : vtu_create(source->dir, mesh, material, &f->file);
   free(material);
   COROT_TRY(status);
-  return p ? COROT_OK : groups_write(source->dir, source->scenario->resolved, mesh);
+  return source->from ? COROT_OK : groups_write(source->dir, source->scenario->resolved, mesh);
 }
 
-static corot_status create(const writer_source *source, pack *p, void **writer) {
+static corot_status open_fields(const writer_source *source, void **writer) {
   int every = source->scenario->field_every;
   fields *f = calloc(1, sizeof *f);
   if (!f) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", source->dir);
   *f = (fields){.model = source->model, .every = every > 0 ? every : 1};
-  corot_status status = begin(f, source, p);
+  corot_status status = begin(f, source);
   if (status != COROT_OK) {
     close_fields(f);
     return status;
   }
   *writer = f;
   return COROT_OK;
-}
-
-static corot_status open_fields(const writer_source *source, void **writer) {
-  return create(source, NULL, writer);
-}
-
-static corot_status resume_fields(const writer_source *source, pack *p, void **writer) {
-  return create(source, p, writer);
 }
 
 static corot_status pack_fields(void *writer, pack *p) {
@@ -118,7 +110,6 @@ const writer_ops fields_writer = {
     .moment = write_fields,
     .pack = pack_fields,
     .synchronise = synchronise_fields,
-    .resume = resume_fields,
     .cut = cut_fields,
     .close = close_fields,
 };

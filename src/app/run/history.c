@@ -69,7 +69,8 @@ corot_status history_create(const probes *p, int ndof, history **out) {
   return COROT_OK;
 }
 
-corot_status history_open(history *h, const char *dir) {
+corot_status history_open(history *h, const char *dir, pack *from) {
+  if (from) return table_resume(dir, "history.csv", from, &h->table);
   return history_table_open(dir, probes_ncolumn(h->probes), probes_columns(h->probes), &h->table);
 }
 
@@ -143,8 +144,6 @@ void history_exchange(pack *p, history *h) {
 }
 
 table *history_table(const history *h) { return h->table; }
-
-void history_use(history *h, table *t) { h->table = t; }
 
 /* --- What is known in the end --- */
 

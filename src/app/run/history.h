@@ -23,8 +23,9 @@ typedef struct extreme {
 /* For a model of `ndof` degrees of freedom and probes that outlive it. */
 corot_status history_create(const probes *p, int ndof, history **out);
 
-/* Begins DIR/history.csv; without this call nothing is written. */
-corot_status history_open(history *h, const char *dir);
+/* Begins DIR/history.csv, or goes on with that of a checkpoint (or NULL); without this call nothing
+   is written. */
+corot_status history_open(history *h, const char *dir, pack *from);
 
 /* One moment: the ledger, the probes' columns, and u and v [ndof], of which those with the largest
    elastic energy are kept. */
@@ -55,11 +56,9 @@ typedef struct history_facts {
 
 history_facts history_known(const history *h);
 
-/* Writes or reads what has been seen so far, without the table; of a history of the same probes.
-   And the table: its place, and the table of a checkpoint (table_resume) to go on with. */
+/* Writes or reads what has been seen so far, without the table; of a history of the same probes. */
 void history_exchange(pack *p, history *h);
 table *history_table(const history *h);
-void history_use(history *h, table *t);
 
 /* Closes the table and reports an error that shows up on closing. */
 corot_status history_close(history *h);

@@ -73,22 +73,25 @@ static corot_status allocate(outputs *o) {
   return history_create(o->probes, corot_model_ndof(o->model), &o->history);
 }
 
-static writer_source source_of(outputs *o, const char *dir) {
+static writer_source source_of(outputs *o, const char *dir, pack *from) {
   return (writer_source){.dir = dir,
                          .scenario = o->scenario,
                          .model = o->model,
                          .probes = o->probes,
                          .history = o->history,
-                         .steps = &o->steps};
+                         .steps = &o->steps,
+                         .from = from};
+}
+
+static bool is_wanted(const outputs *o, const writer_ops *ops) {
+  return !ops->wanted || ops->wanted(o->scenario);
 }
 
 static corot_status open_writers(outputs *o, const char *dir, writer_use use) {
-  const writer_source source = source_of(o, dir);
-  for (int i = 0; i < NWRITER; i++) {
-    const writer_ops *ops = writers[i];
-    if (ops->use != use) continue;
-    if (!ops->wanted || ops->wanted(o->scenario)) COROT_TRY(ops->open(&source, &o->writer[i]));
-  }
+  const writer_source source = source_of(o, dir, NULL);
+  for (int i = 0; i < NWRITER; i++)
+    if (writers[i]->use == use && is_wanted(o, writers[i]))
+      COROT_TRY(writers[i]->open(&source, &o->writer[i]));
   return COROT_OK;
 }
 
@@ -137,14 +140,26 @@ static void exchange(pack *p, outputs *o) {
 
 corot_status outputs_pack(outputs *o, pack *p) {
   exchange(p, o);
-  for (int i = 0; i < NWRITER; i++)
-    if (o->writer[i]) COROT_TRY(writers[i]->pack(o->writer[i], p));
+  for (int i = 0; i < NWRITER; i++) {
+    const writer_ops *ops = writers[i];
+    void *writer = o->writer[i];
+    if (writer && ops->pack) COROT_TRY(ops->pack(writer, p));
+    if (writer && ops->table) COROT_TRY(table_pack(ops->table(writer), p));
+  }
   return corot_pack_status(p);
+}
+
+static corot_status synchronise(const writer_ops *ops, void *writer) {
+  return ops->table ? table_synchronise(ops->table(writer)) : ops->synchronise(writer);
+}
+
+static corot_status cut(const writer_ops *ops, void *writer) {
+  return ops->table ? table_cut(ops->table(writer)) : ops->cut(writer);
 }
 
 corot_status outputs_synchronise(outputs *o) {
   for (int i = 0; i < NWRITER; i++)
-    if (o->writer[i]) COROT_TRY(writers[i]->synchronise(o->writer[i]));
+    if (o->writer[i]) COROT_TRY(synchronise(writers[i], o->writer[i]));
   return COROT_OK;
 }
 
@@ -152,18 +167,16 @@ static corot_status resume_all(outputs *o, const char *dir, pack *p) {
   COROT_TRY(allocate(o));
   exchange(p, o);
   COROT_TRY(corot_pack_status(p));
-  const writer_source source = source_of(o, dir);
-  for (int i = 0; i < NWRITER; i++) {
-    const writer_ops *ops = writers[i];
-    if (ops->use == WRITER_OF_STATICS || (ops->wanted && !ops->wanted(o->scenario))) continue;
-    COROT_TRY(ops->resume(&source, p, &o->writer[i]));
-  }
+  const writer_source source = source_of(o, dir, p);
+  for (int i = 0; i < NWRITER; i++)
+    if (writers[i]->use != WRITER_OF_STATICS && is_wanted(o, writers[i]))
+      COROT_TRY(writers[i]->open(&source, &o->writer[i]));
   return COROT_OK;
 }
 
 corot_status outputs_cut(outputs *o, const char *dir) {
   for (int i = 0; i < NWRITER; i++)
-    if (o->writer[i]) COROT_TRY(writers[i]->cut(o->writer[i]));
+    if (o->writer[i]) COROT_TRY(cut(writers[i], o->writer[i]));
   if (o->scenario->write_fields)
     COROT_TRY(groups_write(dir, o->scenario->resolved, corot_model_mesh(o->model)));
   return folder_clean_ends(dir);

@@ -7,9 +7,7 @@
 #include "history.h"
 
 static corot_status close_table(void *writer) { return table_close(writer); }
-static corot_status pack_table(void *writer, pack *p) { return table_pack(writer, p); }
-static corot_status synchronise_table(void *writer) { return table_synchronise(writer); }
-static corot_status cut_table(void *writer) { return table_cut(writer); }
+static table *table_itself(const void *writer) { return (table *)writer; }
 
 /* --- probes.csv --- */
 
@@ -30,7 +28,9 @@ static corot_status open_probes(const writer_source *source, void **writer) {
   if (!p) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
   p->ncolumn = probes_ncolumn(source->probes);
   corot_status status =
-      probes_open(source->dir, p->ncolumn, probes_columns(source->probes), &p->table);
+      source->from
+          ? table_resume(source->dir, probes_writer.file, source->from, &p->table)
+          : probes_open(source->dir, p->ncolumn, probes_columns(source->probes), &p->table);
   if (status == COROT_OK)
     *writer = p;
   else
@@ -38,27 +38,7 @@ static corot_status open_probes(const writer_source *source, void **writer) {
   return status;
 }
 
-static corot_status pack_probes(void *writer, pack *p) {
-  return table_pack(((probes_table *)writer)->table, p);
-}
-
-static corot_status synchronise_probes(void *writer) {
-  return table_synchronise(((probes_table *)writer)->table);
-}
-
-static corot_status resume_probes(const writer_source *source, pack *p, void **writer) {
-  probes_table *made = calloc(1, sizeof *made);
-  if (!made) return corot_fail(COROT_ENOMEM, "the probes: out of memory");
-  made->ncolumn = probes_ncolumn(source->probes);
-  corot_status status = table_resume(source->dir, probes_writer.file, p, &made->table);
-  if (status == COROT_OK)
-    *writer = made;
-  else
-    free(made);
-  return status;
-}
-
-static corot_status cut_probes(void *writer) { return table_cut(((probes_table *)writer)->table); }
+static table *table_of_probes(const void *writer) { return ((const probes_table *)writer)->table; }
 
 static corot_status write_probes(void *writer, const moment *now) {
   const probes_table *p = writer;
@@ -69,10 +49,7 @@ const writer_ops probes_writer = {
     .file = "probes.csv",
     .open = open_probes,
     .moment = write_probes,
-    .pack = pack_probes,
-    .synchronise = synchronise_probes,
-    .resume = resume_probes,
-    .cut = cut_probes,
+    .table = table_of_probes,
     .close = close_probes,
 };
 
@@ -80,14 +57,10 @@ const writer_ops probes_writer = {
 
 static corot_status open_energy(const writer_source *source, void **writer) {
   table *t = NULL;
-  COROT_TRY(energy_open(source->dir, &t));
-  *writer = t;
-  return COROT_OK;
-}
-
-static corot_status resume_energy(const writer_source *source, pack *p, void **writer) {
-  table *t = NULL;
-  COROT_TRY(table_resume(source->dir, energy_writer.file, p, &t));
+  if (source->from)
+    COROT_TRY(table_resume(source->dir, energy_writer.file, source->from, &t));
+  else
+    COROT_TRY(energy_open(source->dir, &t));
   *writer = t;
   return COROT_OK;
 }
@@ -100,10 +73,7 @@ const writer_ops energy_writer = {
     .file = "energy.csv",
     .open = open_energy,
     .moment = write_energy,
-    .pack = pack_table,
-    .synchronise = synchronise_table,
-    .resume = resume_energy,
-    .cut = cut_table,
+    .table = table_itself,
     .close = close_table,
 };
 
@@ -124,19 +94,18 @@ static void exchange_steps(pack *p, steps *s) {
   step_row_exchange(p, &s->last);
 }
 
-static corot_status open_table_of_steps(const writer_source *source, pack *p, steps *s) {
-  if (!p) return steps_open(source->dir, &s->table);
-  exchange_steps(p, s);
-  return table_resume(source->dir, steps_writer.file, p, &s->table);
+static corot_status open_table_of_steps(const writer_source *source, steps *s) {
+  if (!source->from) return steps_open(source->dir, &s->table);
+  exchange_steps(source->from, s);
+  return table_resume(source->dir, steps_writer.file, source->from, &s->table);
 }
 
-/* On the table of a checkpoint, or from the beginning (NULL). */
-static corot_status begin_steps(const writer_source *source, pack *p, void **writer) {
+static corot_status open_steps(const writer_source *source, void **writer) {
   steps *s = calloc(1, sizeof *s);
   if (!s) return corot_fail(COROT_ENOMEM, "the steps: out of memory");
   s->count = source->steps;
   *s->count = (steps_count){.all = source->scenario->write_all_steps};
-  corot_status status = open_table_of_steps(source, p, s);
+  corot_status status = open_table_of_steps(source, s);
   if (status == COROT_OK)
     *writer = s;
   else
@@ -144,25 +113,12 @@ static corot_status begin_steps(const writer_source *source, pack *p, void **wri
   return status;
 }
 
-static corot_status open_steps(const writer_source *source, void **writer) {
-  return begin_steps(source, NULL, writer);
-}
-
-static corot_status resume_steps(const writer_source *source, pack *p, void **writer) {
-  return begin_steps(source, p, writer);
-}
-
 static corot_status pack_steps(void *writer, pack *p) {
-  steps *s = writer;
-  exchange_steps(p, s);
-  return table_pack(s->table, p);
+  exchange_steps(p, writer);
+  return corot_pack_status(p);
 }
 
-static corot_status synchronise_steps(void *writer) {
-  return table_synchronise(((steps *)writer)->table);
-}
-
-static corot_status cut_steps(void *writer) { return table_cut(((steps *)writer)->table); }
+static table *table_of_steps(const void *writer) { return ((const steps *)writer)->table; }
 
 static corot_status write_step(void *writer, const step_row *row) {
   steps *s = writer;
@@ -191,9 +147,7 @@ const writer_ops steps_writer = {
     .open = open_steps,
     .step = write_step,
     .pack = pack_steps,
-    .synchronise = synchronise_steps,
-    .resume = resume_steps,
-    .cut = cut_steps,
+    .table = table_of_steps,
     .close = close_steps,
 };
 
@@ -202,28 +156,12 @@ const writer_ops steps_writer = {
 static bool wants_history(const scenario *s) { return s->write_history; }
 
 static corot_status open_history(const writer_source *source, void **writer) {
-  COROT_TRY(history_open(source->history, source->dir));
+  COROT_TRY(history_open(source->history, source->dir, source->from));
   *writer = source->history;
   return COROT_OK;
 }
 
-static corot_status pack_history(void *writer, pack *p) {
-  return table_pack(history_table(writer), p);
-}
-
-static corot_status synchronise_history(void *writer) {
-  return table_synchronise(history_table(writer));
-}
-
-static corot_status resume_history(const writer_source *source, pack *p, void **writer) {
-  table *t = NULL;
-  COROT_TRY(table_resume(source->dir, history_writer.file, p, &t));
-  history_use(source->history, t);
-  *writer = source->history;
-  return COROT_OK;
-}
-
-static corot_status cut_history(void *writer) { return table_cut(history_table(writer)); }
+static table *table_of_history(const void *writer) { return history_table(writer); }
 
 static corot_status close_history(void *writer) { return history_close(writer); }
 
@@ -232,10 +170,7 @@ const writer_ops history_writer = {
     .use = WRITER_OF_RUN,
     .wanted = wants_history,
     .open = open_history,
-    .pack = pack_history,
-    .synchronise = synchronise_history,
-    .resume = resume_history,
-    .cut = cut_history,
+    .table = table_of_history,
     .close = close_history,
 };
 
@@ -245,7 +180,10 @@ static bool wants_states(const scenario *s) { return s->write_states; }
 
 static corot_status open_states(const writer_source *source, void **writer) {
   state_writer *file = NULL;
-  COROT_TRY(states_create(source->dir, source->model, &file));
+  if (source->from)
+    COROT_TRY(states_resume(source->dir, source->model, source->from, &file));
+  else
+    COROT_TRY(states_create(source->dir, source->model, &file));
   *writer = file;
   return COROT_OK;
 }
@@ -258,13 +196,6 @@ static corot_status pack_states(void *writer, pack *p) { return states_pack(writ
 
 static corot_status synchronise_states(void *writer) { return states_synchronise(writer); }
 
-static corot_status resume_states(const writer_source *source, pack *p, void **writer) {
-  state_writer *file = NULL;
-  COROT_TRY(states_resume(source->dir, source->model, p, &file));
-  *writer = file;
-  return COROT_OK;
-}
-
 static corot_status cut_states(void *writer) { return states_cut(writer); }
 
 static corot_status close_states(void *writer) { return states_close(writer); }
@@ -276,7 +207,6 @@ const writer_ops states_writer = {
     .moment = write_state,
     .pack = pack_states,
     .synchronise = synchronise_states,
-    .resume = resume_states,
     .cut = cut_states,
     .close = close_states,
 };
