@@ -142,26 +142,18 @@ static corot_status take_in(corot_integrator *self, pack *p, double *u, double *
   return COROT_OK;
 }
 
-/* What `take_in` puts in the place of the present state, or that as it was. u and v [n] are room.
- */
-static corot_status replace(corot_integrator *self, pack *p, double *u, double *v) {
+/* Puts another state in the place of the present one, which stands in `present` as `exchange` has
+   written it, and to which it returns after a failure. u and v [n] are room. */
+static corot_status replace(corot_integrator *self, pack *p, pack present, double *u, double *v) {
   double before = self->before, t_energies = self->t_energies;
   corot_energies energies = self->energies;
   corot_statistics carried = self->carried;
-  pack backup = {0};
-  exchange(&backup, self, u, v);
-  corot_status status = corot_pack_status(&backup);
-  if (!status) {
-    status = take_in(self, p, u, v);
-    if (status) {
-      pack back = corot_pack_reader(backup.data, backup.bytes);
-      exchange(&back, self, u, v);
-      self->before = before, self->t_energies = t_energies, self->energies = energies;
-      self->carried = carried;
-      self->seen = corot_state_stamp(self->state);
-    }
-  }
-  corot_pack_clear(&backup);
+  corot_status status = take_in(self, p, u, v);
+  if (!status) return COROT_OK;
+  exchange(&present, self, u, v);
+  self->before = before, self->t_energies = t_energies, self->energies = energies;
+  self->carried = carried;
+  self->seen = corot_state_stamp(self->state);
   return status;
 }
 
@@ -233,7 +225,16 @@ static corot_status write_blob(corot_integrator *self, double *u, double *v, pac
 static corot_status save(corot_integrator *self, double *u, double *v, pack *p) {
   COROT_TRY(write_blob(self, u, v, p));
   pack again = corot_pack_reader(p->data + HEADER, p->bytes - HEADER);
-  return replace(self, &again, u, v);
+  return replace(self, &again, again, u, v);
+}
+
+static corot_status restore(corot_integrator *self, pack *p, double *u, double *v) {
+  pack written = {0};
+  exchange(&written, self, u, v);
+  corot_status status = corot_pack_status(&written);
+  if (!status) status = replace(self, p, corot_pack_reader(written.data, written.bytes), u, v);
+  corot_pack_clear(&written);
+  return status;
 }
 
 corot_status corot_integrator_save(corot_integrator *self, void **blob, size_t *bytes) {
@@ -265,10 +266,10 @@ corot_status corot_integrator_restore(corot_integrator *self, const void *blob, 
   COROT_TRY(COROT_GIVEN(blob));
   COROT_TRY(check_blob(self, blob, bytes));
   size_t n = corot_model_ndof(self->model);
-  double *u = malloc(2 * n * sizeof *u);
+  double *u = calloc(2 * n, sizeof *u);
   if (!u) return corot_fail(COROT_ENOMEM, "no memory for a state of %zu unknowns", n);
   pack p = corot_pack_reader((const char *)blob + HEADER, bytes - HEADER);
-  corot_status status = replace(self, &p, u, u + n);
+  corot_status status = restore(self, &p, u, u + n);
   free(u);
   return status;
 }
