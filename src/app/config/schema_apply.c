@@ -325,25 +325,41 @@ corot_status schema_expand(const schema *table, config *tree) {
   return COROT_OK;
 }
 
-/* By the type of its key. */
-static corot_status apply_value(const application *a, config_node *node, const schema_key *key) {
+/* What has keys of its own. */
+static corot_status apply_nested(const application *a, config_node *node, const schema_key *key) {
   char inside[PATH];
   schema_inside(key, sizeof inside, inside);
   switch (key->type) {
-    case SCHEMA_MAP:
-      return apply_map(a, node, inside);
     case SCHEMA_NAMED:
       return apply_named(a, node, inside, apply_map);
     case SCHEMA_NAMED_SHORT:
       return apply_named(a, node, inside, apply_short);
-    case SCHEMA_NAMED_TEXTS:
-      return apply_named_texts(node);
     case SCHEMA_LIST:
       return apply_list(a, node, inside);
     case SCHEMA_MAPS:
       return apply_maps(a, node, inside);
     case SCHEMA_SHORT:
       return apply_short(a, node, inside);
+    case SCHEMA_CURVE:
+      return apply_curve(a, node, inside);
+    default:
+      return apply_map(a, node, inside);
+  }
+}
+
+/* By the type of its key. */
+static corot_status apply_value(const application *a, config_node *node, const schema_key *key) {
+  switch (key->type) {
+    case SCHEMA_MAP:
+    case SCHEMA_NAMED:
+    case SCHEMA_NAMED_SHORT:
+    case SCHEMA_LIST:
+    case SCHEMA_MAPS:
+    case SCHEMA_SHORT:
+    case SCHEMA_CURVE:
+      return apply_nested(a, node, key);
+    case SCHEMA_NAMED_TEXTS:
+      return apply_named_texts(node);
     case SCHEMA_TEXT:
       return check_text(node);
     case SCHEMA_CHOICE:
@@ -362,8 +378,6 @@ static corot_status apply_value(const application *a, config_node *node, const s
       return check_integers(node, key->range);
     case SCHEMA_WORDS:
       return check_words(node, key);
-    case SCHEMA_CURVE:
-      return apply_curve(a, node, inside);
     case SCHEMA_STATES:
       return apply_states(a, node, key);
     case SCHEMA_TEXTS:
