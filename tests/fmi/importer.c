@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "temporary.h"
 
 const char *fmu_path(const char *name) {
   static char path[4][4096];
@@ -20,20 +21,6 @@ static char *join(const char *a, const char *b) {
   char *text = malloc(strlen(a) + strlen(b) + 1);
   assert_non_null(text);
   return strcat(strcpy(text, a), b);
-}
-
-static char *read_file(const char *path) {
-  FILE *in = fopen(path, "rb");
-  if (!in) fail_msg("%s is not there", path);
-  fseek(in, 0, SEEK_END);
-  long size = ftell(in);
-  rewind(in);
-  char *text = malloc((size_t)size + 1);
-  assert_non_null(text);
-  assert_int_equal(fread(text, 1, (size_t)size, in), size);
-  text[size] = '\0';
-  fclose(in);
-  return text;
 }
 
 /* The value of an attribute from `at` on, up to the end of the element. */
@@ -73,7 +60,7 @@ fmu *fmu_load(const char *folder) {
   f->folder = join(folder, "");
   f->resources = join(folder, "/resources/");
   char *path = join(folder, "/modelDescription.xml");
-  f->description = read_file(path);
+  f->description = slurp(path, NULL);
   free(path);
   attribute(strstr(f->description, "<fmiModelDescription"), "instantiationToken", sizeof f->token,
             f->token);
@@ -168,7 +155,7 @@ static int count_of(const char *text, char c) {
 }
 
 fmu_table fmu_read_table(const char *path) {
-  char *text = read_file(path), *line = strchr(text, '\n');
+  char *text = slurp(path, NULL), *line = strchr(text, '\n');
   *line = '\0';
   fmu_table t = {.ncolumn = count_of(text, ',') + 1, .nrow = count_of(line + 1, '\n')};
   t.name = calloc((size_t)t.ncolumn, sizeof *t.name);
