@@ -4,6 +4,8 @@
 #include "alloc.h"
 #include "check.h"
 
+static const char words[] = "of a length that the reader does not know";
+
 typedef struct thing {
   double a, many[3];
   long b;
@@ -17,6 +19,13 @@ static void exchange(pack *p, thing *x) {
   corot_pack_doubles(p, x->many, 3);
   corot_pack_long(p, &x->b);
   corot_pack_int(p, &x->c);
+  const void *block = words;
+  size_t bytes = sizeof words;
+  corot_pack_block(p, &block, &bytes);
+  if (p->reading && !p->status) {
+    assert_int_equal(bytes, sizeof words);
+    assert_memory_equal(block, words, bytes);
+  }
   corot_pack_bool(p, &x->d);
 }
 

@@ -12,7 +12,6 @@
 #include "folder.h"
 
 #define FORMAT UINT64_C(1)
-#define BYTE_ORDER_MARK UINT64_C(0x0102030405060708)
 #define BYTE_ORDER_OTHER UINT64_C(0x0807060504030201)
 
 enum { MAGIC = sizeof CHECKPOINT_MARK - 1, DIGEST = HASH_SIZE - 1, BYTES_AT = MAGIC + 16 };
@@ -22,14 +21,14 @@ enum { MAGIC = sizeof CHECKPOINT_MARK - 1, DIGEST = HASH_SIZE - 1, BYTES_AT = MA
 static void put_number(pack *p, uint64_t x) { corot_pack_bytes(p, &x, sizeof x); }
 
 void checkpoint_file_begin(pack *p, const char run[HASH_SIZE], const char *program, double t) {
-  long length = (long)strlen(program);
+  const void *text = program;
+  size_t length = strlen(program);
   corot_pack_bytes(p, (char *)CHECKPOINT_MARK, MAGIC);
-  put_number(p, BYTE_ORDER_MARK);
+  put_number(p, COROT_BYTE_ORDER);
   put_number(p, FORMAT);
   put_number(p, 0); /* bytes, once they are known */
   corot_pack_bytes(p, (char *)run, DIGEST);
-  corot_pack_long(p, &length);
-  corot_pack_bytes(p, (char *)program, (size_t)length);
+  corot_pack_block(p, &text, &length);
   corot_pack_double(p, &t);
 }
 
@@ -57,7 +56,7 @@ static corot_status check_frame(const char *path, const char *data, size_t size)
   memcpy(&bytes, data + BYTES_AT, sizeof bytes);
   if (order == BYTE_ORDER_OTHER)
     return corot_fail(COROT_EFORMAT, "%s: was written by a machine of another byte order", path);
-  if (order != BYTE_ORDER_MARK) return corot_fail(COROT_EFORMAT, "%s: is damaged", path);
+  if (order != COROT_BYTE_ORDER) return corot_fail(COROT_EFORMAT, "%s: is damaged", path);
   if (format != FORMAT)
     return corot_fail(COROT_EFORMAT,
                       "%s: is of format %llu, or damaged; this program reads format %llu", path,
@@ -74,14 +73,12 @@ static corot_status check_frame(const char *path, const char *data, size_t size)
 /* What follows the frame, of a file that is whole. */
 static corot_status read_identity(const char *path, checkpoint_file *f) {
   pack *p = &f->state;
-  long length = 0;
+  const void *text = NULL;
+  size_t length = 0;
   corot_pack_bytes(p, f->run, DIGEST);
-  corot_pack_long(p, &length);
-  COROT_TRY(corot_pack_status(p));
-  if (length < 0 || (size_t)length > corot_pack_left(p))
-    return corot_fail(COROT_EFORMAT, "%s: is damaged", path);
-  COROT_TRY(json_text_parse(path, (const char *)p->data + p->at, (size_t)length, &f->program));
-  p->at += (size_t)length;
+  corot_pack_block(p, &text, &length);
+  if (corot_pack_status(p)) return corot_fail(COROT_EFORMAT, "%s: is damaged", path);
+  COROT_TRY(json_text_parse(path, text, length, &f->program));
   corot_pack_double(p, &f->t);
   return corot_pack_status(p);
 }

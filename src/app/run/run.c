@@ -1,54 +1,18 @@
 /* The loop of a run: next event, advance, handle; then the books are closed. */
 #include "run.h"
 
-#include <corot/checkpoint.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/text/say.h"
-#include "live.h"
-#include "outputs.h"
-#include "progress.h"
 #include "quantities.h"
-#include "result.h"
-#include "resume.h"
-#include "run_checkpoint.h"
 #include "run_clock.h"
 #include "run_common.h"
-#include "schedule.h"
+#include "run_inside.h"
 #include "static.h"
 #include "stop.h"
-
-typedef struct run {
-  const scenario *scenario;
-  const run_options *options;
-  corot_mesh *mesh;
-  corot_refinement *refinement; /* or NULL */
-  corot_model *model;
-  corot_state *state;
-  live *live;
-  corot_integrator *integrator;
-  corot_frame_clock *clock;
-  schedule *schedule;
-  outputs *outputs;
-  hashes hashes;
-  checkpoint *checkpoint; /* NULL: none is made */
-  resume resume;          /* what there is to go on from */
-  progress progress;
-  double *u, *v;       /* [n] scratch */
-  double t;            /* reached [s]; at a constant step, it may pass the end */
-  double before;       /* where the last step began [s] */
-  double shown;        /* time of the last row of the tables [s]; -1: there is none */
-  long nstep, nresume; /* steps so far; how often it has gone on from a checkpoint */
-  frame_totals frames;
-  run_failure failure;
-  folder_lock lock;
-  warnings warnings;
-  observed seen;                                                   /* in the end */
-  double wall_at_start, cpu_at_start, setup_s, frames_s, output_s; /* [s] */
-} run;
 
 /* Before the first step: nothing is written yet. */
 
@@ -144,85 +108,17 @@ static void release(run *r) {
 
 /* Checkpoints. */
 
-static void exchange_frames(pack *p, frame_totals *f) {
-  corot_pack_long(p, &f->count);
-  for (int i = 0; i < FRAME_REASONS; i++) corot_pack_long(p, &f->by[i]);
-  corot_pack_double(p, &f->angle_max);
-  corot_pack_double(p, &f->angle_mean);
-  corot_pack_double(p, &f->energy);
-}
-
-/* Times on the clock add up over the processes of a run. */
-static void exchange_clocks(pack *p, run *r) {
-  double s[] = {wall_clock() - r->wall_at_start, cpu_clock() - r->cpu_at_start, r->setup_s,
-                r->frames_s, r->output_s};
-  corot_pack_doubles(p, s, sizeof s / sizeof *s);
-  if (!p->reading) return;
-  r->wall_at_start -= s[0];
-  r->cpu_at_start -= s[1];
-  r->setup_s += s[2];
-  r->frames_s += s[3];
-  r->output_s += s[4];
-}
-
-/* All but the outputs and the integrator. */
-static void exchange(pack *p, run *r) {
-  corot_pack_double(p, &r->t);
-  corot_pack_double(p, &r->before);
-  corot_pack_double(p, &r->shown);
-  corot_pack_long(p, &r->nstep);
-  corot_pack_long(p, &r->nresume);
-  exchange_frames(p, &r->frames);
-  exchange_clocks(p, r);
-  schedule_exchange(p, r->schedule);
-  live_exchange(p, r->live);
-}
-
-/* The integrator begins anew, whether this is written or not. */
-static corot_status pack_run(run *r, pack *p) {
-  void *blob = NULL;
-  size_t bytes;
-  COROT_TRY(corot_integrator_save(r->integrator, &blob, &bytes));
-  long size = (long)bytes;
-  exchange(p, r);
-  corot_pack_long(p, &size);
-  corot_pack_bytes(p, blob, bytes);
-  corot_blob_free(blob);
-  return outputs_pack(r->outputs, p);
-}
-
 static corot_status make_checkpoint(run *r) {
   double started = wall_clock();
-  corot_status status = pack_run(r, checkpoint_begin(r->checkpoint, r->t));
+  corot_status status = run_pack(r, checkpoint_begin(r->checkpoint, r->t));
   if (status == COROT_OK) status = checkpoint_keep(r->checkpoint, r->outputs);
   r->output_s += wall_clock() - started;
   if (status == COROT_OK) return COROT_OK;
   return corot_fail(status, "checkpoint at t = %g s: %s", r->t, corot_error());
 }
 
-static corot_status restore_integrator(run *r, pack *p) {
-  long size = 0;
-  corot_pack_long(p, &size);
-  COROT_TRY(corot_pack_status(p));
-  if (size < 0 || (size_t)size > corot_pack_left(p))
-    return corot_fail(COROT_EFORMAT, "the state is cut short");
-  COROT_TRY(corot_integrator_restore(r->integrator, p->data + p->at, (size_t)size));
-  p->at += (size_t)size;
-  return COROT_OK;
-}
-
-/* Nothing in the folder is changed before all is known to fit. */
-static corot_status unpack_run(run *r, pack *p) {
-  exchange(p, r);
-  COROT_TRY(restore_integrator(r, p));
-  COROT_TRY(outputs_resume(r->scenario, r->model, r->options->dir, p, &r->outputs));
-  if (corot_pack_left(p) > 0)
-    return corot_fail(COROT_EFORMAT, "%zu bytes are left of the state", corot_pack_left(p));
-  return outputs_cut(r->outputs, r->options->dir);
-}
-
 static corot_status go_on(run *r) {
-  corot_status status = unpack_run(r, &r->resume.file.state);
+  corot_status status = run_unpack(r, &r->resume.file.state);
   if (status != COROT_OK)
     return corot_fail(status == COROT_EINVAL ? COROT_EFORMAT : status, "%s/%s: %s", r->options->dir,
                       CHECKPOINT_NAME, corot_error());
@@ -410,6 +306,9 @@ static corot_status integrate(run *r) {
 /* How far the answer goes. */
 static double reached(const run *r) { return fmin(r->t, r->scenario->t_end); }
 
+/* A run with checkpoints needed them at the start. */
+static bool has_hashes(const run *r) { return r->hashes.run[0] != 0; }
+
 /* All that result.json says of the run itself. */
 static corot_status summarize(const run *r, const char *reason, int code, run_summary *summary) {
   bool interrupted = code > EXIT_SIGNAL;
@@ -435,7 +334,8 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
       .seen = &r->seen,
       .nresume = r->checkpoint ? r->nresume : -1,
   };
-  return hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
+  summary->hashes = r->hashes;
+  return has_hashes(r) ? COROT_OK : hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
 }
 
 static void tell(const run *r, const run_summary *summary) {

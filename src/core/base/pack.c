@@ -70,6 +70,22 @@ void corot_pack_bool(pack *p, bool *x) {
   *x = wide != 0;
 }
 
+void corot_pack_block(pack *p, const void **x, size_t *bytes) {
+  long length = p->reading ? 0 : (long)*bytes;
+  corot_pack_long(p, &length);
+  if (!p->reading) corot_pack_bytes(p, (void *)*x, *bytes);
+  if (!p->reading || p->status) return;
+  if (length < 0 || (size_t)length > corot_pack_left(p)) {
+    p->status =
+        corot_fail(COROT_EINVAL, "the state is cut short: a block of %ld bytes where %zu follow",
+                   length, corot_pack_left(p));
+    return;
+  }
+  *x = p->data + p->at;
+  *bytes = (size_t)length;
+  p->at += *bytes;
+}
+
 void corot_pack_same(pack *p, uint64_t x, const char *what) {
   uint64_t found = x;
   corot_pack_bytes(p, &found, sizeof found);

@@ -27,6 +27,10 @@ static inline pack corot_pack_reader(const void *data, size_t bytes) {
   return (pack){.reading = true, .data = (unsigned char *)data, .bytes = bytes};
 }
 
+/* What stands at the head of bytes that another machine may read: a number that is another one in
+   another byte order. */
+#define COROT_BYTE_ORDER UINT64_C(0x0102030405060708)
+
 /* Frees what a writer holds. */
 COROT_SISTERS void corot_pack_clear(pack *p);
 
@@ -38,6 +42,10 @@ COROT_SISTERS void corot_pack_doubles(pack *p, double *x, size_t n);
 COROT_SISTERS void corot_pack_long(pack *p, long *x);
 COROT_SISTERS void corot_pack_int(pack *p, int *x);
 COROT_SISTERS void corot_pack_bool(pack *p, bool *x);
+
+/* Bytes of a length that the reader does not know: theirs is written before them. A reader finds
+   them where they stand in what it reads. */
+COROT_SISTERS void corot_pack_block(pack *p, const void **x, size_t *bytes);
 
 /* A number that the reader knows beforehand: a length, a kind. A reader that finds another fails,
    and names `what`. */

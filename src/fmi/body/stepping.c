@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "app/run/integration.h"
 #include "app/text/no_memory.h"
 
 struct stepping {
@@ -234,31 +235,11 @@ static corot_status go_back(stepping *s, const moment *now) {
   return COROT_OK;
 }
 
-static corot_status save(stepping *s, pack *p) {
-  void *blob;
-  size_t bytes;
+/* What was set for the next step is told now: the state knows of it. */
+static corot_status tell(stepping *s) {
   if (s->told) COROT_TRY(corot_integrator_changed(s->integrator, COROT_HISTORY_AUTO));
   s->told = false;
-  COROT_TRY(corot_integrator_save(s->integrator, &blob, &bytes));
-  long length = (long)bytes;
-  corot_pack_long(p, &length);
-  corot_pack_bytes(p, blob, bytes);
-  corot_blob_free(blob);
-  return corot_pack_status(p);
-}
-
-static corot_status restore(stepping *s, pack *p) {
-  long length = 0;
-  corot_pack_long(p, &length);
-  COROT_TRY(corot_pack_status(p));
-  if (length < 0 || (size_t)length > corot_pack_left(p))
-    return corot_fail(COROT_EINVAL, "the state is cut short");
-  void *blob = malloc((size_t)length + 1);
-  if (!blob) return no_memory();
-  corot_pack_bytes(p, blob, (size_t)length);
-  corot_status status = corot_integrator_restore(s->integrator, blob, (size_t)length);
-  free(blob);
-  return status;
+  return COROT_OK;
 }
 
 corot_status stepping_exchange(stepping *s, pack *p, moment *now) {
@@ -270,7 +251,8 @@ corot_status stepping_exchange(stepping *s, pack *p, moment *now) {
   corot_pack_double(p, &as.kink);
   corot_pack_bool(p, &as.due);
   corot_pack_bool(p, &as.shown);
-  COROT_TRY(p->reading ? restore(s, p) : save(s, p));
+  if (!p->reading) COROT_TRY(tell(s));
+  COROT_TRY(integration_exchange(p, s->integrator));
   if (!p->reading) return COROT_OK;
   s->t = as.t, s->dissipated = as.dissipated, s->external_work = as.external_work;
   s->kink = as.kink, s->due = as.due, s->shown = as.shown;

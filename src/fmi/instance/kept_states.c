@@ -15,7 +15,6 @@
 #include "instance.h"
 
 #define FORMAT UINT64_C(1)
-#define BYTE_ORDER_MARK UINT64_C(0x0102030405060708)
 
 static const char magic[8] = {'c', 'o', 'r', 'o', 't', 'F', 'M', 'U'};
 enum { TOKEN = HASH_SIZE - 1, HEAD = 24 + TOKEN, SUM = 8 };
@@ -52,7 +51,7 @@ static settings settings_of(const instance *in) {
 }
 
 static void exchange_head(pack *p, const instance *in) {
-  uint64_t order = BYTE_ORDER_MARK, format = FORMAT;
+  uint64_t order = COROT_BYTE_ORDER, format = FORMAT;
   char head[8], token[TOKEN];
   memcpy(head, magic, sizeof head);
   memcpy(token, in->body.hashes.run, TOKEN);
@@ -314,7 +313,7 @@ static corot_status check_bytes(const instance *in, const fmi3Byte *bytes, size_
     return corot_fail(COROT_EINVAL, "these %zu bytes are not a state of a corot FMU", size);
   memcpy(&order, bytes + 8, sizeof order);
   memcpy(&format, bytes + 16, sizeof format);
-  if (order != BYTE_ORDER_MARK || format != FORMAT)
+  if (order != COROT_BYTE_ORDER || format != FORMAT)
     return corot_fail(COROT_EINVAL,
                       "the state is of another version of corot, or of another kind of machine");
   memcpy(&sum, bytes + size - SUM, sizeof sum);

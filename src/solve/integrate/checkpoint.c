@@ -21,7 +21,6 @@
 #include "integrator.h"
 
 #define FORMAT UINT64_C(1)
-#define BYTE_ORDER_MARK UINT64_C(0x0102030405060708)
 
 enum { HEADER = 56 };
 
@@ -172,7 +171,7 @@ static corot_status check_blob(corot_integrator *self, const void *blob, size_t 
   memcpy(&h, blob, sizeof h);
   if (memcmp(h.magic, magic, sizeof magic) != 0)
     return corot_fail(COROT_EINVAL, "this is no state of corot");
-  if (h.order != BYTE_ORDER_MARK)
+  if (h.order != COROT_BYTE_ORDER)
     return corot_fail(COROT_EINVAL, "the state is of a machine of another byte order, or damaged");
   if (h.format != FORMAT)
     return corot_fail(COROT_EINVAL, "the state is of format %llu, this library reads format %llu",
@@ -193,7 +192,7 @@ static corot_status check_blob(corot_integrator *self, const void *blob, size_t 
 
 /* Writes the header into its place at the beginning. */
 static void finish(corot_integrator *self, pack *p) {
-  header h = {.order = BYTE_ORDER_MARK,
+  header h = {.order = COROT_BYTE_ORDER,
               .format = FORMAT,
               .bytes = p->bytes - HEADER,
               .checksum = corot_checksum(COROT_CHECKSUM, p->data + HEADER, p->bytes - HEADER),
