@@ -36,14 +36,16 @@ COROT_API corot_status corot_integrator_save(corot_integrator *integrator, void 
                                              size_t *bytes);
 
 /* Puts that state in the place of the integrator's own, forwards or backwards in time. The integrator
-   is of the same definition, on a model of the same definition, with inputs and a frame clock if the
-   saved one had them; or it is the saved one itself. Its corot_state changes with it: frames, side of
-   kinks, and what the inputs say; corot_integrator_time() is the time it is taken to. To take a stretch
-   of time once more with other inputs, restore, set them, and call corot_integrator_changed.
+   is of the same definition, on a model of the same definition, with inputs if the saved one had some,
+   and a frame clock of the same policy if it had one; or it is the saved one itself. Its corot_state
+   changes with it: frames, side of kinks, and what the inputs say; corot_integrator_time() is the time
+   it is taken to. To take a stretch of time once more with other inputs, restore, set them, and call
+   corot_integrator_changed.
 
    COROT_EINVAL: the blob is cut short or damaged, of another version of its format or another byte
-   order, or of another model, definition or linear solver. COROT_ENOMEM; COROT_EINTEGRATE,
-   COROT_RETRY as of corot_integrator_create. After a failure everything is as it was. */
+   order, or of another model, definition, policy of frames or linear solver. COROT_ENOMEM;
+   COROT_EINTEGRATE, COROT_RETRY as of corot_integrator_create. After a failure everything is as it
+   was. */
 COROT_API corot_status corot_integrator_restore(corot_integrator *integrator, const void *blob,
                                                 size_t bytes);
 

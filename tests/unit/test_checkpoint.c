@@ -427,6 +427,49 @@ static void a_change_that_was_not_told_is_refused(void **state) {
   end(&r);
 }
 
+/* A frame clock on the integrator of the run in the place of the one that it has. */
+static void change_clock(run *r, const corot_frame_policy *policy) {
+  double *rest = calloc(r->b.n, sizeof *rest);
+  corot_frame_clock_destroy(r->clock);
+  assert_ok(corot_frame_clock_create(policy, r->b.model, r->b.state, r->integrator, 0, rest, rest,
+                                     &r->clock));
+  free(rest);
+}
+
+static bool never(void *data, double t, const double *u, const double *v,
+                  const corot_frames_change *drift) {
+  (void)data, (void)t, (void)u, (void)v, (void)drift;
+  return false;
+}
+
+/* Its count of intervals would mean other times. */
+static void a_clock_of_another_policy_is_refused(void **state) {
+  (void)state;
+  plan p = {0, "polar", NULL, COROT_FRAMES_HELD, false, 1, 0};
+  run r = begin(&p), other = begin(&p);
+  corot_frame_policy policy = corot_frame_policy_defaults();
+  policy.frames = COROT_FRAMES_HELD, policy.interval = 4e-3, policy.max_angle = 0.02;
+  void *blob;
+  size_t bytes;
+  assert_ok(corot_integrator_save(r.integrator, &blob, &bytes));
+  for (int k = 0; k < 6; k++) {
+    corot_frame_policy changed = policy;
+    if (k == 0) changed.interval = 5e-3;
+    if (k == 1) changed.max_angle = 0.03;
+    if (k == 2) changed.every_step = true;
+    if (k == 3) changed.history = COROT_HISTORY_KEEP;
+    if (k == 4) changed.hook = never;
+    if (k == 5) changed.frames = COROT_FRAMES_EXTRAPOLATED;
+    change_clock(&other, &changed);
+    assert_fails(corot_integrator_restore(other.integrator, blob, bytes), COROT_EINVAL, "policy");
+  }
+  change_clock(&other, &policy);
+  assert_ok(corot_integrator_restore(other.integrator, blob, bytes));
+  corot_blob_free(blob);
+  end(&other);
+  end(&r);
+}
+
 /* A clock may go before its integrator or after it. */
 static void a_clock_may_outlive_its_integrator(void **state) {
   (void)state;
@@ -504,6 +547,7 @@ int main(void) {
       cmocka_unit_test(what_is_of_another_model_or_definition_is_refused),
       cmocka_unit_test(a_model_is_known_by_each_of_its_numbers),
       cmocka_unit_test(a_change_that_was_not_told_is_refused),
+      cmocka_unit_test(a_clock_of_another_policy_is_refused),
       cmocka_unit_test(a_clock_may_outlive_its_integrator),
       cmocka_unit_test(want_of_memory_loses_nothing),
   };

@@ -93,10 +93,37 @@ static void preconditioners_by_levels_begin_anew(void **state) {
   check(&choices[0], COROT_COUPLING_MEAN, "multigrid", COROT_FRAMES_HELD);
 }
 
+/* Measures, couplings, the level of the frames, and whether these are conservative. */
+static void a_hierarchy_is_known_by_each_of_its_choices(void **state) {
+  (void)state;
+  static const choice some = {"green", "polar", 2, 0, false, false};
+  static const struct {
+    choice c;
+    corot_coupling coupling;
+  } others[] = {{{"green", "polar", 2, 0, true, false}, COROT_COUPLING_MEAN},
+                {{"green", "polar", 2, 1, false, false}, COROT_COUPLING_MEAN},
+                {{"hybrid", "polar", 2, 0, false, false}, COROT_COUPLING_MEAN},
+                {{"green", "polar", 2, 0, false, false}, COROT_COUPLING_NODES},
+                {{"green", "polar", 2, 0, false, false}, COROT_COUPLING_ONE_WAY}};
+  run r = begin(&some, COROT_COUPLING_MEAN, NULL, COROT_FRAMES_EXACT);
+  void *blob;
+  size_t bytes;
+  assert_ok(corot_integrator_save(r.integrator, &blob, &bytes));
+  for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
+    run other = begin(&others[k].c, others[k].coupling, NULL, COROT_FRAMES_EXACT);
+    assert_fails(corot_integrator_restore(other.integrator, blob, bytes), COROT_EINVAL,
+                 "another model");
+    end(&other);
+  }
+  corot_blob_free(blob);
+  end(&r);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       each_coupling_unit_test(frames_that_are_handed_down_come_with_it),
       cmocka_unit_test(preconditioners_by_levels_begin_anew),
+      cmocka_unit_test(a_hierarchy_is_known_by_each_of_its_choices),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,14 +25,29 @@ static void add_mesh(uint64_t *sum, const corot_mesh *mesh) {
   ADD(sum, mesh->mid, (size_t)mesh->ntet);
 }
 
+/* How the terms of a hierarchy see the fields. */
+static void add_maps(uint64_t *sum, const solid_system *y) {
+  for (int k = 0; k < y->nmap; k++) {
+    const coarsening *map = &y->map[k].map;
+    ADD(sum, map->point, (size_t)map->nnode * map->npoint);
+    ADD(sum, map->weight, (size_t)map->npoint);
+    ADD(sum, &map->volume, (size_t)1);
+    add_mesh(sum, y->map[k].mesh);
+  }
+}
+
 /* What the tets are made of, in which order, and under which measure. */
 static void add_system(uint64_t *sum, const corot_model *m) {
+  const int all[] = {m->system.nterm, m->system.leader, m->system.turning};
   ADD(sum, m->system.name, strlen(m->system.name));
+  ADD(sum, all, sizeof all / sizeof *all);
+  add_maps(sum, &m->system);
   ADD(sum, m->material, (size_t)m->nmaterial);
   add_int(sum, W);
   for (int k = 0; k < m->system.nterm; k++) {
     const term *t = &m->system.term[k];
-    const int kind[] = {t->body.strain,    t->sign,           t->map, t->level, t->from, t->below,
+    const int kind[] = {t->body.strain,    t->sign,           t->map,   t->level,
+                        t->frames_from,    t->from,           t->below, t->body.damped,
                         t->body.objective, t->body.by_element};
     ADD(sum, kind, sizeof kind / sizeof *kind);
     ADD(sum, t->body.elements.block, (size_t)t->body.elements.nblock);

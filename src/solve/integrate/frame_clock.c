@@ -100,7 +100,15 @@ void corot_frame_clock_destroy(corot_frame_clock *c) {
 
 void corot_frame_clock_orphan(corot_frame_clock *c) { c->integrator = NULL; }
 
+/* What the count of intervals is of. */
+static uint64_t sum_of(const corot_frame_policy *policy) {
+  const double number[] = {policy->frames,    policy->every_step, policy->interval,
+                           policy->max_angle, policy->history,    policy->hook != NULL};
+  return corot_checksum(COROT_CHECKSUM, number, sizeof number);
+}
+
 void corot_frame_clock_exchange(pack *p, corot_frame_clock *c) {
+  corot_pack_same(p, sum_of(&c->policy), "the checksum of the frames' policy");
   corot_pack_long(p, &c->ticks);
   corot_pack_double(p, &c->cap);
 }
