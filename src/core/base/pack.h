@@ -45,7 +45,7 @@ COROT_SISTERS void corot_pack_bool(pack *p, bool *x);
 
 /* Bytes of a length that the reader does not know: theirs is written before them. A reader finds
    them where they stand in what it reads. */
-COROT_SISTERS void corot_pack_block(pack *p, const void **x, size_t *bytes);
+void corot_pack_block(pack *p, const void **x, size_t *bytes);
 
 /* A number that the reader knows beforehand: a length, a kind. A reader that finds another fails,
    and names `what`. */
