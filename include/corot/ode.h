@@ -66,6 +66,32 @@ COROT_API void corot_state_destroy(corot_state *state);
 /* Bytes held by the state. */
 COROT_API size_t corot_state_bytes(const corot_state *state);
 
+/* From now on n threads share out what is evaluated with this state, and what is solved with a pencil
+   of it: n - 1 of the library's own, which wait between two evaluations, and the caller's. Results are
+   the same to the last bit for every n. At first n is 1. n = 0: as many as pay on this machine for a
+   model of this size, which is 1 for small ones. The threads belong to the state and end with it; they
+   run no code of the host, and take no signals; a process made by fork() has none, and works on alone.
+
+   Not while an evaluation runs. COROT_EINVAL: there is no state, or n is not from 0 to
+   COROT_MOST_THREADS. COROT_ENOMEM: no memory, or a thread that the system does not start; with n = 0
+   there are fewer instead. After a failure all is as it was. */
+#define COROT_MOST_THREADS 256
+COROT_API corot_status corot_state_threads(corot_state *state, int n);
+
+/* The same by threads of a host: `run` has to call part(work, k) for every k from 0 to nparts - 1, each
+   once, at the same time or not and on threads as it likes, and to return when all of them are done.
+   n, from 1 to COROT_MOST_THREADS, is how many parts there mostly are. `host` is handed on to it. The
+   parts do not call the host, and do not wait for each other. */
+typedef void corot_parallel_for(void *host, int nparts, void (*part)(void *work, int k), void *work);
+COROT_API corot_status corot_state_parallel(corot_state *state, int n, corot_parallel_for *run,
+                                            void *host);
+
+/* How many threads, or parts, there are. */
+COROT_API int corot_state_thread_count(const corot_state *state);
+
+/* How many processors this process may use: 1 where the system does not say. */
+COROT_API int corot_processors(void);
+
 COROT_API void corot_state_use(corot_state *state, corot_frames frames);
 COROT_API corot_frames corot_state_frames(const corot_state *state);
 

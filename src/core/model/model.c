@@ -23,7 +23,12 @@ void corot_model_destroy(corot_model *m) {
 }
 
 void corot_model_spread(const corot_model *m, const double *values, double *nodal, int stride) {
-  for (int n = 0; n < m->mesh->nnode; n++)
+  corot_model_spread_part(m, values, 0, m->mesh->nnode, nodal, stride);
+}
+
+void corot_model_spread_part(const corot_model *m, const double *values, int from, int end,
+                             double *nodal, int stride) {
+  for (int n = from; n < end; n++)
     for (int c = 0; c < 3; c++) {
       int i = m->dof[n][c];
       nodal[n * stride + c] = i >= 0 ? values[i] : 0;

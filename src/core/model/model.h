@@ -126,6 +126,14 @@ void corot_motions_accelerate(const corot_model *m, const instant *now, double *
 COROT_SISTERS void corot_model_spread(const corot_model *m, const double *values, double *nodal,
                                       int stride);
 
+/* The same for the nodes from `from` on, before `end`. */
+void corot_model_spread_part(const corot_model *m, const double *values, int from, int end,
+                             double *nodal, int stride);
+
+/* The k-th derivative of the displacement of supports, 0 <= k <= 2, on their nodes alone. */
+void corot_supports_place(const corot_model *m, const instant *now, int k, double *nodal,
+                          int stride);
+
 /* Mass and mass damping, once degrees of freedom, motions and pattern are known. */
 corot_status corot_mass_create(const corot_model_def *def, corot_model *m);
 

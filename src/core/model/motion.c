@@ -307,25 +307,30 @@ void corot_motions_accelerate(const corot_model *m, const instant *now, double *
   }
 }
 
+void corot_supports_place(const corot_model *m, const instant *now, int k, double *nodal,
+                          int stride) {
+  if (k == 0) corot_motions_displace(m, now, nodal, stride);
+  if (k == 1) corot_motions_move(m, now, nodal, stride);
+  if (k == 2) corot_motions_accelerate(m, now, nodal, stride);
+  if (inputs_move(now) && (k < 2 || now->moving)) corot_paths_place(now, k, nodal, stride);
+}
+
 void corot_model_displacement(const corot_model *m, const instant *now, const double *u,
                               double *nodal, int stride) {
   corot_model_spread(m, u, nodal, stride);
-  corot_motions_displace(m, now, nodal, stride);
-  if (inputs_move(now)) corot_paths_place(now, 0, nodal, stride);
+  corot_supports_place(m, now, 0, nodal, stride);
 }
 
 void corot_model_velocity(const corot_model *m, const instant *now, const double *v, double *nodal,
                           int stride) {
   corot_model_spread(m, v, nodal, stride);
-  corot_motions_move(m, now, nodal, stride);
-  if (inputs_move(now)) corot_paths_place(now, 1, nodal, stride);
+  corot_supports_place(m, now, 1, nodal, stride);
 }
 
 void corot_model_acceleration(const corot_model *m, const instant *now, const double *a,
                               double *nodal, int stride) {
   corot_model_spread(m, a, nodal, stride);
-  corot_motions_accelerate(m, now, nodal, stride);
-  if (inputs_move(now) && now->moving) corot_paths_place(now, 2, nodal, stride);
+  corot_supports_place(m, now, 2, nodal, stride);
 }
 
 bool corot_motion_jolts(const motion *a) {

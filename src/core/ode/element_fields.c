@@ -112,7 +112,7 @@ corot_status corot_show_begin(const corot_model *m, corot_state *s, double t, co
   *all_u = corot_state_displace(m, s, &now, u);
   corot_status above = corot_system_settle(system_of(m, s), &s->system, age_of(s, t), *all_u);
   if (above && above != COROT_RETRY) return above;
-  corot_kernel_dilatation(body_of(m, s), &s->system.of[0], *all_u);
+  corot_solid_average(body_of(m, s), &s->system.of[0], *all_u);
   return above;
 }
 

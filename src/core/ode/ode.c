@@ -109,6 +109,23 @@ corot_status corot_rhs_trial(const corot_model *m, corot_state *s, double t, con
   return COROT_OK;
 }
 
+/* Blocks that are cleared by parts. */
+typedef struct clearing {
+  int nblock, nparts;
+  double (*A)[9];
+} clearing;
+
+static void clear_part(void *work, int k) {
+  const clearing *c = work;
+  int from = team_share(c->nblock, c->nparts, k), end = team_share(c->nblock, c->nparts, k + 1);
+  memset(c->A + from, 0, (end - from) * sizeof *c->A);
+}
+
+static void clear_blocks(const corot_state *s, int nblock, double (*A)[9]) {
+  clearing c = {nblock, corot_state_thread_count(s), A};
+  if (A) corot_team_run(s->system.team, c.nparts, clear_part, &c);
+}
+
 corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, const double *u,
                             const double *v, corot_tangent tangent, double (*K)[9],
                             double (*D)[9]) {
@@ -117,9 +134,8 @@ corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, cons
   const instant now = corot_state_at(s, t);
   const solid *body = body_of(m, s);
   nodal_field all_u = corot_state_displace(m, s, &now, u);
-  size_t bytes = body->pattern.nblock * sizeof *K;
-  if (K) memset(K, 0, bytes);
-  if (D) memset(D, 0, bytes);
+  clear_blocks(s, body->pattern.nblock, K);
+  clear_blocks(s, body->pattern.nblock, D);
   if (tangent == COROT_TANGENT_AUTO) tangent = COROT_TANGENT_HELD;
   COROT_TRY(corot_system_matrices(system_of(m, s), &s->system, age_of(s, t), all_u, tangent, K,
                                   body->damped ? D : NULL));
@@ -136,12 +152,6 @@ void corot_load_stiffness(const corot_model *m, corot_state *s, double t, const 
   corot_loads_stiffness(m, &now, corot_state_displace(m, s, &now, u), K);
 }
 
-/* s->du and s->dv = a direction, on all nodes: held ones stay. */
-static nodal_field spread(const corot_model *m, const double *direction, double (*all)[4]) {
-  corot_model_spread(m, direction, all[0], 4);
-  return (nodal_field)all;
-}
-
 corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const double *u,
                        const double *v, corot_tangent tangent, const double *du, const double *dv,
                        double *jv) {
@@ -151,11 +161,11 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
   COROT_TRY(COROT_GIVEN(jv));
   const instant now = corot_state_at(s, t);
   bool damped = body_of(m, s)->damped && now.moving, feeds_back = inputs_feed_back(&now);
-  nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = spread(m, du, s->du);
+  nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = corot_state_spread(s, du, s->du);
   nodal_field all_v = NULL, all_dv = NULL;
   if (damped || (feeds_back && now.moving)) {
     all_v = corot_state_move(m, s, &now, v);
-    all_dv = spread(m, dv, s->dv);
+    all_dv = corot_state_spread(s, dv, s->dv);
   }
   memset(s->r, 0, m->ndof * sizeof *s->r);
   corot_loads_derivative(m, &now, all_u, all_du, s->r);

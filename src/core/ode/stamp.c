@@ -17,12 +17,6 @@ state_stamp corot_state_stamp(const corot_state *s) {
 
 bool corot_inputs_may_hold(const corot_inputs *inputs) { return inputs && inputs->feedback.blocks; }
 
-nodal_field corot_state_displace(const corot_model *m, corot_state *s, const instant *now,
-                                 const double *u) {
-  corot_model_displacement(m, now, u, s->u[0], 4);
-  return (nodal_field)s->u;
-}
-
 void corot_materials_settle(corot_state *s) {
   s->in_use = true;
   if (s->inputs) s->inputs->pending = false;

@@ -39,6 +39,7 @@ corot_status corot_state_create(const corot_model *model, corot_state **state) {
 
 void corot_state_destroy(corot_state *s) {
   if (!s) return;
+  corot_team_destroy(s->system.team);
   corot_system_state_clear(&s->system);
   free(s->u);
   free(s->v);
@@ -101,8 +102,36 @@ void corot_state_nodal(const corot_model *m, const corot_state *s, double t, con
   if (velocity) corot_model_velocity(m, &now, v, velocity[0], 3);
 }
 
+/* Values that are spread over the nodes by parts. */
+typedef struct spreading {
+  const corot_state *s;
+  const double *values;
+  double (*nodal)[4];
+} spreading;
+
+static void spread_part(void *work, int k) {
+  const spreading *p = work;
+  int n = corot_state_thread_count(p->s), nnode = p->s->nnode;
+  corot_model_spread_part(p->s->model, p->values, team_share(nnode, n, k),
+                          team_share(nnode, n, k + 1), p->nodal[0], 4);
+}
+
+nodal_field corot_state_spread(const corot_state *s, const double *values, double (*nodal)[4]) {
+  spreading p = {s, values, nodal};
+  corot_team_run(s->system.team, corot_state_thread_count(s), spread_part, &p);
+  return (nodal_field)nodal;
+}
+
+nodal_field corot_state_displace(const corot_model *m, corot_state *s, const instant *now,
+                                 const double *u) {
+  corot_state_spread(s, u, s->u);
+  corot_supports_place(m, now, 0, s->u[0], 4);
+  return (nodal_field)s->u;
+}
+
 nodal_field corot_state_move(const corot_model *m, corot_state *s, const instant *now,
                              const double *v) {
-  corot_model_velocity(m, now, v, s->v[0], 4);
+  corot_state_spread(s, v, s->v);
+  corot_supports_place(m, now, 1, s->v[0], 4);
   return (nodal_field)s->v;
 }

@@ -44,6 +44,9 @@ COROT_SISTERS instant corot_state_at(const corot_state *s, double t);
 /* How long ago the held frames were found. */
 static inline double age_of(const corot_state *s, double t) { return t - s->t_update; }
 
+/* nodal [nnode] = values on the free components, and zero on those that are held. */
+nodal_field corot_state_spread(const corot_state *s, const double *values, double (*nodal)[4]);
+
 /* s->u and s->v = displacement and velocity of all nodes. */
 nodal_field corot_state_displace(const corot_model *m, corot_state *s, const instant *now,
                                  const double *u);

@@ -1,20 +1,27 @@
-/* Loops over the tets, all of them or those of one chunk. Each takes the nodal fields it reads,
-   writes where it says, and returns the number of the first inverted tet, or -1; after an inversion
-   the output means nothing. Frames are those of state->frames. */
+/* Loops over the tets of one chunk. Each takes the nodal fields it reads, writes where it says, and
+   returns the number of the first inverted tet, or -1; after an inversion the output means nothing.
+   Frames are those of state->frames. Chunks may be worked on at the same time, but for those that
+   share a window of element forces. */
 #ifndef COROT_CORE_SOLID_KERNEL_H
 #define COROT_CORE_SOLID_KERNEL_H
 
 #include "kernel_names.h"
 #include "solid.h"
 
-/* Before the loops below, and without effect where dilatations are not averaged: the means that
-   stand in for the dilatation of u, of the frames in use; for a measure with its own frames, index
-   `strain`; and their change in the direction du. */
-void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field u);
-void corot_kernel_internal_dilatation(const solid *body, solid_state *state, nodal_field u,
-                                      int strain);
-void corot_kernel_dilatation_change(const solid *body, solid_state *state, nodal_field u,
-                                    nodal_field du, bool exact);
+/* theta [points] = each point's own dilatation for u, of the frames in use; for a measure with its
+   own frames, index `strain`; and the change in the direction du. An inverted tet is left to the
+   loop that comes after. */
+void corot_kernel_dilatation(const solid *body, const solid_state *state, nodal_field u, int chunk,
+                             block_vd *theta);
+void corot_kernel_internal_dilatation(const solid *body, nodal_field u, int strain, int chunk,
+                                      block_vd *theta);
+void corot_kernel_dilatation_change(const solid *body, const solid_state *state, nodal_field u,
+                                    nodal_field du, bool exact, int chunk, block_vd *change);
+
+/* Of the pools from `first` on, pool [npool] = the mean of theta; and for a chunk, theta becomes
+   the mean that stands in for it. */
+void corot_kernel_pool(const solid *body, const block_vd *theta, int first, int end, double *pool);
+void corot_kernel_unpool(const solid *body, const double *pool, int chunk, block_vd *theta);
 
 /* state->force = -(internal force for u and, unless v is NULL, viscous force). */
 int corot_kernel_force(const solid *body, solid_state *state, nodal_field u, nodal_field v,
@@ -27,24 +34,28 @@ int corot_kernel_derivative(const solid *body, solid_state *state, nodal_field u
 
 /* Elastic energy and, unless v is NULL, the power of the viscous forces. */
 int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field u, nodal_field v,
-                        double *elastic, double *power);
+                        int chunk, double *elastic, double *power);
 
-/* R [elements.nblock] = the measure's own frames. */
-int corot_kernel_frames(const solid *body, nodal_field u, block_mat3 *R);
+/* R [points] = the measure's own frames. */
+int corot_kernel_frames(const solid *body, nodal_field u, int chunk, block_mat3 *R);
 
-/* spin [elements.nblock] = the angular velocity of the measure's own frames for the velocity v:
+/* spin [points] = the angular velocity of the measure's own frames for the velocity v:
    dR/dt = [spin]x R. */
-int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, block_vec3 *spin);
+int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, int chunk,
+                      block_vec3 *spin);
 
 /* state->force = -(the internal force of a measure, index `strain`, with its own frames and with
    the material's coefficients times the factors given). */
 int corot_kernel_internal(const solid *body, solid_state *state, nodal_field u, int strain,
                           double lambda_part, double mu_part, int chunk);
 
-/* Adds the element matrices to K and D, either of which may be NULL, and completes the columns of
-   the nodes that are ready then. */
+/* Adds the element matrices to K and D, either of which may be NULL, or sets them aside where the
+   ranges of the state say so. */
 int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,
                          corot_tangent tangent, int chunk, double (*K)[9], double (*D)[9]);
+
+/* The diagonal blocks of n nodes, once all others of their rows and columns are there. */
+void corot_kernel_diagonals(const solid *body, const int *node, int n, double (*A)[9]);
 
 /* Once the element matrices are: adds to K what the averages of the dilatation add. */
 void corot_kernel_dilatation_tangent(const solid *body, solid_state *state, double (*K)[9]);

@@ -1,41 +1,43 @@
-/* Averages of the dilatation: see dilatation.h. All sums are in the order of the tets. */
+/* Averages of the dilatation: see dilatation.h. All sums are in the order of the tets. This file
+   sees whole blocks: LANES is W. */
 #include "kernel.h"
 
-/* theta [points] becomes the mean that stands in for it. */
-static void average(const solid *body, double *pool, vd *theta) {
+void corot_kernel_pool(const solid *body, const block_vd *theta, int first, int end,
+                       double *pool) {
   const dilatation *d = &body->dilatation;
   const element_set *e = &body->elements;
-  const element_kind *kind = e->kind;
-
-  /* means over the pools */
-  memset(pool, 0, d->npool * sizeof *pool);
-  for (int b = 0; b < e->nblock; b++)
-    EACH_POINT (kind, q) {
-      int at = index_of(point_at(kind, e, b, q));
-      vd part = e->weight[at] * theta[at];
-      for (int a = 0; a < d->per; a++)
-        for (int l = 0; l < W; l++) pool[pools_at(d, b, a)[l]] += part[l];
+  for (int p = first; p < end; p++) {
+    double sum = 0;
+    for (int k = d->tet_first[p]; k < d->tet_first[p + 1]; k++) {
+      int b = d->tet[k] / W, l = d->tet[k] % W;
+      EACH_POINT (e->kind, q) {
+        int at = b * e->kind->npoint + q;
+        sum += e->weight[at][l] * theta[at][l];
+      }
     }
-  for (int p = 0; p < d->npool; p++) pool[p] /= d->volume[p];
+    pool[p] = sum / d->volume[p];
+  }
+}
 
-  /* and back to the points, beside each one's own share */
-  for (int b = 0; b < e->nblock; b++) {
+void corot_kernel_unpool(const solid *body, const double *pool, int chunk, block_vd *theta) {
+  const dilatation *d = &body->dilatation;
+  const element_set *e = &body->elements;
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     double own = body->material[e->block[b].material].own_share;
     vd sum = vd_all(0);
     for (int a = 0; a < d->per; a++)
       for (int l = 0; l < W; l++) sum[l] += pool[pools_at(d, b, a)[l]];
-    EACH_POINT (kind, q) {
-      int at = index_of(point_at(kind, e, b, q));
+    EACH_POINT (e->kind, q) {
+      int at = index_of(point_at(e->kind, e, b, q));
       theta[at] = own * theta[at] + (1 - own) / d->per * sum;
     }
   }
 }
 
-/* An inverted tet is left to the loop that comes after. */
 COROT_INLINE void own_loop(const element_kind *kind, const solid *body, const solid_state *state,
-                           nodal_field u, vd *theta) {
+                           nodal_field u, int chunk, vd *theta) {
   const strain_measure *s = &strain_measures[body->strain];
-  for (int b = 0; b < body->elements.nblock; b++) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
@@ -48,19 +50,18 @@ COROT_INLINE void own_loop(const element_kind *kind, const solid *body, const so
 }
 
 COROT_CLONES static void own_dilatation(const solid *body, const solid_state *state, nodal_field u,
-                                        vd *theta) {
-  OF_KIND(&body->elements, own_loop, body, state, u, theta);
+                                        int chunk, vd *theta) {
+  OF_KIND(&body->elements, own_loop, body, state, u, chunk, theta);
 }
 
-void corot_kernel_dilatation(const solid *body, solid_state *state, nodal_field u) {
-  if (!body->dilatation.npool) return;
-  own_dilatation(body, state, u, state->dilatation);
-  average(body, state->pool, state->dilatation);
+void corot_kernel_dilatation(const solid *body, const solid_state *state, nodal_field u, int chunk,
+                             block_vd *theta) {
+  own_dilatation(body, state, u, chunk, theta);
 }
 
 COROT_INLINE void internal_loop(const element_kind *kind, const solid *body, nodal_field u,
-                                const strain_measure *s, vd *theta) {
-  for (int b = 0; b < body->elements.nblock; b++) {
+                                const strain_measure *s, int chunk, vd *theta) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
     mat3 Q0 = mat3_identity();
     if (s->frame == FRAME_WARP)
@@ -76,21 +77,19 @@ COROT_INLINE void internal_loop(const element_kind *kind, const solid *body, nod
 }
 
 COROT_CLONES static void internal_dilatation(const solid *body, nodal_field u,
-                                             const strain_measure *s, vd *theta) {
-  OF_KIND(&body->elements, internal_loop, body, u, s, theta);
+                                             const strain_measure *s, int chunk, vd *theta) {
+  OF_KIND(&body->elements, internal_loop, body, u, s, chunk, theta);
 }
 
-void corot_kernel_internal_dilatation(const solid *body, solid_state *state, nodal_field u,
-                                      int strain) {
-  if (!body->dilatation.npool) return;
-  internal_dilatation(body, u, &strain_measures[strain], state->dilatation);
-  average(body, state->pool, state->dilatation);
+void corot_kernel_internal_dilatation(const solid *body, nodal_field u, int strain, int chunk,
+                                      block_vd *theta) {
+  internal_dilatation(body, u, &strain_measures[strain], chunk, theta);
 }
 
 COROT_INLINE void change_loop(const element_kind *kind, const solid *body, const solid_state *state,
-                              nodal_field u, nodal_field du, bool exact, vd *change) {
+                              nodal_field u, nodal_field du, bool exact, int chunk, vd *change) {
   const strain_measure *s = &strain_measures[body->strain];
-  for (int b = 0; b < body->elements.nblock; b++) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     point_lanes here = point_at(kind, &body->elements, b, 0);
     differences of_u = differences_of(here, u), of_du = differences_of(here, du);
     EACH_POINT (kind, q) {
@@ -108,16 +107,14 @@ COROT_INLINE void change_loop(const element_kind *kind, const solid *body, const
 }
 
 COROT_CLONES static void change_of_dilatation(const solid *body, const solid_state *state,
-                                              nodal_field u, nodal_field du, bool exact,
+                                              nodal_field u, nodal_field du, bool exact, int chunk,
                                               vd *change) {
-  OF_KIND(&body->elements, change_loop, body, state, u, du, exact, change);
+  OF_KIND(&body->elements, change_loop, body, state, u, du, exact, chunk, change);
 }
 
-void corot_kernel_dilatation_change(const solid *body, solid_state *state, nodal_field u,
-                                    nodal_field du, bool exact) {
-  if (!body->dilatation.npool) return;
-  change_of_dilatation(body, state, u, du, exact, state->dilatation_change);
-  average(body, state->pool, state->dilatation_change);
+void corot_kernel_dilatation_change(const solid *body, const solid_state *state, nodal_field u,
+                                    nodal_field du, bool exact, int chunk, block_vd *change) {
+  change_of_dilatation(body, state, u, du, exact, chunk, change);
 }
 
 /* state->gathered = sum over a pool's tets of V d tr(e_p) / du. */

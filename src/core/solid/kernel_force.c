@@ -57,10 +57,10 @@ int corot_kernel_force(const solid *body, solid_state *state, nodal_field u, nod
 }
 
 COROT_INLINE int energy_loop(const element_kind *kind, const strain_measure *s, const solid *body,
-                             const solid_state *state, nodal_field u, nodal_field v,
+                             const solid_state *state, nodal_field u, nodal_field v, int chunk,
                              double *elastic, double *power) {
   double sum_elastic = 0, sum_power = 0;
-  for (int b = 0; b < body->elements.nblock * PARTS; b++) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     point_lanes here = point_at(kind, &body->elements, b, 0);
     differences of_u = differences_of(here, u), of_v;
     if (v) of_v = differences_of(here, v);
@@ -85,14 +85,14 @@ COROT_INLINE int energy_loop(const element_kind *kind, const strain_measure *s, 
 }
 
 int corot_kernel_energy(const solid *body, const solid_state *state, nodal_field u, nodal_field v,
-                        double *elastic, double *power) {
+                        int chunk, double *elastic, double *power) {
   return OF_KIND(&body->elements, energy_loop, &strain_measures[body->strain], body, state, u, v,
-                 elastic, power);
+                 chunk, elastic, power);
 }
 
 COROT_INLINE int frames_loop(const element_kind *kind, const strain_measure *s, const solid *body,
-                             nodal_field u, block_mat3 *R) {
-  for (int b = 0; b < body->elements.nblock * PARTS; b++) {
+                             nodal_field u, int chunk, block_mat3 *R) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
     vi inverted = {0};
     EACH_POINT (kind, q) {
@@ -109,13 +109,13 @@ COROT_INLINE int frames_loop(const element_kind *kind, const strain_measure *s, 
   return -1;
 }
 
-int corot_kernel_frames(const solid *body, nodal_field u, block_mat3 *R) {
-  return OF_KIND(&body->elements, frames_loop, &strain_measures[body->strain], body, u, R);
+int corot_kernel_frames(const solid *body, nodal_field u, int chunk, block_mat3 *R) {
+  return OF_KIND(&body->elements, frames_loop, &strain_measures[body->strain], body, u, chunk, R);
 }
 
 COROT_INLINE int spin_loop(const element_kind *kind, const strain_measure *s, const solid *body,
-                           nodal_field u, nodal_field v, block_vec3 *spin) {
-  for (int b = 0; b < body->elements.nblock * PARTS; b++) {
+                           nodal_field u, nodal_field v, int chunk, block_vec3 *spin) {
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     point_lanes here = point_at(kind, &body->elements, b, 0);
     differences of_u = differences_of(here, u), of_v = differences_of(here, v);
     vi inverted = {0};
@@ -137,8 +137,10 @@ COROT_INLINE int spin_loop(const element_kind *kind, const strain_measure *s, co
   return -1;
 }
 
-int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, block_vec3 *spin) {
-  return OF_KIND(&body->elements, spin_loop, &strain_measures[body->strain], body, u, v, spin);
+int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, int chunk,
+                      block_vec3 *spin) {
+  return OF_KIND(&body->elements, spin_loop, &strain_measures[body->strain], body, u, v, chunk,
+                 spin);
 }
 
 /* The rest basis of part b, where the model keeps none. */

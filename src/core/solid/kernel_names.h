@@ -13,6 +13,7 @@
 #define corot_kernel_frames KERNEL_NAME(corot_kernel_frames, COROT_KERNELS)
 #define corot_kernel_spin KERNEL_NAME(corot_kernel_spin, COROT_KERNELS)
 #define corot_kernel_internal KERNEL_NAME(corot_kernel_internal, COROT_KERNELS)
+#define corot_kernel_diagonals KERNEL_NAME(corot_kernel_diagonals, COROT_KERNELS)
 #define corot_kernel_tangent KERNEL_NAME(corot_kernel_tangent, COROT_KERNELS)
 #define corot_kernel_derivative KERNEL_NAME(corot_kernel_derivative, COROT_KERNELS)
 #define corot_kernel_handed_force KERNEL_NAME(corot_kernel_handed_force, COROT_KERNELS)

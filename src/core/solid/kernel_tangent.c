@@ -93,47 +93,64 @@ COROT_INLINE void store_slopes(point_lanes at, const node_vectors *n, block_vd (
     for (int c = 0; c < 3; c++) vd_put(&slope[a][c], at.part, weight_of(at) * n->p[a].v[c]);
 }
 
-/* A body moved as a whole feels no force: a diagonal block is minus the sum of the others of its
-   row, which stand in its own column and in those before. It is symmetric up to rounding; for the
-   factorisation's sake exactly so. */
-COROT_INLINE void complete_columns(const pattern *p, int first, int last, double (*A)[9]) {
-  for (int j = first; j < last; j++) {
-    double *diagonal = A[p->colptr[j]], half[9];
-    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) {
-      double *of_row = A[p->colptr[p->row[k]]];
-      for (int i = 0; i < 8; i += LANES) {
-        vd a = vd_load(A[k] + i);
-        vd_add_to(diagonal + i, -a), vd_add_to(of_row + i, -a);
-      }
-      diagonal[8] -= A[k][8], of_row[8] -= A[k][8];
-    }
-    for (int i = 0; i < 9; i++) half[i] = 0.5 * diagonal[i];
-    for (int r = 0; r < 3; r++)
-      for (int c = 0; c < 3; c++) diagonal[3 * r + c] = half[3 * r + c] + half[3 * c + r];
-  }
-}
-
 /* The blocks of an element's pairs, summed over its points. */
 typedef struct pair_sums {
   mat3 of[KIND_PAIRS];
 } pair_sums;
 
+/* A matrix, and what is set aside of it. */
+typedef struct sum_of_blocks {
+  double (*A)[9], (*aside)[9];
+} sum_of_blocks;
+
+/* Where the blocks of LANES elements go: [kind->npair], from the first lane on. */
+typedef struct block_places {
+  const int (*at)[W];
+  int lane;
+  bool detour; /* some are parts that are set aside */
+} block_places;
+
+COROT_INLINE block_places places_of(const solid *body, const range_plan *plan, int b) {
+  int block = b / PARTS, npair = body->elements.kind->npair;
+  int detour = plan->n > 1 ? plan->detour[block] : -1;
+  const int(*usual)[W] = (const int(*)[W])body->pattern.place + block * npair;
+  return (block_places){.at = detour < 0 ? usual : (const int(*)[W])plan->place + detour * npair,
+                        .lane = b % PARTS * LANES,
+                        .detour = detour >= 0};
+}
+
+/* As scatter, lane by lane. */
+static void scatter_aside(sum_of_blocks to, const int place[LANES], const mat3 *block) {
+  for (int l = 0; l < LANES; l++) {
+    double *a = place[l] < 0 ? to.aside[-1 - place[l]] : to.A[place[l]];
+    EACH_IJ {
+      double value = block->m[i][j][l];
+      a[3 * i + j] = place[l] < 0 ? value : a[3 * i + j] + value;
+    }
+  }
+}
+
 /* Adds a point's block to those of the points before it; of the last one, all to the matrix. */
-COROT_INLINE void add_block(point_lanes at, mat3 block, mat3 *sum, double (*A)[9],
-                            const int place[LANES]) {
+COROT_INLINE void add_block(point_lanes at, mat3 block, mat3 *sum, sum_of_blocks to,
+                            block_places places, int pair) {
+  const int *place = places.at[pair] + places.lane;
   if (at.q > 0) EACH_IJ block.m[i][j] = sum->m[i][j] + block.m[i][j];
   if (at.q < at.kind->npoint - 1)
     EACH_IJ sum->m[i][j] = block.m[i][j]; /* copied whole it would take several times as long */
-  else
-    scatter(A, place, block);
+  else if (places.detour) {
+    mat3 copy; /* the block itself stays in registers */
+    EACH_IJ copy.m[i][j] = block.m[i][j];
+    scatter_aside(to, place, &copy);
+  } else
+    scatter(to.A, place, block);
 }
 
 /* Adds the blocks of one point to the sums over the points before it, and at the last point those
-   to the matrices, either of which may be NULL: block k of lane l at place[k][lane + l]. */
+   to the matrices, either of which may be NULL. */
 COROT_INLINE void add_point(const element_kind *kind, const strain_measure *s, const solid *body,
                             solid_state *state, corot_tangent tangent, const element *e,
-                            const int (*place)[W], int lane, double (*K)[9], double (*D)[9],
-                            pair_sums *of_K, pair_sums *of_D) {
+                            block_places places, sum_of_blocks K, sum_of_blocks D, pair_sums *of_K,
+                            pair_sums *of_D) {
   /* coefficients, and what the point gives to all pairs */
   bool turning = tangent != COROT_TANGENT_HELD && s->frame == FRAME_POLAR;
   vd lambda = weight_of(e->at) * e->mat->lambda, mu = weight_of(e->at) * e->mat->mu;
@@ -147,7 +164,7 @@ COROT_INLINE void add_point(const element_kind *kind, const strain_measure *s, c
   node_vectors n;
   find_node_vectors(e->at, &t, &n);
   if (averaged) store_slopes(e->at, &n, state->slope);
-  bool objective = D && body->objective && s->frame == FRAME_POLAR;
+  bool objective = D.A && body->objective && s->frame == FRAME_POLAR;
   node_rates rates;
   if (objective) find_node_rates(e->at, e->F, e->R, &rates);
 
@@ -164,36 +181,56 @@ COROT_INLINE void add_point(const element_kind *kind, const strain_measure *s, c
     mat3 A = constant_bases(t.lambda, mu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]);
     if (s->pressure == BY_GRADIENT) A = mat3_add_identity(A, vec3_dot(n.g[a], Zg));
     if (turning) A = add_skew_transposed(A, n.s[a], Hs);
-    if (K) add_block(e->at, A, &of_K->of[k], K, place[k] + lane);
+    if (K.A) add_block(e->at, A, &of_K->of[k], K, places, k);
     if (objective)
       add_block(e->at, objective_damping(s, dlambda, dmu, &rates, a, c, n.p[a], n.p[c]),
-                &of_D->of[k], D, place[k] + lane);
-    else if (D)
+                &of_D->of[k], D, places, k);
+    else if (D.A)
       add_block(e->at, constant_bases(dlambda, dmu, gg, t.BsBs, n.p[a], n.p[c], n.s[a], n.s[c]),
-                &of_D->of[k], D, place[k] + lane);
+                &of_D->of[k], D, places, k);
   }
 }
 
 COROT_INLINE int tangent_loop(const element_kind *kind, const strain_measure *s, const solid *body,
                               solid_state *state, nodal_field u, corot_tangent tangent, int chunk,
-                              double (*K)[9], double (*D)[9]) {
+                              double (*A)[9], double (*B)[9]) {
+  const sum_of_blocks K = {A, state->ranges.aside_K}, D = {B, state->ranges.aside_D};
   pair_sums of_K, of_D;
   for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++) {
     differences of_u = differences_of(point_at(kind, &body->elements, b, 0), u);
-    int npair = kind->npair, lane = b % PARTS * LANES; /* the first in the block */
-    const int(*place)[W] = (const int(*)[W])body->pattern.place + b / PARTS * npair;
+    block_places places = places_of(body, &state->ranges.plan, b);
     vi inverted = {0};
     EACH_POINT (kind, q) {
       element e = element_at(s, body, &state->frames, &of_u, point_at(kind, &body->elements, b, q));
       inverted |= e.inverted;
-      add_point(kind, s, body, state, tangent, &e, place, lane, K, D, &of_K, &of_D);
+      add_point(kind, s, body, state, tangent, &e, places, K, D, &of_K, &of_D);
     }
     if (vi_any(inverted)) return first_inverted(body, b, inverted);
   }
-  const pattern *p = &body->pattern;
-  if (K) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], K);
-  if (D) complete_columns(p, p->ready[chunk], p->ready[chunk + 1], D);
   return -1;
+}
+
+/* a -= b */
+COROT_INLINE void subtract_block(double a[9], const double b[9]) {
+  for (int i = 0; i < 8; i += LANES) vd_add_to(a + i, -vd_load(b + i));
+  a[8] -= b[8];
+}
+
+/* A body moved as a whole feels no force: a diagonal block is minus the sum of the others of its
+   row, which stand in the columns before and in its own. It is symmetric up to rounding; for the
+   factorisation's sake exactly so. */
+void corot_kernel_diagonals(const solid *body, const int *node, int n, double (*A)[9]) {
+  const pattern *p = &body->pattern;
+  for (int at = 0; at < n; at++) {
+    int j = node[at];
+    double *diagonal = A[p->colptr[j]], half[9];
+    for (int k = p->left_first[j]; k < p->left_first[j + 1]; k++)
+      subtract_block(diagonal, A[p->left[k]]);
+    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) subtract_block(diagonal, A[k]);
+    for (int i = 0; i < 9; i++) half[i] = 0.5 * diagonal[i];
+    for (int r = 0; r < 3; r++)
+      for (int c = 0; c < 3; c++) diagonal[3 * r + c] = half[3 * r + c] + half[3 * c + r];
+  }
 }
 
 int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,

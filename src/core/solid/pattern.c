@@ -126,23 +126,24 @@ static int last_chunk(const element_set *t, const pattern *p, int node) {
   return p->slot[p->first[node + 1] - 1] / block_slots(t) / CHUNK;
 }
 
-/* A column is ready when all nodes up to its own are below the lowest node of every later tet. */
-static corot_status plan_chunks(int nnode, const element_set *t, pattern *p) {
-  p->nchunk = (t->nblock + CHUNK - 1) / CHUNK;
-  p->ready = malloc((p->nchunk + 1) * sizeof *p->ready);
-  if (!p->ready) return corot_fail(COROT_ENOMEM, "no memory for %d chunks", p->nchunk);
-  p->ready[p->nchunk] = nnode;
-  for (int c = p->nchunk - 1; c >= 0; c--) {
-    p->ready[c] = p->ready[c + 1];
-    for (int b = c * CHUNK; b < chunk_end(t, c); b++)
-      for (int l = 0; l < W; l++)
-        if (nodes_at(t, b, 0)[l] < p->ready[c]) p->ready[c] = nodes_at(t, b, 0)[l];
-  }
+/* The blocks of each row that stand before its diagonal: count, then fill by columns. */
+static corot_status list_left(int nnode, pattern *p) {
+  p->left_first = calloc(nnode + 2, sizeof *p->left_first);
+  p->left = malloc((p->nblock - nnode + 1) * sizeof *p->left);
+  if (!p->left_first || !p->left)
+    return corot_fail(COROT_ENOMEM, "no memory for a pattern of %d blocks", p->nblock);
+  int *next = p->left_first + 1; /* shifted by one while filling, in place after */
+  for (int j = 0; j < nnode; j++)
+    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) next[p->row[k] + 1]++;
+  for (int n = 0; n < nnode; n++) next[n + 1] += next[n];
+  for (int j = 0; j < nnode; j++)
+    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) p->left[next[p->row[k]]++] = k;
   return COROT_OK;
 }
 
 /* Sorts the nodes by their last chunk, and finds how far back each one's tets reach from there. */
 static corot_status plan_sums(int nnode, const element_set *t, pattern *p) {
+  p->nchunk = (t->nblock + CHUNK - 1) / CHUNK;
   p->due = calloc(p->nchunk + 2, sizeof *p->due);
   p->turn = malloc(nnode * sizeof *p->turn);
   if (!p->due || !p->turn) return corot_fail(COROT_ENOMEM, "no memory for the order of the sums");
@@ -170,7 +171,7 @@ corot_status corot_pattern_create(int nnode, const element_set *t, const dilatat
   corot_status status = list_slots(nnode, t, &p);
   if (!status) status = list_blocks(nnode, t, d, more, &p);
   if (!status) status = place_tets(t, &p);
-  if (!status) status = plan_chunks(nnode, t, &p);
+  if (!status) status = list_left(nnode, &p);
   if (!status) status = plan_sums(nnode, t, &p);
   if (status) {
     corot_pattern_clear(&p);
@@ -185,7 +186,8 @@ void corot_pattern_clear(pattern *p) {
   free(p->colptr);
   free(p->row);
   free(p->place);
-  free(p->ready);
+  free(p->left_first);
+  free(p->left);
   free(p->due);
   free(p->turn);
   free(p->first);

@@ -19,9 +19,10 @@ typedef struct pattern {
   int (*place)[W]; /* [elements.nblock][kind->npair] the block that each pair of nodes of each
                       element is added to */
   int nchunk;
-  int *ready; /* [nchunk + 1] chunk c completes the columns of nodes ready[c] to ready[c + 1] - 1 */
-  /* Forces are summed up as soon as a node has no tet in later chunks: those of chunk c at the
-     nodes turn[due[c]] to turn[due[c + 1] - 1]. */
+  int *left_first; /* [nnode + 1] each node's part of `left` */
+  int *left;       /* [nblock - nnode] the blocks of a row left of its diagonal, columns ascending */
+  /* A node's forces are summed up, and its row and column of a matrix completed, as soon as it has
+     no tet in later chunks: by chunk c those of the nodes turn[due[c]] to turn[due[c + 1] - 1]. */
   int *due;   /* [nchunk + 1] */
   int *turn;  /* [nnode] */
   int window; /* so many blocks back reach the tets of the nodes that a chunk completes */

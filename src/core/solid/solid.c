@@ -22,6 +22,7 @@ static corot_status average(solid *body, int nmaterial) {
 
 corot_status corot_solid_fill(solid *body, int nmaterial, const int *of_tet, int together,
                               double volume, const pattern *more) {
+  body->together = together;
   bool warp = strain_measures[body->strain].frame == FRAME_WARP;
   const corot_mesh *order_of = body->order_of ? body->order_of : body->mesh;
   COROT_TRY(corot_tets_create_ordered(body->mesh, order_of, nmaterial, of_tet, together, warp,
@@ -50,7 +51,7 @@ size_t corot_solid_bytes(const solid *body) {
   if (t->role) bytes += (size_t)t->nblock * t->kind->nnode * sizeof *t->role;
   if (t->rest_basis) bytes += t->nblock * sizeof *t->rest_basis;
   return bytes +
-         (3 * (size_t)p->nnode + 2 + p->nblock + 2 * p->nchunk + 3 + p->first[p->nnode]) *
+         (3 * (size_t)p->nnode + 3 + 2 * p->nblock + p->nchunk + 1 + p->first[p->nnode]) *
              sizeof(int) +
          (size_t)t->nblock * t->kind->npair * sizeof *p->place;
 }
@@ -79,12 +80,25 @@ corot_status corot_solid_state_fill(const solid *body, solid_state *s) {
   s->force = corot_vector_calloc((size_t)body->pattern.window * nnode, sizeof *s->force);
   if (!s->R || !s->new_R || !s->now_R || !s->spin || !s->force)
     return corot_fail(COROT_ENOMEM, "no memory for a state of %d nodes", body->mesh->nnode);
+  s->chunk_sum = calloc(body->pattern.nchunk, sizeof *s->chunk_sum);
+  s->chunk_angles = calloc(body->pattern.nchunk, sizeof *s->chunk_angles);
+  if (!s->chunk_sum || !s->chunk_angles)
+    return corot_fail(COROT_ENOMEM, "no memory for %d chunks", body->pattern.nchunk);
   for (int k = 0; k < npoint; k++) s->R[k] = mat3_identity();
   s->frames = (frame_source){COROT_FRAMES_EXACT, s->R, s->spin, 0};
+  COROT_TRY(corot_solid_share(body, 1, s, &s->ranges));
   return allocate_averages(body, s);
 }
 
+corot_status corot_solid_share(const solid *body, int n, const solid_state *s, solid_ranges *r) {
+  return corot_ranges_create(body->mesh, &body->elements, &body->pattern, n, body->together,
+                             body->damped, s->force, r);
+}
+
 void corot_solid_state_clear(solid_state *s) {
+  corot_ranges_clear(&s->ranges);
+  free(s->chunk_sum);
+  free(s->chunk_angles);
   free(s->R);
   free(s->spin);
   free(s->now_R);
@@ -101,7 +115,9 @@ size_t corot_solid_state_bytes(const solid *body, const solid_state *s) {
   size_t npoint = (size_t)points_of(&body->elements), npool = (size_t)body->dilatation.npool;
   size_t nnode = (size_t)body->elements.kind->nnode;
   size_t bytes = npoint * (3 * sizeof *s->R + sizeof *s->spin) +
-                 body->pattern.window * nnode * sizeof *s->force;
+                 body->pattern.window * nnode * sizeof *s->force +
+                 body->pattern.nchunk * (sizeof *s->chunk_sum + sizeof *s->chunk_angles) +
+                 corot_ranges_bytes(&s->ranges, &body->elements, &body->pattern);
   if (npool)
     bytes += npoint * (2 * sizeof *s->dilatation + nnode * sizeof *s->slope) +
              npool * sizeof *s->pool + body->mesh->nnode * sizeof *s->gathered;

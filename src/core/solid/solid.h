@@ -9,8 +9,9 @@
 
 #include <corot/ode.h>
 
+#include "core/base/team.h"
 #include "core/element/strain.h"
-#include "pattern.h"
+#include "ranges.h"
 
 typedef const double (*nodal_field)[4];
 
@@ -29,6 +30,7 @@ typedef struct solid {
   bool damped;                /* some viscous coefficient is not zero */
   bool objective;             /* viscous law on the stretch's own rate */
   bool by_element;            /* averages are those of each element, not at corners */
+  int together;               /* so many elements may have one tet of a coarser level above them */
   element_set elements;
   dilatation dilatation; /* averages, where some material has them */
   pattern pattern;
@@ -46,8 +48,16 @@ typedef struct frame_source {
   double age;             /* for so long [s] */
 } frame_source;
 
+/* Of the angles between two sets of frames, in a chunk. */
+typedef struct chunk_angles {
+  double sum, most;
+  int element; /* W times block plus lane */
+} chunk_angles;
+
 /* What the evaluations of one run write to, and the frames that are held between them. */
 typedef struct solid_state {
+  team *team;                  /* who works on them; NULL: who calls */
+  solid_ranges ranges;         /* and how they share the elements out */
   frame_source frames;         /* of the evaluations */
   int inverted;                /* tet number in the mesh, or -1 */
   block_mat3 *R;               /* [points] the held frames */
@@ -61,6 +71,8 @@ typedef struct solid_state {
   block_vd (*slope)[3];        /* [points][kind->nnode] weight times d tr(e_p) / du */
   double (*gathered)[3];       /* [nnode] zero between uses */
   block_vd (*force)[3];        /* [window][kind->nnode] element forces, see pattern.h */
+  double (*chunk_sum)[2];      /* [nchunk] of energies, in the order of the elements */
+  chunk_angles *chunk_angles;  /* [nchunk] */
 } solid_state;
 
 /* Where the forces on nodes are added up. */
@@ -70,8 +82,12 @@ typedef struct force_sum {
   double *r;
   double sign;  /* 1 or -1, of what is added */
   int from;     /* nodes before this one take no part */
-  double check; /* of all that was added to: finite only if they are */
+  double check; /* of all that a range has added to: finite only if they are */
 } force_sum;
+
+/* What is done chunk by chunk, as the kernels are: `own` is the state, with the window of the range
+   that the chunk is in. */
+typedef int chunk_work(const void *of, solid_state *own, int chunk);
 
 /* --- Making one ------------------------------------------------------------------------------ */
 
@@ -87,6 +103,9 @@ size_t corot_solid_bytes(const solid *body);
    is half made is cleared by the caller. */
 corot_status corot_solid_state_fill(const solid *body, solid_state *s);
 void corot_solid_state_clear(solid_state *s);
+
+/* The elements shared out among n, to be put in the place of s->ranges. */
+corot_status corot_solid_share(const solid *body, int n, const solid_state *s, solid_ranges *r);
 size_t corot_solid_state_bytes(const solid *body, const solid_state *s);
 
 /* --- Evaluations ----------------------------------------------------------------------------- */
@@ -94,8 +113,10 @@ size_t corot_solid_state_bytes(const solid *body, const solid_state *s);
 /* All return COROT_RETRY where a tet is inverted, s->inverted, or where forces exceed double
    precision, s->inverted being -1. */
 
-/* Adds minus the internal and viscous forces to the sum, which the caller starts with a check of
-   zero. */
+/* s->dilatation = the means that stand in for those of u; nothing where there are none. */
+void corot_solid_average(const solid *body, solid_state *s, nodal_field u);
+
+/* Adds minus the internal and viscous forces to the sum. */
 corot_status corot_solid_force(const solid *body, solid_state *s, nodal_field u, nodal_field v,
                                force_sum *sum);
 
@@ -128,20 +149,21 @@ corot_status corot_solid_frames_in_use(const solid *body, solid_state *s, nodal_
                                        block_mat3 *R);
 
 /* Largest and mean angle between two sets of frames. */
-void corot_solid_compare_frames(const solid *body, const block_mat3 *A, const block_mat3 *B,
-                                corot_frames_change *change);
+void corot_solid_compare_frames(const solid *body, solid_state *s, const block_mat3 *A,
+                                const block_mat3 *B, corot_frames_change *change);
 
 /* --- For the kernels' callers ---------------------------------------------------------------- */
 
 /* Remembers the tet that a kernel returned; COROT_RETRY if there is one. */
 corot_status corot_solid_check(solid_state *s, int tet);
 
-/* A chunk's element forces are in s->force, and its kernel returned `tet`: adds those of the nodes
-   that are complete now, each node's own in the order of the tets. */
-corot_status corot_solid_collect(const solid *body, solid_state *s, int tet, int chunk,
-                                 force_sum *sum);
+/* All chunks, by the team; each must write elsewhere than the others. COROT_RETRY: a tet is
+   inverted, the first of them being s->inverted. */
+corot_status corot_solid_each(const solid *body, solid_state *s, chunk_work *work, const void *of);
 
-/* After the last chunk. */
-corot_status corot_force_sum_check(const force_sum *sum);
+/* The same, where `work` leaves element forces in own->force: adds them up on the nodes, each node's
+   in the order of the elements. COROT_RETRY, too, where a sum is not finite. */
+corot_status corot_solid_sum(const solid *body, solid_state *s, chunk_work *work, const void *of,
+                             force_sum *sum);
 
 #endif

@@ -67,6 +67,21 @@ static corot_status find_frames(const solid_system *y, system_state *s, const te
                            corot_solid_frames_in_use(&y->term[k].body, of, f.u, of->now_R));
 }
 
+/* What the loops over chunks take, of a body in frames that are handed down, or of the leader. */
+typedef struct handed_work {
+  const solid *body;
+  const from_leader *lead;
+  term_fields f;
+  block_mat3 *R; /* to be found */
+} handed_work;
+
+static int hand_down_chunk(const void *of, solid_state *s, int chunk) {
+  const handed_work *w = of;
+  (void)s;
+  corot_kernel_hand_down(w->body, w->lead, chunk, w->R);
+  return -1;
+}
+
 /* They are given to the terms that they are handed down to. */
 static corot_status hand_down(const solid_system *y, system_state *s, const term_fields *all) {
   if (y->leader < 0) return COROT_OK;
@@ -74,7 +89,8 @@ static corot_status hand_down(const solid_system *y, system_state *s, const term
   for (int k = 0; k < y->nterm; k++) {
     if (y->term[k].frames_from < 0) continue;
     const from_leader lead = lead_of(y, s, k);
-    corot_kernel_hand_down(&y->term[k].body, &lead, s->of[k].R);
+    const handed_work w = {.body = &y->term[k].body, .lead = &lead, .R = s->of[k].R};
+    COROT_TRY(corot_solid_each(w.body, &s->of[k], hand_down_chunk, &w));
   }
   return COROT_OK;
 }
@@ -129,28 +145,30 @@ static void add_maps(const solid_system *y, system_state *s, const int (*row)[3]
     }
 }
 
-static corot_status handed_force(const solid_system *y, system_state *s, int k, nodal_field u,
-                                 nodal_field v, force_sum *sum) {
-  const solid *body = &y->term[k].body;
-  solid_state *of = &s->of[k];
+static int handed_force_chunk(const void *of, solid_state *s, int chunk) {
+  const handed_work *w = of;
+  return corot_kernel_handed_force(w->body, s, w->lead, w->f.u, w->f.v, chunk);
+}
+
+static corot_status handed_force(const solid_system *y, system_state *s, int k,
+                                 const term_fields *f, force_sum *sum) {
   const from_leader lead = lead_of(y, s, k);
-  for (int c = 0; c < body->pattern.nchunk; c++)
-    COROT_TRY(
-        corot_solid_collect(body, of, corot_kernel_handed_force(body, of, &lead, u, v, c), c, sum));
-  return corot_force_sum_check(sum);
+  const handed_work w = {.body = &y->term[k].body, .lead = &lead, .f = *f};
+  return corot_solid_sum(w.body, &s->of[k], handed_force_chunk, &w, sum);
+}
+
+static int turning_force_chunk(const void *of, solid_state *s, int chunk) {
+  const handed_work *w = of;
+  return corot_kernel_turning_force(w->body, s, w->lead, w->f.u, chunk);
 }
 
 /* Of the leader, from the moments. */
-static corot_status turning_force(const solid_system *y, system_state *s, nodal_field u,
+static corot_status turning_force(const solid_system *y, system_state *s, const term_fields *f,
                                   force_sum *sum) {
-  const solid *leader = &y->term[y->leader].body;
-  solid_state *of = &s->of[y->leader];
   const from_leader lead = lead_of(y, s, y->leader);
+  const handed_work w = {.body = &y->term[y->leader].body, .lead = &lead, .f = *f};
   sum->sign = 1;
-  for (int c = 0; c < leader->pattern.nchunk; c++)
-    COROT_TRY(corot_solid_collect(leader, of, corot_kernel_turning_force(leader, of, &lead, u, c),
-                                  c, sum));
-  return corot_force_sum_check(sum);
+  return corot_solid_sum(w.body, &s->of[y->leader], turning_force_chunk, &w, sum);
 }
 
 corot_status corot_system_force(const solid_system *y, system_state *s, double age, nodal_field u,
@@ -168,7 +186,7 @@ corot_status corot_system_force(const solid_system *y, system_state *s, double a
     term_fields f = corot_system_seen(y, s, k, &all);
     force_sum sum = sum_of(y, s, k, row, r);
     corot_status status = t->frames_from >= 0
-                              ? handed_force(y, s, k, f.u, f.v, &sum)
+                              ? handed_force(y, s, k, &f, &sum)
                               : corot_solid_force(&t->body, &s->of[k], f.u, f.v, &sum);
     COROT_TRY(corot_system_told(y, s, k, status));
   }
@@ -177,7 +195,7 @@ corot_status corot_system_force(const solid_system *y, system_state *s, double a
   if (turns(y, s)) {
     term_fields f = corot_system_seen(y, s, y->leader, &all);
     force_sum sum = sum_of(y, s, y->leader, row, r);
-    COROT_TRY(turning_force(y, s, f.u, &sum));
+    COROT_TRY(turning_force(y, s, &f, &sum));
   }
   add_maps(y, s, row, r);
   return COROT_OK;
@@ -185,41 +203,52 @@ corot_status corot_system_force(const solid_system *y, system_state *s, double a
 
 /* --- Their changes --- */
 
-static corot_status handed_derivative(const solid_system *y, system_state *s, int k,
-                                      const term_fields *f, force_sum *sum) {
-  const solid *body = &y->term[k].body;
-  solid_state *of = &s->of[k];
-  const from_leader lead = lead_of(y, s, k);
-  for (int c = 0; c < body->pattern.nchunk; c++) {
-    int tet = corot_kernel_handed_derivative(body, of, &lead, f->u, f->v, f->du, f->dv, c);
-    COROT_TRY(corot_solid_collect(body, of, tet, c, sum));
-  }
-  return corot_force_sum_check(sum);
+static int handed_derivative_chunk(const void *of, solid_state *s, int chunk) {
+  const handed_work *w = of;
+  const term_fields *f = &w->f;
+  return corot_kernel_handed_derivative(w->body, s, w->lead, f->u, f->v, f->du, f->dv, chunk);
 }
 
-static corot_status turning_derivative(const solid_system *y, system_state *s, nodal_field u,
-                                       nodal_field du, force_sum *sum) {
-  const solid *leader = &y->term[y->leader].body;
-  solid_state *of = &s->of[y->leader];
+static corot_status handed_derivative(const solid_system *y, system_state *s, int k,
+                                      const term_fields *f, force_sum *sum) {
+  const from_leader lead = lead_of(y, s, k);
+  const handed_work w = {.body = &y->term[k].body, .lead = &lead, .f = *f};
+  return corot_solid_sum(w.body, &s->of[k], handed_derivative_chunk, &w, sum);
+}
+
+static int turning_derivative_chunk(const void *of, solid_state *s, int chunk) {
+  const handed_work *w = of;
+  return corot_kernel_turning_derivative(w->body, s, w->lead, w->f.u, w->f.du, chunk);
+}
+
+static corot_status turning_derivative(const solid_system *y, system_state *s, const term_fields *f,
+                                       force_sum *sum) {
   const from_leader lead = lead_of(y, s, y->leader);
+  const handed_work w = {.body = &y->term[y->leader].body, .lead = &lead, .f = *f};
   sum->sign = 1;
-  for (int c = 0; c < leader->pattern.nchunk; c++) {
-    int tet = corot_kernel_turning_derivative(leader, of, &lead, u, du, c);
-    COROT_TRY(corot_solid_collect(leader, of, tet, c, sum));
-  }
-  return corot_force_sum_check(sum);
+  return corot_solid_sum(w.body, &s->of[y->leader], turning_derivative_chunk, &w, sum);
+}
+
+static int change_chunk(const void *of, solid_state *s, int chunk) {
+  const handed_work *w = of;
+  (void)s;
+  corot_kernel_frames_change(w->body, w->lead->R, w->f.u, w->f.du, chunk, w->R);
+  return -1;
 }
 
 /* The change of the leader's frames; zero where they do not follow. */
-static void change_frames(const solid_system *y, system_state *s, const term_fields *all,
-                          bool follow) {
-  if (y->leader < 0) return;
+static corot_status change_frames(const solid_system *y, system_state *s, const term_fields *all,
+                                  bool follow) {
+  if (y->leader < 0) return COROT_OK;
   const solid *leader = &y->term[y->leader].body;
-  term_fields f = corot_system_seen(y, s, y->leader, all);
-  if (follow)
-    corot_kernel_frames_change(leader, s->of[y->leader].now_R, f.u, f.du, s->lead.dR);
-  else
-    memset(s->lead.dR, 0, points_of(&leader->elements) * sizeof *s->lead.dR);
+  const from_leader lead = lead_of(y, s, y->leader);
+  const handed_work w = {.body = leader,
+                         .lead = &lead,
+                         .f = corot_system_seen(y, s, y->leader, all),
+                         .R = s->lead.dR};
+  if (follow) return corot_solid_each(leader, &s->of[y->leader], change_chunk, &w);
+  memset(s->lead.dR, 0, points_of(&leader->elements) * sizeof *s->lead.dR);
+  return COROT_OK;
 }
 
 corot_status corot_system_derivative(const solid_system *y, system_state *s, double age,
@@ -229,7 +258,7 @@ corot_status corot_system_derivative(const solid_system *y, system_state *s, dou
   bool exact = tangent > COROT_TANGENT_HELD;
   corot_system_begin(y, s, age, &all);
   COROT_TRY(find_frames(y, s, &all));
-  change_frames(y, s, &all, exact);
+  COROT_TRY(change_frames(y, s, &all, exact));
   clear_moments(y, s);
   clear_sums(y, s);
 
@@ -248,7 +277,7 @@ corot_status corot_system_derivative(const solid_system *y, system_state *s, dou
   if (turns(y, s) && exact) {
     term_fields f = corot_system_seen(y, s, y->leader, &all);
     force_sum sum = sum_of(y, s, y->leader, row, r);
-    COROT_TRY(turning_derivative(y, s, f.u, f.du, &sum));
+    COROT_TRY(turning_derivative(y, s, &f, &sum));
   }
   add_maps(y, s, row, r);
   return COROT_OK;

@@ -4,8 +4,9 @@
 #include "kernel_handed.h"
 
 #ifdef COROT_MANY_KERNELS
-CHOOSE(void, corot_kernel_hand_down, (const solid *body, const from_leader *lead, block_mat3 *R),
-       (body, lead, R))
+CHOOSE(void, corot_kernel_hand_down,
+       (const solid *body, const from_leader *lead, int chunk, block_mat3 *R),
+       (body, lead, chunk, R))
 CHOOSE(int, corot_kernel_handed_force,
        (const solid *body, solid_state *state, const from_leader *lead, nodal_field u,
         nodal_field v, int chunk),
@@ -22,6 +23,7 @@ CHOOSE(int, corot_kernel_turning_derivative,
         nodal_field du, int chunk),
        (leader, state, lead, u, du, chunk))
 CHOOSE(void, corot_kernel_frames_change,
-       (const solid *leader, const block_mat3 *R, nodal_field u, nodal_field du, block_mat3 *dR),
-       (leader, R, u, du, dR))
+       (const solid *leader, const block_mat3 *R, nodal_field u, nodal_field du, int chunk,
+        block_mat3 *dR),
+       (leader, R, u, du, chunk, dR))
 #endif

@@ -89,9 +89,9 @@ int corot_kernel_handed_force(const solid *body, solid_state *state, const from_
   return OF_KIND(&body->elements, handed_force_loop, body, state, lead, u, v, chunk);
 }
 
-void corot_kernel_hand_down(const solid *body, const from_leader *lead, block_mat3 *R) {
+void corot_kernel_hand_down(const solid *body, const from_leader *lead, int chunk, block_mat3 *R) {
   const element_kind *kind = body->elements.kind;
-  for (int b = 0; b < body->elements.nblock * PARTS; b++)
+  for (int b = chunk_start(chunk); b < chunk_end(body, chunk); b++)
     EACH_POINT (kind, q) {
       point_lanes at = point_at(kind, &body->elements, b, q);
       mat3_put(R, index_of(at), above_point(lead, lead->R, at));
@@ -204,9 +204,9 @@ int corot_kernel_turning_derivative(const solid *leader, solid_state *state,
 }
 
 COROT_INLINE void frames_change_loop(const element_kind *kind, frame_rule rule, const solid *leader,
-                                     const block_mat3 *R, nodal_field u, nodal_field du,
+                                     const block_mat3 *R, nodal_field u, nodal_field du, int chunk,
                                      block_mat3 *dR) {
-  for (int b = 0; b < leader->elements.nblock * PARTS; b++) {
+  for (int b = chunk_start(chunk); b < chunk_end(leader, chunk); b++) {
     point_lanes here = point_at(kind, &leader->elements, b, 0);
     differences of_u = differences_of(here, u), of_du = differences_of(here, du);
     EACH_POINT (kind, q) {
@@ -221,7 +221,7 @@ COROT_INLINE void frames_change_loop(const element_kind *kind, frame_rule rule, 
 }
 
 void corot_kernel_frames_change(const solid *leader, const block_mat3 *R, nodal_field u,
-                                nodal_field du, block_mat3 *dR) {
+                                nodal_field du, int chunk, block_mat3 *dR) {
   OF_KIND(&leader->elements, frames_change_loop, strain_measures[leader->strain].frame, leader, R,
-          u, du, dR);
+          u, du, chunk, dR);
 }

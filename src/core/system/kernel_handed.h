@@ -14,8 +14,8 @@ typedef struct from_leader {
   block_vec3 *moment, *dmoment; /* what turns them, and its change: added to */
 } from_leader;
 
-/* R [elements.nblock] = the leader's frames over each tet. */
-void corot_kernel_hand_down(const solid *body, const from_leader *lead, block_mat3 *R);
+/* R [points] = the leader's frames over each tet. */
+void corot_kernel_hand_down(const solid *body, const from_leader *lead, int chunk, block_mat3 *R);
 
 /* As corot_kernel_force, and the moments += V vee(R'F sigma) of the elastic stress. */
 int corot_kernel_handed_force(const solid *body, solid_state *state, const from_leader *lead,
@@ -36,8 +36,8 @@ int corot_kernel_turning_derivative(const solid *leader, solid_state *state,
                                     const from_leader *lead, nodal_field u, nodal_field du,
                                     int chunk);
 
-/* dR [elements.nblock] = the change of the leader's frames R for du. */
+/* dR [points] = the change of the leader's frames R for du. */
 void corot_kernel_frames_change(const solid *leader, const block_mat3 *R, nodal_field u,
-                                nodal_field du, block_mat3 *dR);
+                                nodal_field du, int chunk, block_mat3 *dR);
 
 #endif

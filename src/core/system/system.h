@@ -101,6 +101,7 @@ typedef struct handing {
 } handing;
 
 typedef struct system_state {
+  team *team;          /* who works on the evaluations; NULL: who calls */
   corot_frames frames; /* in use, of the terms that have their own */
   int inverted;        /* tet number in the mesh, or -1; of a coarser level its first descendant */
   solid_state of[TERMS];
@@ -114,6 +115,10 @@ typedef struct system_state {
 corot_status corot_system_state_create(const solid_system *y, system_state *s);
 void corot_system_state_clear(system_state *s);
 size_t corot_system_state_bytes(const solid_system *y, const system_state *s);
+
+/* From now on a team shares the evaluations out; NULL: nobody does. Where that fails, all is as it
+   was. */
+corot_status corot_system_state_share(const solid_system *y, team *by, system_state *s);
 
 /* --- Evaluations ----------------------------------------------------------------------------- */
 

@@ -45,7 +45,7 @@ static corot_status measure(const solid_system *y, system_state *s, const term_f
   corot_frames_change c = {0};
   double before, after, power;
   give_old(y, s);
-  corot_solid_compare_frames(&t->body, of->frames.R, of->new_R, &c);
+  corot_solid_compare_frames(&t->body, &s->of[judged(y)], of->frames.R, of->new_R, &c);
   c.angle_tet *= t->below;
   COROT_TRY(corot_system_sum_energy(y, s, all, &before, &power));
   give_new(y, s);

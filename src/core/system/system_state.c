@@ -42,6 +42,20 @@ corot_status corot_system_state_create(const solid_system *y, system_state *s) {
   return COROT_ALLOC(s->D, nblock);
 }
 
+corot_status corot_system_state_share(const solid_system *y, team *by, system_state *s) {
+  solid_ranges made[TERMS] = {0};
+  corot_status status = COROT_OK;
+  for (int k = 0; k < y->nterm && !status; k++)
+    status = corot_solid_share(&y->term[k].body, corot_team_size(by), &s->of[k], &made[k]);
+  for (int k = 0; k < y->nterm; k++) { /* the new ones, or the old ones, go */
+    solid_ranges before = status ? made[k] : s->of[k].ranges;
+    if (!status) s->of[k].ranges = made[k], s->of[k].team = by;
+    corot_ranges_clear(&before);
+  }
+  if (!status) s->team = by;
+  return status;
+}
+
 void corot_system_state_clear(system_state *s) {
   for (int k = 0; k < TERMS; k++) corot_solid_state_clear(&s->of[k]);
   for (int k = 0; k < MAPS; k++) {
