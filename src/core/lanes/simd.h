@@ -9,7 +9,7 @@
    the processor has is taken at load time; what it calls must be COROT_INLINE to be compiled with
    it. Clang refuses 64-byte arguments between clones, so there the build's own -march decides; so
    it does where it names AVX2 or more, and under AddressSanitizer, where the clones would take
-   minutes to compile. */
+   minutes to compile, and ThreadSanitizer, which does not survive the choice. */
 #ifndef COROT_CORE_LANES_SIMD_H
 #define COROT_CORE_LANES_SIMD_H
 
@@ -36,7 +36,8 @@ typedef double vd2 __attribute__((vector_size(16)));
 
 /* Of static functions only: the name that chooses among the clones is exported, hidden or not. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__linux__) && \
-    !defined(__AVX2__) && !defined(__SANITIZE_ADDRESS__) && !defined(COROT_KERNELS)
+    !defined(__AVX2__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&    \
+    !defined(COROT_KERNELS)
 #define COROT_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define COROT_CLONES

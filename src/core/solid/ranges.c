@@ -1,7 +1,10 @@
-/* Shares chunks out, and finds what several ranges add to. */
+/* Shares chunks out, and finds what several ranges add to. The plan is for the build of the kernels
+   that is in use now. */
 #include "ranges.h"
 
 #include <stdlib.h>
+
+#include "core/lanes/widths.h"
 
 /* Ranges of about the same number of chunks. A tet of a coarser level may be above `together`
    elements, which add to what it has: they stay in one range. */
@@ -51,7 +54,7 @@ static void find_owners(int nnode, const element_set *t, const pattern *p, const
 /* The nodes that are done with each chunk, without those of the seams; and these. */
 static corot_status part_nodes(int nnode, const pattern *p, const int *owner, range_plan *r) {
   int *due = malloc((p->nchunk + 1) * sizeof *due), *turn = malloc(nnode * sizeof *turn), n = 0;
-  r->due = due, r->turn = turn; /* theirs to free from now on */
+  r->due = due, r->turn = turn;
   for (int i = 0; i < nnode; i++) r->nseam += owner[i] == MANY;
   r->seam = malloc((r->nseam + 1) * sizeof *r->seam);
   if (!due || !turn || !r->seam)
@@ -131,20 +134,20 @@ static corot_status list_shared(const element_set *t, const pattern *p, int *own
   return COROT_OK;
 }
 
-/* In the order of the elements, which is that of the lanes. */
+/* In the order in which one thread adds them up: by parts of blocks, pairs, and lanes. */
 static corot_status place_parts(const element_set *t, const pattern *p, const int *owner,
                                 range_plan *r) {
-  int npair = t->kind->npair;
+  int npair = t->kind->npair, lanes = corot_lanes_in_use();
   r->place = malloc(((size_t)r->ndetour * npair + 1) * sizeof *r->place);
   if (!r->place) return corot_fail(COROT_ENOMEM, "no memory for %d detours", r->ndetour);
   int *next = r->part_first + 1;
   for (int b = 0; b < t->nblock; b++) {
     if (r->detour[b] < 0) continue;
-    for (int i = 0; i < npair; i++)
-      for (int l = 0; l < W; l++) {
-        int at = p->place[b * npair + i][l], of = owner[at];
-        r->place[r->detour[b] * npair + i][l] = of > MANY ? at : -1 - next[MANY - of]++;
-      }
+    for (int k = 0; k < npair * W; k++) {
+      int i = k / lanes % npair, l = k / (lanes * npair) * lanes + k % lanes;
+      int at = p->place[b * npair + i][l], of = owner[at];
+      r->place[r->detour[b] * npair + i][l] = of > MANY ? at : -1 - next[MANY - of]++;
+    }
   }
   return COROT_OK;
 }
@@ -196,8 +199,9 @@ static corot_status make_room_aside(bool damped, solid_ranges *r) {
 corot_status corot_ranges_create(const corot_mesh *mesh, const element_set *t, const pattern *p,
                                  int n, int together, bool damped, block_vd (*force)[3],
                                  solid_ranges *out) {
-  solid_ranges r = {.plan = {.due = p->due, .turn = p->turn}};
+  solid_ranges r = {0};
   corot_status status = share_chunks(p, n, together, &r.plan);
+  if (r.plan.n == 1) r.plan.due = p->due, r.plan.turn = p->turn;
   if (!status && r.plan.n > 1) status = find_seams(mesh->nnode, t, p, &r.plan);
   if (!status) status = make_windows(t, p, force, &r);
   if (!status && r.plan.n > 1) status = make_room_aside(damped, &r);
