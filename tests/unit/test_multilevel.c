@@ -59,7 +59,7 @@ static family make_family_with(int nlevel, int nsupport, corot_model_def def) {
   def.nmaterial = 1, def.material = &soft, def.nfix = nsupport, def.fix = fix;
   f.b = make_body(mesh, def);
   f.pencil = pencil_of(&f.b, SOLVER("pcg"));
-  assert_ok(corot_nodes_create(f.pencil->csc, &f.A));
+  assert_ok(corot_nodes_create(f.pencil->csc, false, &f.A));
   corot_nodes_keep(&f.A);
   corot_nodes_load(&f.A, f.pencil->csc, f.pencil->S);
   return f;

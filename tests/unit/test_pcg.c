@@ -147,7 +147,7 @@ static void an_indefinite_matrix_is_found_out(void **state) {
 static node_matrix factored_nodes(corot_pencil *p) {
   node_matrix A;
   int at;
-  assert_ok(corot_nodes_create(p->csc, &A));
+  assert_ok(corot_nodes_create(p->csc, false, &A));
   corot_pencil_combine(p, 1, 1e-2, 1e-4);
   corot_nodes_load(&A, p->csc, p->S);
   assert_true(corot_nodes_cholesky(&A, 0.1, &at));
@@ -273,7 +273,7 @@ static void a_factor_that_breaks_down_is_shifted(void **state) {
   int source[8] = {0}; /* each node has its x component only */
   corot_csc csc = {4, 8, colptr, row, source, diagonal, node};
   node_matrix A;
-  assert_ok(corot_nodes_create(&csc, &A));
+  assert_ok(corot_nodes_create(&csc, false, &A));
   corot_nodes_load(&A, &csc, value);
   assert_false(corot_nodes_cholesky(&A, 0, &at));
   assert_int_equal(at, 3);

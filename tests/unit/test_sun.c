@@ -6,7 +6,7 @@
 #include <sunlinsol/sunlinsol_klu.h>
 
 #include "full_system.h"
-#include "solve/integrate/vector.h"
+#include "solve/sundials/vector.h"
 #include "solve/sundials/sun_ark.h"
 #include "solver.h"
 

@@ -1,5 +1,5 @@
 /* The vector operations are replaced by ones that mean the same. */
-#include "solve/integrate/vector.h"
+#include "solve/sundials/vector.h"
 
 #include <nvector/nvector_serial.h>
 

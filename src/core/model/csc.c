@@ -141,18 +141,25 @@ void corot_csc_destroy(corot_csc *csc) {
 
 void corot_csc_combine(const corot_model *m, const corot_csc *csc, double a, double b,
                        const double (*D)[9], double c, const double (*K)[9], double *value) {
+  corot_csc_combine_columns(m, csc, a, b, D, c, K, 0, csc->n, value);
+}
+
+void corot_csc_combine_columns(const corot_model *m, const corot_csc *csc, double a, double b,
+                               const double (*D)[9], double c, const double (*K)[9], int from,
+                               int end, double *value) {
   const double *d = D ? D[0] : NULL, *k = K ? K[0] : NULL;
   const int *source = csc->source;
+  int first = csc->colptr[from], last = csc->colptr[end];
   if (d && k) {
-    for (int p = 0; p < csc->nnz; p++) value[p] = b * d[source[p]] + c * k[source[p]];
+    for (int p = first; p < last; p++) value[p] = b * d[source[p]] + c * k[source[p]];
   } else {
     const double *only = d ? d : k, factor = d ? b : c;
-    for (int p = 0; p < csc->nnz; p++) value[p] = only ? factor * only[source[p]] : 0;
+    for (int p = first; p < last; p++) value[p] = only ? factor * only[source[p]] : 0;
   }
   if (!m->mass_pair) {
-    for (int i = 0; i < csc->n; i++) value[csc->diagonal[i]] += a * m->mass[i];
+    for (int i = from; i < end; i++) value[csc->diagonal[i]] += a * m->mass[i];
     return;
   }
-  for (int p = 0; p < csc->nnz; p++) /* of a block, the mass is on the diagonal: 0, 4, 8 */
+  for (int p = first; p < last; p++) /* of a block, the mass is on the diagonal: 0, 4, 8 */
     if (source[p] % 9 % 4 == 0) value[p] += a * m->mass_pair[source[p] / 9];
 }

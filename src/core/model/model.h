@@ -155,6 +155,12 @@ void corot_mass_damp(const corot_model *m, const double *v, double *f);
 /* D [pattern.nblock] += C. */
 void corot_mass_damping_matrix(const corot_model *m, double (*D)[9]);
 
+/* As corot_csc_combine, of the columns from `from` on, before `end`. */
+COROT_SISTERS void corot_csc_combine_columns(const corot_model *m, const corot_csc *csc, double a,
+                                             double b, const double (*D)[9], double c,
+                                             const double (*K)[9], int from, int end,
+                                             double *value);
+
 /* m->load from the definition, once the degrees of freedom and the mass are known. */
 corot_status corot_loads_create(const corot_model_def *def, corot_model *m);
 void corot_loads_destroy(corot_model *m);

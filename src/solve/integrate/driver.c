@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "solve/pencil/wall_clock.h"
-#include "vector.h"
+#include "solve/sundials/vector.h"
 
 /* --- Callbacks ------------------------------------------------------------------------------- */
 

@@ -9,6 +9,7 @@
 #include "core/ode/state.h"
 #include "integrator.h"
 #include "solve/pencil/wall_clock.h"
+#include "solve/sundials/vector.h"
 
 void corot_integrator_set_defaults(corot_integrator_def *def, size_t bytes) {
   const corot_integrator_def ours = {.method = "cvode",
@@ -228,7 +229,9 @@ corot_status corot_integrator_step(corot_integrator *self, double t_stop, corot_
   /* the method's own step */
   corot_step taken;
   double start = clock_wall();
+  team *before = corot_vector_share(self->state->system.team);
   corot_status status = self->ops->step(self, t_stop, &taken);
+  corot_vector_share(before);
   self->step_s += clock_wall() - start;
   if (status) return status;
   /* what the step has changed */

@@ -121,11 +121,28 @@ corot_status corot_pencil_assemble_again(corot_pencil *p, corot_tangent tangent)
   return status;
 }
 
+/* A combination that is made by parts. */
+typedef struct combining {
+  const corot_pencil *pencil;
+  linsol *solver;
+  int nparts;
+} combining;
+
+static void combine_part(void *work, int k) {
+  const combining *c = work;
+  const corot_pencil *p = c->pencil;
+  const linsol *s = c->solver;
+  int from = team_share(p->n, c->nparts, k), end = team_share(p->n, c->nparts, k + 1);
+  corot_csc_combine_columns(p->model, s->csc, p->a, p->b, (const double(*)[9])p->D, p->c,
+                            (const double(*)[9])p->K, from, end, s->value);
+}
+
 /* S for one of the solvers. */
 static void combine(corot_pencil *p, linsol *s) {
   double start = clock_wall();
-  corot_csc_combine(p->model, s->csc, p->a, p->b, (const double(*)[9])p->D, p->c,
-                    (const double(*)[9])p->K, s->value);
+  team *by = p->state->system.team;
+  combining c = {p, s, corot_team_size(by)};
+  corot_team_run(by, c.nparts, combine_part, &c);
   p->counts.ncombine++;
   p->counts.combine_s += clock_wall() - start;
 }
@@ -139,9 +156,15 @@ void corot_pencil_combine(corot_pencil *p, double a, double b, double c) {
   combine(p, &p->chosen);
 }
 
+/* The team of the state, which may have changed, works for its solver. */
+static void share(const corot_pencil *p, const linsol *s) {
+  if (s->ops->share) s->ops->share(s->solver, p->state->system.team);
+}
+
 static corot_status factor(corot_pencil *p, const linsol *s) {
   double start = clock_wall();
   bool fresh = false;
+  share(p, s);
   corot_status status = s->ops->factor(s->solver, s->value, &fresh);
   p->solver = s;
   p->factored = status == COROT_OK;
@@ -194,6 +217,7 @@ static corot_status factor_by_klu(corot_pencil *p) {
 
 static corot_status solve(corot_pencil *p, double *x) {
   double start = clock_wall();
+  share(p, p->solver);
   corot_status status = p->solver->ops->solve(p->solver->solver, x);
   p->counts.nsolve++;
   p->counts.nlsfail += status != COROT_OK;

@@ -1,4 +1,4 @@
-/* Products, sweeps and factors by blocks. */
+/* Structure, values and factors by blocks. */
 #include "linsol_nodes.h"
 
 #include <float.h>
@@ -7,47 +7,115 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linsol_blocks.h"
+#include "core/lanes/simd.h"
 
 /* --- structure --- */
 
-static void list_blocks(const corot_csc *csc, node_matrix *A) {
-  int *first = A->slot; /* for now: the node of each unknown */
-  for (int i = 0, n = 0; i < csc->n; i++) {
-    n += i > 0 && csc->node[i] != csc->node[i - 1];
-    first[i] = n;
-    A->n = n + 1;
-  }
+/* order [g->n] the nodes, rank [g->n] where each stands. */
+static void list_blocks(const node_graph *g, const int *order, const int *rank, node_matrix *A) {
   int nbelow = 0;
-  for (int j = 0; j < csc->n; j++) { /* the first unknown of a node sees all its neighbours */
-    int last = first[j];
-    if (j > 0 && first[j - 1] == last) continue;
-    A->colptr[last] = nbelow;
-    for (int p = csc->colptr[j]; p < csc->colptr[j + 1]; p++)
-      if (first[csc->row[p]] > last) A->row[nbelow++] = last = first[csc->row[p]];
+  for (int j = 0; j < A->n; j++) {
+    A->colptr[j] = nbelow;
+    for (int p = g->colptr[order[j]]; p < g->colptr[order[j] + 1]; p++) {
+      int row = rank[g->row[p]], at = nbelow;
+      if (row < j) continue;
+      for (; at > A->colptr[j] && A->row[at - 1] > row; at--) A->row[at] = A->row[at - 1];
+      A->row[at] = row;
+      nbelow++;
+    }
   }
   A->colptr[A->n] = nbelow;
 }
 
 /* The source of a diagonal entry is on the diagonal of a block, too: 0, 4 or 8 into it. */
-static void number_unknowns(const corot_csc *csc, node_matrix *A) {
+static void number_unknowns(const corot_csc *csc, const node_graph *g, const int *rank,
+                            node_matrix *A) {
   for (int i = 0; i < csc->n; i++)
-    A->slot[i] = 3 * A->slot[i] + csc->source[csc->diagonal[i]] % 9 / 4;
+    A->slot[i] = 3 * rank[g->rank[i]] + csc->source[csc->diagonal[i]] % 9 / 4;
 }
 
-/* Where each entry of the lower triangle goes. */
-static void place_entries(const corot_csc *csc, node_matrix *A) {
-  for (int j = 0; j < csc->n; j++) {
-    int node = A->slot[j] / 3, c = A->slot[j] % 3, k = A->colptr[node];
-    for (int p = csc->colptr[j]; p < csc->colptr[j + 1]; p++) {
-      int row = A->slot[csc->row[p]] / 3, r = A->slot[csc->row[p]] % 3;
-      while (row != node && A->row[k] < row) k++;
-      A->place[p] = 9 * (row == node ? node : A->n + k) + 3 * c + r;
-    }
+static int find_block(const node_matrix *A, int row, int column) {
+  int low = A->colptr[column], high = A->colptr[column + 1] - 1;
+  while (low < high) {
+    int mid = low + (high - low) / 2;
+    if (A->row[mid] < row)
+      low = mid + 1;
+    else
+      high = mid;
   }
+  return low;
 }
 
-corot_status corot_nodes_create(const corot_csc *csc, node_matrix *A) {
+/* Where each entry of the lower triangle goes: what is above the diagonal in our order stands for
+   what mirrors it. */
+static void place_entries(const corot_csc *csc, node_matrix *A) {
+  for (int j = 0; j < csc->n; j++)
+    for (int p = csc->colptr[j]; p < csc->colptr[j + 1]; p++) {
+      int i = csc->row[p], node_i = A->slot[i] / 3, node_j = A->slot[j] / 3;
+      int low = node_i < node_j ? i : j, high = node_i < node_j ? j : i;
+      int row = A->slot[high] / 3, column = A->slot[low] / 3;
+      int block = row == column ? row : A->n + find_block(A, row, column);
+      A->place[p] = 9 * block + 3 * (A->slot[low] % 3) + A->slot[high] % 3;
+    }
+}
+
+/* The ends of columns in their domains, and the rows between domains. */
+static corot_status list_between(node_matrix *A) {
+  int first = A->parts.first[A->parts.n], nbetween = A->n - first;
+  if (A->parts.n == 1) return COROT_OK;
+  A->inner = malloc(((size_t)first + 1) * sizeof *A->inner);
+  A->left_first = calloc((size_t)nbetween + 2, sizeof *A->left_first);
+  if (!A->inner || !A->left_first)
+    return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d nodes", A->n);
+  int *next = A->left_first + 1; /* shifted by one while filling, in place after */
+  for (int j = 0; j < first; j++) {
+    int k = A->colptr[j];
+    while (k < A->colptr[j + 1] && A->row[k] < first) k++;
+    A->inner[j] = k;
+    for (; k < A->colptr[j + 1]; k++) next[A->row[k] - first + 1]++;
+  }
+  for (int i = 0; i < nbetween; i++) next[i + 1] += next[i];
+  A->left = malloc(((size_t)next[nbetween] + 1) * sizeof *A->left);
+  A->left_node = malloc(((size_t)next[nbetween] + 1) * sizeof *A->left_node);
+  if (!A->left || !A->left_node)
+    return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d nodes", A->n);
+  for (int j = 0; j < first; j++)
+    for (int k = A->inner[j]; k < A->colptr[j + 1]; k++) {
+      int at = next[A->row[k] - first]++;
+      A->left[at] = k, A->left_node[at] = j;
+    }
+  return COROT_OK;
+}
+
+static corot_status find_structure(const corot_csc *csc, node_graph *g, bool by_domains, int *order,
+                                   int *rank, node_matrix *A) {
+  A->parts = (domains){.n = 1, .first = {0, g->n}};
+  for (int i = 0; i < g->n; i++) order[i] = i;
+  if (by_domains) COROT_TRY(corot_domains_find(g, order, &A->parts));
+  for (int i = 0; i < g->n; i++) rank[order[i]] = i;
+  A->n = g->n;
+  list_blocks(g, order, rank, A);
+  if (A->n + A->colptr[A->n] > INT_MAX / 9)
+    return corot_fail(COROT_EINVAL, "pcg: the matrix exceeds 32-bit counts");
+  number_unknowns(csc, g, rank, A);
+  place_entries(csc, A);
+  return list_between(A);
+}
+
+static corot_status make_structure(const corot_csc *csc, bool by_domains, node_matrix *A) {
+  node_graph g;
+  corot_status status = corot_graph_create(csc, &g);
+  int *order = malloc(((size_t)csc->n + 1) * sizeof *order);
+  int *rank = malloc(((size_t)csc->n + 1) * sizeof *rank);
+  if (!status && (!order || !rank))
+    status = corot_fail(COROT_ENOMEM, "no memory for a matrix of %d columns", csc->n);
+  if (!status) status = find_structure(csc, &g, by_domains, order, rank, A);
+  free(order), free(rank);
+  corot_graph_clear(&g);
+  return status;
+}
+
+corot_status corot_nodes_create(const corot_csc *csc, bool by_domains, node_matrix *A) {
   *A = (node_matrix){0};
   A->slot = malloc(csc->n * sizeof *A->slot);
   A->colptr = malloc((csc->n + 1) * sizeof *A->colptr);
@@ -55,11 +123,7 @@ corot_status corot_nodes_create(const corot_csc *csc, node_matrix *A) {
   A->place = malloc(csc->nnz * sizeof *A->place);
   if (!A->slot || !A->colptr || !A->row || !A->place)
     return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d columns", csc->n);
-  list_blocks(csc, A);
-  if (A->n + A->colptr[A->n] > INT_MAX / 9)
-    return corot_fail(COROT_EINVAL, "pcg: the matrix exceeds 32-bit counts");
-  number_unknowns(csc, A);
-  place_entries(csc, A);
+  COROT_TRY(make_structure(csc, by_domains, A));
   size_t n = A->n, nblock = n + A->colptr[n];
   A->value = malloc((9 * nblock + 3) * sizeof *A->value);
   A->C = malloc(9 * n * sizeof *A->C);
@@ -73,6 +137,28 @@ corot_status corot_nodes_create(const corot_csc *csc, node_matrix *A) {
 void corot_nodes_clear(node_matrix *A) {
   free(A->slot), free(A->colptr), free(A->row), free(A->place);
   free(A->value), free(A->C), free(A->Cinv), free(A->work);
+  free(A->inner), free(A->left_first), free(A->left), free(A->left_node);
+}
+
+/* --- Loops that are shared out --- */
+
+typedef void node_loop(node_matrix *A, int from, int end);
+
+typedef struct shared_loop {
+  node_matrix *A;
+  node_loop *loop;
+  int nparts, count;
+} shared_loop;
+
+static void loop_part(void *work, int k) {
+  const shared_loop *s = work;
+  s->loop(s->A, team_share(s->count, s->nparts, k), team_share(s->count, s->nparts, k + 1));
+}
+
+/* From 0 to count; each part must write elsewhere. */
+static void share_loop(node_matrix *A, int count, node_loop *loop) {
+  shared_loop s = {A, loop, corot_team_size(A->team), count};
+  corot_team_run(A->team, s.nparts, loop_part, &s);
 }
 
 /* --- values --- */
@@ -133,15 +219,18 @@ COROT_INLINE void eliminate(const double *B, double *E) {
       E[3 * r + c] -= B[r] * B[c] + B[3 + r] * B[3 + c] + B[6 + r] * B[6 + c];
 }
 
-/* Once all C are there and L has its factors C^-T. */
-static void scale_rows(node_matrix *A) {
+static COROT_CLONES void scale_columns(node_matrix *A, int from, int end) {
   double *L = A->value + 9 * (size_t)A->n;
-  for (int k = 0; k < A->colptr[A->n]; k++) times_left(&A->Cinv[9 * A->row[k]], &L[9 * k]);
-  for (int i = 0; i < A->n; i++) {
+  for (int i = from; i < end; i++) {
+    for (int k = A->colptr[i]; k < A->colptr[i + 1]; k++)
+      times_left(&A->Cinv[9 * A->row[k]], &L[9 * (size_t)k]);
     times_transposed(&A->value[9 * i], &A->Cinv[9 * i]);
     times_left(&A->Cinv[9 * i], &A->value[9 * i]);
   }
 }
+
+/* Once all C are there and L has its factors C^-T. */
+static void scale_rows(node_matrix *A) { share_loop(A, A->n, scale_columns); }
 
 void corot_nodes_keep(node_matrix *A) {
   for (int i = 0; i < 9 * A->n; i++) A->C[i] = A->Cinv[i] = i % 9 % 4 == 0;
@@ -158,7 +247,7 @@ bool corot_nodes_invert(const double block[9], double inverse[9]) {
 
 corot_status corot_nodes_indefinite(const node_matrix *A, const corot_csc *csc, int node) {
   int dof = 0;
-  while (A->slot[dof] / 3 < node) dof++;
+  while (A->slot[dof] / 3 != node) dof++;
   return corot_fail(COROT_RETRY,
                     "pcg: the matrix is not positive definite (degree of freedom %d of node %d)",
                     A->unknown ? A->unknown[dof] : dof, csc->node[dof]);
@@ -177,92 +266,69 @@ bool corot_nodes_jacobi(node_matrix *A, int *at) {
   return true;
 }
 
-static COROT_CLONES bool cholesky(node_matrix *A, double shift, int *at) {
+/* Eliminates node j, whose diagonal block E has become what is left of it, from the rows of its
+   blocks before `end`. False: a pivot is too small. */
+COROT_INLINE bool eliminate_node(node_matrix *A, int j, int end) {
   const double least = 1e-3; /* smaller pivots make a positive, but a bad preconditioner */
-  double *L = A->value + 9 * (size_t)A->n, *E = A->C;
-  for (int i = 0; i < 9 * A->n; i++) E[i] = A->value[i];
-  for (int i = 0; i < A->n; i++)
-    for (int c = 0; c < 3; c++) E[9 * i + 4 * c] *= 1 + shift;
-  for (int j = 0; j < A->n; j++) {
-    double e[9];
-    memcpy(e, &E[9 * j], sizeof e);
-    *at = j;
-    if (!root(e, &A->value[9 * j], least, &A->C[9 * j], &A->Cinv[9 * j])) return false;
-    for (int k = A->colptr[j]; k < A->colptr[j + 1]; k++) {
-      times_transposed(&L[9 * k], &A->Cinv[9 * j]);
-      eliminate(&L[9 * k], &E[9 * A->row[k]]);
-    }
+  double *L = A->value + 9 * (size_t)A->n, *E = A->C, e[9];
+  memcpy(e, &E[9 * j], sizeof e);
+  if (!root(e, &A->value[9 * j], least, &A->C[9 * j], &A->Cinv[9 * j])) return false;
+  for (int k = A->colptr[j]; k < A->colptr[j + 1]; k++) {
+    times_transposed(&L[9 * (size_t)k], &A->Cinv[9 * j]);
+    if (k < end) eliminate(&L[9 * (size_t)k], &E[9 * A->row[k]]);
   }
-  scale_rows(A);
   return true;
 }
 
-bool corot_nodes_cholesky(node_matrix *A, double shift, int *at) { return cholesky(A, shift, at); }
-
-/* --- products and sweeps; vectors of nodes have a fourth component that is zero --- */
-
-COROT_INLINE block_column column(const node_matrix *A, int j) {
-  return block_column_of(A->n, A->colptr, A->row, A->value, j);
+/* The nodes of a domain, or those from `from` on; the first whose pivot is too small, or -1. */
+static COROT_CLONES int eliminate_domain(node_matrix *A, int from, int end) {
+  for (int j = from; j < end; j++)
+    if (!eliminate_node(A, j, A->inner ? A->inner[j] : A->colptr[j + 1])) return j;
+  return -1;
 }
 
-COROT_INLINE void output(double *y, vd4 a) { y[0] = a[0], y[1] = a[1], y[2] = a[2]; }
-
-static COROT_CLONES void multiply(node_matrix *A, const double *x, double *y) {
-  double(*in)[4] = A->work, (*out)[4] = A->work + A->n;
-  for (int i = 0; i < A->n; i++) {
-    const double *xi = x + 3 * i;
-    vd4_store(in[i], vd4_padded(xi));
-    vd4_store(out[i], block_times(&A->value[9 * i], vd4_padded(xi)));
-  }
-  for (int j = 0; j < A->n; j++) {
-    vd4 above = column_product(column(A, j), (const double(*)[4])in);
-    output(y + 3 * j, vd4_load(out[j]) + above);
-    add_column(column(A, j), vd4_padded(x + 3 * j), out);
-  }
+static COROT_CLONES int eliminate_between(node_matrix *A) {
+  for (int j = A->parts.first[A->parts.n]; j < A->n; j++)
+    if (!eliminate_node(A, j, A->colptr[j + 1])) return j;
+  return -1;
 }
 
-void corot_nodes_multiply(node_matrix *A, const double *x, double *y) { multiply(A, x, y); }
-
-/* With D + L + L' = (I + L) + (I + L') - (2 I - D) and t = (I + L')^-1 x:
-   y = t + (I + L)^-1 (x - (2 I - D) t). */
-static COROT_CLONES void sandwich(node_matrix *A, const double *x, double *y) {
-  double(*t)[4] = A->work, (*w)[4] = A->work + A->n;
-  for (int j = A->n - 1; j >= 0; j--) {
-    vd4 xj = vd4_padded(x + 3 * j), tj = xj - column_product(column(A, j), (const double(*)[4])t);
-    vd4_store(t[j], tj);
-    vd4_store(w[j], block_times(&A->value[9 * j], tj) - 2 * tj + xj);
-  }
-  for (int j = 0; j < A->n; j++) {
-    vd4 s = vd4_padded(w[j]);
-    output(y + 3 * j, vd4_load(t[j]) + s);
-    add_column(column(A, j), -s, w);
-  }
+/* What the rows between domains lose to these. */
+static COROT_CLONES void gather_eliminated(node_matrix *A, int from, int end) {
+  const double *L = A->value + 9 * (size_t)A->n;
+  int first = A->parts.first[A->parts.n];
+  for (int i = from; i < end; i++)
+    for (int k = A->left_first[i]; k < A->left_first[i + 1]; k++)
+      eliminate(&L[9 * (size_t)A->left[k]], &A->C[9 * (first + i)]);
 }
 
-void corot_nodes_sandwich(node_matrix *A, const double *x, double *y) { sandwich(A, x, y); }
+typedef struct elimination {
+  node_matrix *A;
+  int failed[MOST_DOMAINS];
+} elimination;
 
-static COROT_CLONES void forward(node_matrix *A, double *x) {
-  double(*w)[4] = A->work;
-  for (int j = 0; j < A->n; j++) vd4_store(w[j], vd4_padded(x + 3 * j));
-  for (int j = 0; j < A->n; j++) {
-    vd4 s = vd4_padded(w[j]);
-    output(x + 3 * j, s);
-    add_column(column(A, j), -s, w);
-  }
+static void eliminate_part(void *work, int k) {
+  elimination *e = work;
+  e->failed[k] = eliminate_domain(e->A, e->A->parts.first[k], e->A->parts.first[k + 1]);
 }
 
-void corot_nodes_forward(node_matrix *A, double *x) { forward(A, x); }
-
-static COROT_CLONES void backward(node_matrix *A, double *x) {
-  double(*t)[4] = A->work;
-  for (int j = A->n - 1; j >= 0; j--) {
-    vd4 tj = vd4_padded(x + 3 * j) - column_product(column(A, j), (const double(*)[4])t);
-    vd4_store(t[j], tj);
-    output(x + 3 * j, tj);
+bool corot_nodes_cholesky(node_matrix *A, double shift, int *at) {
+  elimination e = {.A = A};
+  double *E = A->C;
+  for (int i = 0; i < 9 * A->n; i++) E[i] = A->value[i];
+  for (int i = 0; i < A->n; i++)
+    for (int c = 0; c < 3; c++) E[9 * i + 4 * c] *= 1 + shift;
+  corot_team_run(A->team, A->parts.n, eliminate_part, &e);
+  for (int k = 0; k < A->parts.n; k++) {
+    *at = e.failed[k];
+    if (*at >= 0) return false;
   }
+  if (A->parts.n > 1) share_loop(A, A->n - A->parts.first[A->parts.n], gather_eliminated);
+  *at = eliminate_between(A);
+  if (*at >= 0) return false;
+  scale_rows(A);
+  return true;
 }
-
-void corot_nodes_backward(node_matrix *A, double *x) { backward(A, x); }
 
 void corot_nodes_scale(const node_matrix *A, double *x) {
   for (int i = 0; i < A->n; i++, x += 3) {

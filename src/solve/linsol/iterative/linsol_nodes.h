@@ -5,26 +5,41 @@
 
    with C block diagonal, so chosen that the preconditioner becomes M = C C' (block Jacobi: D = I)
    or M = C (I + L)(I + L') C' (incomplete Cholesky of level 0), or C = I. Vectors are [3 n]; a
-   component that is held has a one in the diagonal and zeros elsewhere. */
+   component that is held has a one in the diagonal and zeros elsewhere.
+
+   Where the nodes stand in domains, a team sweeps through these at the same time. What the nodes
+   between them have from domains they gather, row by row; so all sums have one order. */
 #ifndef COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_NODES_H
 #define COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_NODES_H
 
 #include <corot/ode.h>
 #include <stdbool.h>
 
+#include "core/base/team.h"
+#include "linsol_domains.h"
+
 typedef struct node_matrix {
   int n;              /* nodes */
   const int *unknown; /* [unknowns] the caller's number of each, borrowed; NULL: they are these */
+  team *team;         /* who shares the loops out; NULL: nobody */
+  domains parts;      /* of the nodes; one, unless they were asked for */
   int *slot;          /* [unknowns] where a vector [3 n] has each of them: 3 node + component */
   int *colptr, *row;  /* [n + 1], [nbelow]: blocks of L by columns, rows ascending */
   int *place;         /* [csc->nnz] where in `value` each entry goes */
   double *value;      /* blocks of 9 by columns: D [n], then L [nbelow]; 3 more to read beyond */
   double *C, *Cinv;   /* [n][9] lower triangular, row-major */
   double (*work)[4];  /* [2 n] */
+
+  /* With several domains: */
+  int *inner;      /* [parts.first[parts.n]] the end of a column's blocks in rows of its domain */
+  int *left_first; /* [n - parts.first[parts.n] + 1] and of each row between domains the blocks */
+  int *left;       /* in columns of domains, */
+  int *left_node;  /* and these columns, ascending */
 } node_matrix;
 
-/* `csc`: a lower triangle, with its `source`. What is half made is released by clear. */
-corot_status corot_nodes_create(const corot_csc *csc, node_matrix *A);
+/* `csc`: a lower triangle, with its `source`. The nodes are in its order, or `by_domains`. What is
+   half made is released by clear. */
+corot_status corot_nodes_create(const corot_csc *csc, bool by_domains, node_matrix *A);
 void corot_nodes_clear(node_matrix *A);
 
 /* Takes the values of a csc, C = I. */

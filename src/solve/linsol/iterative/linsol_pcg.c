@@ -14,6 +14,7 @@
 #include "linsol_multilevel.h"
 #include "solve/linsol/linsol.h"
 #include "solve/sundials/sun_status.h"
+#include "solve/sundials/vector.h"
 
 /* The end of a message where conjugate gradients do not find the solution that there may be. */
 #ifdef COROT_HAVE_CHOLMOD
@@ -46,11 +47,10 @@ typedef struct pcg {
 static int multiply(void *data, N_Vector x, N_Vector y) {
   pcg *p = data;
   const double *in = N_VGetArrayPointer(x);
-  double *out = N_VGetArrayPointer(y), curvature = 0;
+  double *out = N_VGetArrayPointer(y);
   (p->cholesky ? corot_nodes_sandwich : corot_nodes_multiply)(&p->A, in, out);
-  for (int i = 0; i < 3 * p->A.n; i++) curvature += in[i] * out[i];
-  p->curvature = curvature;
-  return curvature > 0 ? 0 : 1;
+  p->curvature = N_VDotProd(x, y);
+  return p->curvature > 0 ? 0 : 1;
 }
 
 /* z = M^-1 r */
@@ -85,7 +85,7 @@ static bool make_cg(pcg *p) {
 static corot_status prepare(pcg *p, const linsol_plan *plan) {
   if (p->ops) COROT_TRY(corot_order_create(p->csc, plan->def.refinement, &p->ordered));
   if (p->ordered.csc) p->csc = p->ordered.csc;
-  COROT_TRY(corot_nodes_create(p->csc, &p->A));
+  COROT_TRY(corot_nodes_create(p->csc, !p->ops, &p->A));
   p->A.unknown = p->ordered.unknown;
   corot_nodes_keep(&p->A);
   if (p->ops) COROT_TRY(p->ops->create(p->csc, &p->A, plan->def.refinement, &p->levels));
@@ -100,6 +100,7 @@ static corot_status prepare(pcg *p, const linsol_plan *plan) {
     p->to = N_VNewEmpty_Serial(n, p->ctx);
     p->from = N_VNewEmpty_Serial(n, p->ctx);
   }
+  if (p->to) corot_vector_quicken(p->to);
   if (!p->b || !p->from || !p->to || !make_cg(p))
     return corot_fail(COROT_ENOMEM, "no memory for pcg on %d unknowns", p->csc->n);
   return COROT_OK;
@@ -160,7 +161,9 @@ static corot_status improve(pcg *p, double norm, double whole) {
   N_VSetArrayPointer(p->r, p->from);
   p->status = COROT_OK;
   int status = SUNLinSolSetZeroGuess(p->cg, 1);
+  team *before = corot_vector_share(p->A.team);
   if (!status) status = SUNLinSolSolve(p->cg, NULL, p->to, p->from, target / norm * sqrt(square));
+  corot_vector_share(before);
   int iterations = SUNLinSolNumIters(p->cg);
   p->iterations += iterations;
   /* why it ended */
@@ -246,6 +249,8 @@ static corot_status pcg_solve(void *solver, double *x) {
   return COROT_OK;
 }
 
+static void pcg_share(void *solver, team *by) { ((pcg *)solver)->A.team = by; }
+
 static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
 
 static const linsol_variant variants[] = {
@@ -266,4 +271,5 @@ const linsol_ops corot_linsol_pcg = {
     .solve = pcg_solve,
     .destroy = pcg_destroy,
     .iterations = pcg_iterations,
+    .share = pcg_share,
 };
