@@ -68,9 +68,9 @@ COROT_API size_t corot_state_bytes(const corot_state *state);
 
 /* From now on n threads share out what is evaluated with this state, and what is solved with a pencil
    of it: n - 1 of the library's own, which wait between two evaluations, and the caller's. Results are
-   the same to the last bit for every n. At first n is 1. n = 0: as many as pay on this machine for a
-   model of this size, which is 1 for small ones. The threads belong to the state and end with it; they
-   run no code of the host, and take no signals; a process made by fork() has none, and works on alone.
+   the same to the last bit for every n. At first n is 1. n = 0: corot_model_threads(). The threads
+   belong to the state and end with it; they run no code of the host, and take no signals; a process
+   made by fork() has none, and works on alone.
 
    Not while an evaluation runs. COROT_EINVAL: there is no state, or n is not from 0 to
    COROT_MOST_THREADS. COROT_ENOMEM: no memory, or a thread that the system does not start; with n = 0
@@ -88,6 +88,10 @@ COROT_API corot_status corot_state_parallel(corot_state *state, int n, corot_par
 
 /* How many threads, or parts, there are. */
 COROT_API int corot_state_thread_count(const corot_state *state);
+
+/* As many threads as pay on this machine for a model of this size: 1 for small ones, and never more
+   than there are processors. */
+COROT_API int corot_model_threads(const corot_model *model);
 
 /* How many processors this process may use: 1 where the system does not say. */
 COROT_API int corot_processors(void);

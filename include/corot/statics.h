@@ -50,10 +50,11 @@ typedef struct corot_statics_def {
   corot_inputs *inputs; /* seen by all evaluations, and must outlive the solver; NULL: none. Forces and
                            factors of loads are those of time t, scaled as loads are; feedback is not
                            scaled, and may hold a body that no support holds */
+  int threads; /* that share the work out, as of corot_state_threads(); 0: one */
 } corot_statics_def;
 
 /* Everything about the linear solver "auto", frames exact, tolerance 1e-10, 20 iterations, the
-   whole load at once, min_step 1e-4, max_step 1. */
+   whole load at once, min_step 1e-4, max_step 1, one thread. */
 COROT_API void corot_statics_set_defaults(corot_statics_def *def, size_t bytes);
 static inline corot_statics_def corot_statics_defaults(void) {
   corot_statics_def def;

@@ -80,8 +80,8 @@ static void to_slots(const node_matrix *A, int n, const double *x, double *slots
   for (int i = 0; i < n; i++) slots[A->slot[i]] = x[i];
 }
 
-/* Products by domains are those in one piece; Eisenstat's arrangement is what it is made of; and the
-   preconditioner is symmetric and positive. */
+/* Products by domains are those in one piece; Eisenstat's arrangement is what it is made of; and
+   the preconditioner is symmetric and positive. */
 static void domains_make_no_other_products(void **state) {
   (void)state;
   body b = make_long(15, 15, &slide); /* nodes of which a component is held */

@@ -1,5 +1,5 @@
-/* Evaluations that are shared out: whatever the model, the number of threads, or who runs the parts,
-   all results are those of one thread, to the last bit. */
+/* Evaluations that are shared out: whatever the model, the number of threads, or who runs the
+   parts, all results are those of one thread, to the last bit. */
 #include <pthread.h>
 #include <stdio.h>
 #include <sys/wait.h>
@@ -147,8 +147,8 @@ static corot_mesh *renumber(corot_mesh *mesh) {
   for (int i = 0; i < n; i++) memcpy(x[(long)i * step % n], mesh->x[i], sizeof *x);
   for (int e = 0; e < mesh->ntet; e++)
     for (int k = 0; k < 4; k++) mesh->tet[e][k] = (int)((long)mesh->tet[e][k] * step % n);
-  assert_ok(corot_mesh_create(n, (const double(*)[3])x, mesh->ntet, (const int(*)[4])mesh->tet,
-                              &made));
+  assert_ok(
+      corot_mesh_create(n, (const double(*)[3])x, mesh->ntet, (const int(*)[4])mesh->tet, &made));
   assert_ok(corot_mesh_group_box(made, "zmin", low, high, 0));
   free(x);
   corot_mesh_destroy(mesh);

@@ -65,12 +65,16 @@ static json_t *with_other(const json_t *map, const char *other, json_t *replacem
   return replacement ? json_text_with(made, other, replacement) : made;
 }
 
-/* How often a checkpoint is written changes nothing of an answer. */
+/* How often a checkpoint is written, and how many threads there are, changes nothing of an answer.
+ */
 static json_t *without_clock(const json_t *resolved) {
   const json_t *checkpoint = json_object_get(resolved, "checkpoint");
-  if (!checkpoint) return json_incref((json_t *)resolved);
+  json_t *alone = with_other(resolved, "threads", NULL);
+  if (!alone || !checkpoint) return alone;
   json_t *bare = with_other(checkpoint, "every", NULL);
-  return bare ? with_other(resolved, "checkpoint", bare) : NULL;
+  json_t *made = bare ? with_other(alone, "checkpoint", bare) : NULL;
+  json_decref(alone);
+  return made;
 }
 
 static corot_status hash_scenario(const json_t *resolved, char digest[HASH_SIZE]) {

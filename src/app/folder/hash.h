@@ -9,7 +9,7 @@ enum { HASH_SIZE = 65 }; /* 64 digits and a terminator */
 
 typedef struct hashes {
   char scenario[HASH_SIZE]; /* of the resolved scenario as compact JSON with sorted keys, without
-                               checkpoint.every */
+                               checkpoint.every and threads */
   char mesh[HASH_SIZE];     /* of counts, coordinates, tets and groups as they stand in memory */
   char run[HASH_SIZE]; /* of "corot VERSION\nSCENARIO\nMESH\n"; of a search for the equilibrium,
                           of "static\nRUN\n" with that sum; of modes, of "modes\nRUN\n" */

@@ -153,7 +153,8 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
   json_t *provenance;
   COROT_TRY(provenance_make(&provenance));
   json_t *result = json_pack(
-      "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
+      "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:i, s:o, s:o, "
+      "s:o, "
       "s:o, s:o, s:o, s:o,"
       " s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
@@ -164,9 +165,9 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       "integrator", run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
-      timings_part(run), "memory", memory_part(run), "probes", outputs_probes(o), "energy",
-      energy_part(o), "quantities", outputs_quantities(o), "extremes", extremes_part(o), "observed",
-      observed_part(run), "steps_csv", steps_part(o), "space_error",
+      timings_part(run), "threads", run->threads, "memory", memory_part(run), "probes",
+      outputs_probes(o), "energy", energy_part(o), "quantities", outputs_quantities(o), "extremes",
+      extremes_part(o), "observed", observed_part(run), "steps_csv", steps_part(o), "space_error",
       space_json(outputs_recorded(o), &run->seen->space), "versions", result_versions(),
       "provenance", provenance, "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
       "scenario", s->resolved);

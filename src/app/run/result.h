@@ -48,6 +48,7 @@ typedef struct run_summary {
   double t_reached; /* [s] */
   const corot_model *model;
   size_t state_bytes;
+  int threads;
   corot_statistics statistics;
   corot_integrator_choice chosen;
   frame_totals frames;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/scenario/threads.h"
 #include "app/text/say.h"
 #include "quantities.h"
 #include "run_clock.h"
@@ -45,6 +46,7 @@ static corot_status start_integrator(run *r) {
   if (!r->u || !r->v) return corot_fail(COROT_ENOMEM, "%zu degrees of freedom: out of memory", n);
 
   COROT_TRY(corot_state_create(r->model, &r->state));
+  COROT_TRY(scenario_share(s, r->model, r->state));
   COROT_TRY(find_start(r));
   corot_state_enter(r->state, 0);
   COROT_TRY(live_create(s, r->model, 0, &r->live));
@@ -322,6 +324,7 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
       .t_reached = reached(r),
       .model = r->model,
       .state_bytes = corot_state_bytes(r->state),
+      .threads = corot_state_thread_count(r->state),
       .statistics = corot_integrator_statistics(r->integrator),
       .chosen = corot_integrator_chosen(r->integrator),
       .frames = r->frames,

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/scenario/threads.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
 #include "live.h"
@@ -72,6 +73,7 @@ static corot_status prepare(equilibrium_run *r) {
   def.linear.refinement = r->refinement;
   COROT_TRY(allocate(r));
   def.inputs = live_inputs(r->live);
+  def.threads = scenario_threads(s, r->model);
   corot_status status = corot_statics_create(&def, r->model, s->t_end, NULL, &r->statics);
   if (status) return corot_fail(status, "%s: %s", s->path, corot_error());
   corot_statics_counts n = corot_statics_statistics(r->statics); /* of K at rest */
@@ -206,6 +208,7 @@ static corot_status summarize(const equilibrium_run *r, const char *reason, int 
       .t_reached = r->factor * r->scenario->t_end,
       .model = r->model,
       .state_bytes = corot_state_bytes(r->state) + corot_statics_bytes(r->statics),
+      .threads = scenario_threads(r->scenario, r->model),
       .statics = statics,
       .statistics = {.force_s = n.force_s,
                      .assembly_s = n.assembly_s,
@@ -318,6 +321,7 @@ static corot_status solve_at(const scenario *s, const corot_refinement *refineme
   corot_status status = live_create(s, model, t, &l);
   if (status == COROT_OK) {
     def.inputs = live_inputs(l);
+    def.threads = scenario_threads(s, model);
     status = corot_statics_create(&def, model, t, NULL, &statics);
   }
   if (status == COROT_OK) {

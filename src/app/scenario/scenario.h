@@ -116,6 +116,7 @@ typedef struct scenario {
   bool write_all_steps; /* output.steps: all */
   bool write_states;    /* output.states: binary */
   space_error space_error;
+  int threads;             /* 0: as many as pay */
   double checkpoint_every; /* [s] on the clock */
   long checkpoint_steps;   /* 0: no checkpoints */
 

@@ -177,6 +177,16 @@ static void read_output(scenario *s) {
   s->field_every = (int)number_at(root, "output.every");
 }
 
+static corot_status read_threads(scenario *s) {
+  const config_node *node = config_find(s->source->root, "threads");
+  if (!node) return COROT_OK;
+  double n = number_at(s->source->root, "threads");
+  if (n > COROT_MOST_THREADS)
+    return config_fail(node, "%.0f threads: there may be 1 to %d", n, COROT_MOST_THREADS);
+  s->threads = (int)n;
+  return COROT_OK;
+}
+
 static void read_checkpoint(scenario *s) {
   config_node *node = config_find(s->source->root, "checkpoint");
   if (!node) return;
@@ -227,6 +237,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   COROT_TRY(scenario_read_probes(s));
   COROT_TRY(scenario_read_quantities(s));
   read_output(s);
+  COROT_TRY(read_threads(s));
   read_checkpoint(s);
   s->resolved = schema_resolve(s->source);
   return s->resolved ? COROT_OK : no_memory();

@@ -15,6 +15,7 @@ const warning_kind warning_kinds[WARNING_CODES] = {
     [WARNING_PROBE] = {"probe",
                        "the point of a probe is outside the body, or its nearest node far off"},
     [WARNING_INTEGRATOR] = {"integrator", "cvode or ida, where a body is free or undamped"},
+    [WARNING_THREADS] = {"threads", "there are more threads than processors"},
     [WARNING_RTOL] = {"rtol", "a tolerance is below what double precision can tell"},
     [WARNING_ATOL] = {"atol", "the absolute tolerance is no small part of the motion"},
     [WARNING_LEDGER] = {"ledger", "work and energies do not add up, or the method adds energy"},

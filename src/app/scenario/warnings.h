@@ -18,6 +18,7 @@ typedef enum warning_code {
   WARNING_UNHELD,
   WARNING_PROBE,
   WARNING_INTEGRATOR,
+  WARNING_THREADS,
   WARNING_RTOL, /* or after it */
   /* After it. */
   WARNING_ATOL,

@@ -40,6 +40,17 @@ static corot_status find_locking(const scenario *s, int order, warnings *w) {
   return COROT_OK;
 }
 
+/* --- Threads --- */
+
+static corot_status count_threads(const scenario *s, warnings *w) {
+  int processors = corot_processors();
+  if (s->threads <= processors) return COROT_OK;
+  return warnings_add(w, WARNING_THREADS,
+                      "%d threads share %d processor%s, and wait for one another: the run takes "
+                      "longer than with threads: %d",
+                      s->threads, processors, processors == 1 ? "" : "s", processors);
+}
+
 /* --- The parts of the body --- */
 
 /* "2 parts that share no node: 27 nodes from node 0 on; ...", all too many left out. */
@@ -193,6 +204,7 @@ corot_status warnings_find_rtol(const scenario *s, const corot_model *model, dou
 
 corot_status warnings_before(const scenario *s, const corot_model *model, bool statics,
                              warnings *w) {
+  COROT_TRY(count_threads(s, w));
   COROT_TRY(find_locking(s, corot_mesh_order(corot_model_mesh(model)), w));
   COROT_TRY(find_parts(model, w));
   COROT_TRY(find_probes(s, corot_model_mesh(model), w));

@@ -161,7 +161,8 @@ corot_status corot_jvp(const corot_model *m, corot_state *s, double t, const dou
   COROT_TRY(COROT_GIVEN(jv));
   const instant now = corot_state_at(s, t);
   bool damped = body_of(m, s)->damped && now.moving, feeds_back = inputs_feed_back(&now);
-  nodal_field all_u = corot_state_displace(m, s, &now, u), all_du = corot_state_spread(s, du, s->du);
+  nodal_field all_u = corot_state_displace(m, s, &now, u),
+              all_du = corot_state_spread(s, du, s->du);
   nodal_field all_v = NULL, all_dv = NULL;
   if (damped || (feeds_back && now.moving)) {
     all_v = corot_state_move(m, s, &now, v);

@@ -12,7 +12,7 @@ enum { POINTS_A_THREAD = 4000 };
 
 int corot_processors(void) { return corot_processor_count(); }
 
-static int worth(const corot_model *m) {
+int corot_model_threads(const corot_model *m) {
   const element_set *t = &solid_of(m)->elements;
   int n = points_of(t) * W / POINTS_A_THREAD, most = corot_processor_count();
   if (n > most) n = most;
@@ -42,7 +42,8 @@ corot_status corot_state_threads(corot_state *s, int n) {
     return corot_fail(COROT_EINVAL, "threads: %d is not from 0 to %d", n, COROT_MOST_THREADS);
   if (n > 0) return share_among(s, n);
   corot_status status = COROT_ENOMEM;
-  for (n = worth(s->model); n > 1 && status == COROT_ENOMEM; n /= 2) status = share_among(s, n);
+  for (n = corot_model_threads(s->model); n > 1 && status == COROT_ENOMEM; n /= 2)
+    status = share_among(s, n);
   return status == COROT_ENOMEM ? share_among(s, 1) : status;
 }
 

@@ -114,8 +114,8 @@ corot_status corot_solid_sum(const solid *body, solid_state *s, chunk_work *work
 typedef struct evaluation {
   const solid *body;
   nodal_field u, v, du, dv;
-  bool exact;                /* with the change of the frames */
-  int strain;                /* of another measure */
+  bool exact; /* with the change of the frames */
+  int strain; /* of another measure */
   double lambda_part, mu_part;
   corot_tangent tangent;
   double (*K)[9], (*D)[9];
@@ -212,11 +212,8 @@ static int internal_chunk(const void *of, solid_state *s, int chunk) {
 
 corot_status corot_solid_internal(const solid *body, solid_state *s, nodal_field u, int strain,
                                   double lambda_part, double mu_part, force_sum *sum) {
-  evaluation e = {.body = body,
-                  .u = u,
-                  .strain = strain,
-                  .lambda_part = lambda_part,
-                  .mu_part = mu_part};
+  evaluation e = {
+      .body = body, .u = u, .strain = strain, .lambda_part = lambda_part, .mu_part = mu_part};
   average(s, &e, own_internal_chunk, s->dilatation);
   return corot_solid_sum(body, s, internal_chunk, &e, sum);
 }

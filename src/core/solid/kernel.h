@@ -41,8 +41,7 @@ int corot_kernel_frames(const solid *body, nodal_field u, int chunk, block_mat3 
 
 /* spin [points] = the angular velocity of the measure's own frames for the velocity v:
    dR/dt = [spin]x R. */
-int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, int chunk,
-                      block_vec3 *spin);
+int corot_kernel_spin(const solid *body, nodal_field u, nodal_field v, int chunk, block_vec3 *spin);
 
 /* state->force = -(the internal force of a measure, index `strain`, with its own frames and with
    the material's coefficients times the factors given). */

@@ -25,8 +25,8 @@ CHOOSE(int, corot_kernel_internal,
        (const solid *body, solid_state *state, nodal_field u, int strain, double lambda_part,
         double mu_part, int chunk),
        (body, state, u, strain, lambda_part, mu_part, chunk))
-CHOOSE(void, corot_kernel_diagonals,
-       (const solid *body, const int *node, int n, double (*A)[9]), (body, node, n, A))
+CHOOSE(void, corot_kernel_diagonals, (const solid *body, const int *node, int n, double (*A)[9]),
+       (body, node, n, A))
 CHOOSE(int, corot_kernel_tangent,
        (const solid *body, solid_state *state, nodal_field u, corot_tangent tangent, int chunk,
         double (*K)[9], double (*D)[9]),

@@ -2,8 +2,7 @@
    sees whole blocks: LANES is W. */
 #include "kernel.h"
 
-void corot_kernel_pool(const solid *body, const block_vd *theta, int first, int end,
-                       double *pool) {
+void corot_kernel_pool(const solid *body, const block_vd *theta, int first, int end, double *pool) {
   const dilatation *d = &body->dilatation;
   const element_set *e = &body->elements;
   for (int p = first; p < end; p++) {

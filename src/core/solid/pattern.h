@@ -20,7 +20,7 @@ typedef struct pattern {
                       element is added to */
   int nchunk;
   int *left_first; /* [nnode + 1] each node's part of `left` */
-  int *left;       /* [nblock - nnode] the blocks of a row left of its diagonal, columns ascending */
+  int *left; /* [nblock - nnode] the blocks of a row left of its diagonal, columns ascending */
   /* A node's forces are summed up, and its row and column of a matrix completed, as soon as it has
      no tet in later chunks: by chunk c those of the nodes turn[due[c]] to turn[due[c + 1] - 1]. */
   int *due;   /* [nchunk + 1] */

@@ -37,7 +37,8 @@ static int end_block(const element_set *t, const range_plan *r, int k) {
   return end < t->nblock ? end : t->nblock;
 }
 
-/* of_node [nnode] and of_block [pattern.nblock], blocks of matrices: the range that adds to each. */
+/* of_node [nnode] and of_block [pattern.nblock], blocks of matrices: the range that adds to each.
+ */
 static void find_owners(int nnode, const element_set *t, const pattern *p, const range_plan *r,
                         int *of_node, int *of_block) {
   for (int n = 0; n < nnode; n++) of_node[n] = NOBODY;
@@ -71,8 +72,7 @@ static corot_status part_nodes(int nnode, const pattern *p, const int *owner, ra
 }
 
 /* The forces on nodes of seams: owner [nnode] of these becomes MANY - their number. */
-static corot_status list_forces(const element_set *t, const pattern *p, int *owner,
-                                range_plan *r) {
+static corot_status list_forces(const element_set *t, const pattern *p, int *owner, range_plan *r) {
   int nnode = t->kind->nnode, size = nnode * 3 * W, *next;
   r->force_first = calloc(r->nseam + 2, sizeof *r->force_first);
   r->copy_first = malloc((p->nchunk + 1) * sizeof *r->copy_first);

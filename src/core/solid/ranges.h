@@ -50,7 +50,7 @@ typedef struct solid_ranges {
   bool windowed;         /* each range has a window of its own; else one buffer has all elements */
   block_vd (**force)[3]; /* [n] windows [window][kind->nnode], the first being the state's own */
   range_result *told;    /* [n] */
-  double (*aside)[3];    /* [force_first[nseam]] forces set aside; NULL, as the next, of one range */
+  double (*aside)[3]; /* [force_first[nseam]] forces set aside; NULL, as the next, of one range */
   double (*aside_K)[9], (*aside_D)[9]; /* [part_first[nshared]] parts of K and D; of D, NULL unless
                                           it is damped */
 } solid_ranges;

@@ -161,8 +161,8 @@ corot_status corot_solid_check(solid_state *s, int tet);
    inverted, the first of them being s->inverted. */
 corot_status corot_solid_each(const solid *body, solid_state *s, chunk_work *work, const void *of);
 
-/* The same, where `work` leaves element forces in own->force: adds them up on the nodes, each node's
-   in the order of the elements. COROT_RETRY, too, where a sum is not finite. */
+/* The same, where `work` leaves element forces in own->force: adds them up on the nodes, each
+   node's in the order of the elements. COROT_RETRY, too, where a sum is not finite. */
 corot_status corot_solid_sum(const solid *body, solid_state *s, chunk_work *work, const void *of,
                              force_sum *sum);
 

@@ -242,10 +242,8 @@ static corot_status change_frames(const solid_system *y, system_state *s, const 
   if (y->leader < 0) return COROT_OK;
   const solid *leader = &y->term[y->leader].body;
   const from_leader lead = lead_of(y, s, y->leader);
-  const handed_work w = {.body = leader,
-                         .lead = &lead,
-                         .f = corot_system_seen(y, s, y->leader, all),
-                         .R = s->lead.dR};
+  const handed_work w = {
+      .body = leader, .lead = &lead, .f = corot_system_seen(y, s, y->leader, all), .R = s->lead.dR};
   if (follow) return corot_solid_each(leader, &s->of[y->leader], change_chunk, &w);
   memset(s->lead.dR, 0, points_of(&leader->elements) * sizeof *s->lead.dR);
   return COROT_OK;

@@ -37,8 +37,8 @@ typedef struct linsol_ops {
   /* Drops the numeric factor, so that the next one does not depend on any before it. NULL: none
      ever does. */
   void (*forget)(void *solver);
-  /* From now on a team shares out what it computes, with the same results; NULL: nobody does. NULL in
-     the place of this: none ever does. */
+  /* From now on a team shares out what it computes, with the same results; NULL: nobody does. NULL
+     in the place of this: none ever does. */
   void (*share)(void *solver, team *by);
 
   /* Iterations so far; NULL: the solver is not iterative. */

@@ -208,6 +208,7 @@ corot_status corot_equilibrium_open(equilibrium *e, const corot_statics_def *def
   /* the parts: evaluation, matrix, and Newton's iteration */
   COROT_TRY(corot_state_create(model, &e->state));
   COROT_TRY(corot_state_use_inputs(e->state, def->inputs));
+  if (def->threads) COROT_TRY(corot_state_threads(e->state, def->threads));
   COROT_TRY(corot_pencil_create(model, e->state, &linear, &e->pencil));
   corot_state_use(e->state, def->frames);
   corot_state_stand_still(e->state, t, 0);
