@@ -65,16 +65,12 @@ static json_t *with_other(const json_t *map, const char *other, json_t *replacem
   return replacement ? json_text_with(made, other, replacement) : made;
 }
 
-/* How often a checkpoint is written, and how many threads there are, changes nothing of an answer.
- */
+/* How often a checkpoint is written changes nothing of an answer. */
 static json_t *without_clock(const json_t *resolved) {
   const json_t *checkpoint = json_object_get(resolved, "checkpoint");
-  json_t *alone = with_other(resolved, "threads", NULL);
-  if (!alone || !checkpoint) return alone;
+  if (!checkpoint) return json_incref((json_t *)resolved);
   json_t *bare = with_other(checkpoint, "every", NULL);
-  json_t *made = bare ? with_other(alone, "checkpoint", bare) : NULL;
-  json_decref(alone);
-  return made;
+  return bare ? with_other(resolved, "checkpoint", bare) : NULL;
 }
 
 static corot_status hash_scenario(const json_t *resolved, char digest[HASH_SIZE]) {
@@ -104,13 +100,25 @@ corot_status hash_solution(const json_t *resolved, char digest[HASH_SIZE]) {
   return status;
 }
 
+static void hash_run(const char scenario[HASH_SIZE], const char mesh[HASH_SIZE],
+                     char digest[HASH_SIZE]) {
+  char identity[256];
+  snprintf(identity, sizeof identity, "corot %s\n%s\n%s\n", corot_version(), scenario, mesh);
+  hash_text(identity, digest);
+}
+
 corot_status hashes_with(const json_t *resolved, const char mesh[HASH_SIZE], hashes *out) {
   hashes h;
+  char alone[HASH_SIZE];
+  json_t *bare = with_other(resolved, "threads", NULL);
+  corot_status status = bare ? hash_scenario(bare, alone)
+                             : corot_fail(COROT_ENOMEM, "the hash of the scenario: no memory");
+  json_decref(bare);
+  COROT_TRY(status);
   COROT_TRY(hash_scenario(resolved, h.scenario));
   memcpy(h.mesh, mesh, HASH_SIZE);
-  char identity[256];
-  snprintf(identity, sizeof identity, "corot %s\n%s\n%s\n", corot_version(), h.scenario, h.mesh);
-  hash_text(identity, h.run);
+  hash_run(h.scenario, h.mesh, h.run);
+  hash_run(alone, h.mesh, h.answer);
   *out = h;
   return COROT_OK;
 }

@@ -71,14 +71,14 @@ static corot_status look_for_checkpoint(run *r) {
   const run_options *o = r->options;
   if (s->checkpoint_steps == 0 && !o->resume) return COROT_OK;
   COROT_TRY(hashes_of(s->resolved, r->mesh, &r->hashes));
-  COROT_TRY(checkpoint_create(s, r->hashes.run, o, &r->checkpoint));
+  COROT_TRY(checkpoint_create(s, r->hashes.answer, o, &r->checkpoint));
   if (!o->resume) return COROT_OK;
   COROT_TRY(resume_find(s, r->hashes.run, o, &r->resume));
   if (r->resume.found == RESUME_FINISHED) return COROT_OK;
   if (resume_is_over(o->dir)) COROT_TRY(run_prepare_stop(s, o));
   if (r->resume.found == RESUME_NOTHING) return COROT_OK;
   COROT_TRY(run_enter(s->path, o, &r->lock));
-  return resume_read(s, r->hashes.run, o, &r->resume);
+  return resume_read(s, r->hashes.answer, o, &r->resume);
 }
 
 static corot_status prepare(run *r) {

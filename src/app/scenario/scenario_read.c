@@ -182,7 +182,7 @@ static corot_status read_threads(scenario *s) {
   if (!node) return COROT_OK;
   double n = number_at(s->source->root, "threads");
   if (n > COROT_MOST_THREADS)
-    return config_fail(node, "%.0f threads: there may be 1 to %d", n, COROT_MOST_THREADS);
+    return config_fail(node, "must be at most %d, found %.0f", COROT_MOST_THREADS, n);
   s->threads = (int)n;
   return COROT_OK;
 }

@@ -69,7 +69,8 @@ static void die_with(pid_t parent) {
 #endif
 }
 
-/* They share the machine, and sums do not depend on how many threads run. */
+/* They share the machine: each takes one thread, of ours and of BLAS, unless it is told to take
+   more. */
 static void keep_to_one_thread(void) {
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
   setenv("OMP_NUM_THREADS", "1", 0);
