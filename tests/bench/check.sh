@@ -41,6 +41,13 @@ lines "all($per_tet for r in d[1:])" kernels --json --tets 6 --order 2
 lines "len(d) == 1 and d[0]['tets'] == 6 and d[0]['nst'] > 0 and 'force' in d[0]['phases_s']" \
   run --json --cells 1,1,1 --rtol 1e-2 --repeat 1
 lines "len(d) == 5 and all(0 < r['bytes_per_tet'] for r in d)" memory --json --tets 6
+lines "[r['what'] for r in d[1:]] == 2 * ['force', 'tangent', 'energy', 'steps']
+  and all(r['one_s'] > 0 and r['several_s'] > 0 and r['speedup'] > 0 and r['limit'] > 0 for r in d[1:])
+  and {(r['tets'] > 999, r['threads']) for r in d[1:]} == {(False, 1), (True, 3)}" \
+  threads --json --threads 3 --tets 100 --tets 1500
+usage threads --threads 0
+usage threads --threads 257
+usage threads --tets none
 lines "{r['role'] for r in d[1:]} == {'dynamic', 'static'} and sum(r['auto'] for r in d[1:]) == 2
   and all(r['ratio'] >= 1 and r['cost_s'] > 0 for r in d[1:])" solvers --json --most 310
 lines "{r['solver'] for r in d if r.get('role') == 'static'} >= {'pcg, hierarchical', 'pcg, multigrid'}

@@ -10,6 +10,7 @@ static const char help[] =
     "       corot-bench run [--json] [OPTIONS]\n"
     "       corot-bench frames [--json]\n"
     "       corot-bench memory [--json] [--tets N]\n"
+    "       corot-bench threads [--json] [--threads N] [--tets N]... [--order N]\n"
     "       corot-bench hierarchy [--json] [--levels N]\n"
     "       corot-bench jitter [--json] [OPTIONS]\n"
     "       corot-bench local [--fraction F] [--within E]\n"
@@ -22,6 +23,7 @@ static const char help[] =
     "run       CPU time of a whole simulation and of its phases\n"
     "frames    what frames cost: polar over warp, update over force, Newton over linear\n"
     "memory    bytes per tet\n"
+    "threads   what threads gain, beside what the machine has to give\n"
     "hierarchy solvers that use the levels of a refined mesh, and the hierarchical basis\n"
     "jitter    how even the steps of an animation are in wall time\n"
     "local     unknowns for an accuracy, by local refinement and by uniform\n"
@@ -55,6 +57,7 @@ int main(int argc, char **argv) {
                                   {"run", command_example},
                                   {"frames", command_frames},
                                   {"memory", command_memory},
+                                  {"threads", command_threads},
                                   {"hierarchy", command_hierarchy},
                                   {"jitter", command_jitter},
                                   {"local", command_local},
