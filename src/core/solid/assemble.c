@@ -261,6 +261,35 @@ static void complete_seams(void *work, int k) {
   complete_diagonals(w->e, plan->seam + from, end - from);
 }
 
+/* The batches of one colour, by parts. */
+typedef struct batch_work {
+  const evaluation *e;
+  const solid_state *s;
+  int colour;
+} batch_work;
+
+static void add_batches(void *work, int k) {
+  const batch_work *w = work;
+  const dilatation *d = &w->e->body->dilatation;
+  int first = d->first[w->colour], n = d->first[w->colour + 1] - first;
+  int nparts = w->s->ranges.plan.n;
+  for (int b = team_share(n, nparts, k); b < team_share(n, nparts, k + 1); b++)
+    corot_kernel_dilatation_tangent(w->e->body, w->s, d->batch[first + b], w->s->ranges.gathered[k],
+                                    w->e->K);
+}
+
+/* What the averages add to K. */
+static void add_averages(const evaluation *e, const solid_state *s) {
+  const dilatation *d = &e->body->dilatation;
+  if (!d->npool) return;
+  for (int c = 0; c < d->ncolour; c++) {
+    batch_work w = {e, s, c};
+    corot_team_run(s->team, s->ranges.plan.n, add_batches, &w);
+  }
+  for (int b = d->first[d->ncolour]; b < d->first[d->ncolour + 1]; b++)
+    corot_kernel_dilatation_tangent(e->body, s, d->batch[b], s->ranges.gathered[0], e->K);
+}
+
 corot_status corot_solid_matrices(const solid *body, solid_state *s, nodal_field u,
                                   corot_tangent tangent, double (*K)[9], double (*D)[9]) {
   evaluation e = {.body = body, .u = u, .tangent = tangent, .K = K, .D = D};
@@ -271,7 +300,7 @@ corot_status corot_solid_matrices(const solid *body, solid_state *s, nodal_field
     corot_team_run(s->team, s->ranges.plan.n, add_shared, &seams);
     corot_team_run(s->team, s->ranges.plan.n, complete_seams, &seams);
   }
-  if (K) corot_kernel_dilatation_tangent(body, s, K);
+  if (K) add_averages(&e, s);
   return COROT_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "dilatation.h"
 
 #include <limits.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 /* A pool for each element; lanes beyond the last repeat it. */
@@ -126,6 +127,39 @@ no_memory:
   return corot_fail(COROT_ENOMEM, "no memory for the nodes of %d averages", d->npool);
 }
 
+/* The first colour that no node of the batch's rings has got from another; MOST_COLOURS: there is
+   none. `taken` [nnode]: bit c: colour c. */
+static int colour_batch(const dilatation *d, int batch, uint64_t *taken) {
+  uint64_t all = 0;
+  int colour = 0;
+  int from = d->ring_first[batch * BATCH], end = d->ring_first[batch_end(d, batch)];
+  for (int r = from; r < end; r++) all |= taken[d->ring[r]];
+  while (colour < MOST_COLOURS && (all >> colour & 1)) colour++;
+  for (int r = from; r < end && colour < MOST_COLOURS; r++)
+    taken[d->ring[r]] |= (uint64_t)1 << colour;
+  return colour;
+}
+
+static corot_status colour_batches(int nnode, dilatation *d) {
+  int nbatch = (d->npool + BATCH - 1) / BATCH, n = 0;
+  uint64_t *taken = calloc(nnode, sizeof *taken);
+  int *colour = malloc(((size_t)nbatch + 1) * sizeof *colour);
+  d->batch = malloc(((size_t)nbatch + 1) * sizeof *d->batch);
+  bool room = taken && colour && d->batch;
+  for (int b = 0; b < nbatch && room; b++) {
+    colour[b] = colour_batch(d, b, taken);
+    if (colour[b] < MOST_COLOURS && colour[b] >= d->ncolour) d->ncolour = colour[b] + 1;
+  }
+  for (int c = 0; c <= d->ncolour && room; c++) {
+    d->first[c] = n;
+    for (int b = 0; b < nbatch; b++)
+      if (colour[b] == (c < d->ncolour ? c : MOST_COLOURS)) d->batch[n++] = b;
+  }
+  d->first[d->ncolour + 1] = n;
+  free(taken), free(colour);
+  return room ? COROT_OK : corot_fail(COROT_ENOMEM, "no memory for %d averages", d->npool);
+}
+
 corot_status corot_dilatation_create(const corot_mesh *mesh, const element_set *t, bool by_element,
                                      const double *averaged, dilatation *out) {
   dilatation d = {0};
@@ -133,6 +167,7 @@ corot_status corot_dilatation_create(const corot_mesh *mesh, const element_set *
   if (!status) status = weigh_pools(t, averaged, &d);
   if (!status) status = list_tets(t, &d);
   if (!status) status = list_rings(mesh->nnode, t, &d);
+  if (!status) status = colour_batches(mesh->nnode, &d);
   if (status) {
     corot_dilatation_clear(&d);
     return status;
@@ -149,12 +184,14 @@ void corot_dilatation_clear(dilatation *d) {
   free(d->tet);
   free(d->ring_first);
   free(d->ring);
+  free(d->batch);
   *d = (dilatation){0};
 }
 
 size_t corot_dilatation_bytes(const dilatation *d, const element_set *t) {
   if (!d->npool) return 0;
-  size_t lists = 2 * ((size_t)d->npool + 1) + d->tet_first[d->npool] + d->ring_first[d->npool];
+  size_t lists = 2 * ((size_t)d->npool + 1) + d->tet_first[d->npool] + d->ring_first[d->npool] +
+                 d->first[d->ncolour + 1];
   return (size_t)t->nblock * d->per * sizeof *d->pool + d->npool * 2 * sizeof(double) +
          lists * sizeof(int);
 }

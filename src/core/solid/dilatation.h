@@ -23,6 +23,10 @@
 
 #include "core/element/tets.h"
 
+/* So many pools, one after the other, are a batch: batches of one colour share no node of a ring,
+   so that threads may add what these give to a matrix at the same time, colour by colour. */
+enum { BATCH = 32, MOST_COLOURS = 64 };
+
 /* A pool is what is averaged: the tets of one material around a corner, or one tet. */
 typedef struct dilatation {
   int npool;       /* 0: every dilatation is its tet's own */
@@ -34,7 +38,16 @@ typedef struct dilatation {
   int *tet;        /* [per ntet] W times block plus lane, ascending */
   int *ring_first; /* [npool + 1] each pool's part of `ring` */
   int *ring;       /* the nodes of its tets, ascending; none where lambda is zero */
+  int ncolour;
+  int first[MOST_COLOURS + 2]; /* each colour's part of `batch`; first[ncolour]: those for which
+                                  there was none, which come one by one */
+  int *batch;                  /* [first[ncolour + 1]] */
 } dilatation;
+
+/* The pools of a batch end before this. */
+static inline int batch_end(const dilatation *d, int batch) {
+  return (batch + 1) * BATCH < d->npool ? (batch + 1) * BATCH : d->npool;
+}
 
 /* The pools of the lanes' corner k of block b, or of the lanes' elements. */
 static inline const int *pools_at(const dilatation *d, int b, int k) {

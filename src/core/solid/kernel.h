@@ -56,8 +56,10 @@ int corot_kernel_tangent(const solid *body, solid_state *state, nodal_field u,
 /* The diagonal blocks of n nodes, once all others of their rows and columns are there. */
 void corot_kernel_diagonals(const solid *body, const int *node, int n, double (*A)[9]);
 
-/* Once the element matrices are: adds to K what the averages of the dilatation add. */
-void corot_kernel_dilatation_tangent(const solid *body, solid_state *state, double (*K)[9]);
+/* Once the element matrices are: adds to K what the averages of the dilatation add, of the pools of
+   a batch. `gathered` [nnode] is zero, and is left so. */
+void corot_kernel_dilatation_tangent(const solid *body, const solid_state *state, int batch,
+                                     double (*gathered)[3], double (*K)[9]);
 
 /* --- shared by the loops --------------------------------------------------------------------- */
 

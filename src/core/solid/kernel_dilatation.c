@@ -116,8 +116,9 @@ void corot_kernel_dilatation_change(const solid *body, const solid_state *state,
   change_of_dilatation(body, state, u, du, exact, chunk, change);
 }
 
-/* state->gathered = sum over a pool's tets of V d tr(e_p) / du. */
-static void gather_slopes(const solid *body, solid_state *state, int pool) {
+/* gathered = sum over a pool's tets of V d tr(e_p) / du. */
+static void gather_slopes(const solid *body, const solid_state *state, int pool,
+                          double (*gathered)[3]) {
   const dilatation *d = &body->dilatation;
   const element_kind *kind = body->elements.kind;
   for (int k = d->tet_first[pool]; k < d->tet_first[pool + 1]; k++) {
@@ -125,30 +126,34 @@ static void gather_slopes(const solid *body, solid_state *state, int pool) {
     EACH_POINT (kind, q)
       for (int a = 0; a < kind->nnode; a++) {
         const block_vd *slope = state->slope[(b * kind->npoint + q) * kind->nnode + a];
-        double *sum = state->gathered[nodes_at(&body->elements, b, a)[l]];
+        double *sum = gathered[nodes_at(&body->elements, b, a)[l]];
         for (int c = 0; c < 3; c++) sum[c] += slope[c][l];
       }
   }
 }
 
-void corot_kernel_dilatation_tangent(const solid *body, solid_state *state, double (*K)[9]) {
+/* K += factor q q' on the nodes of a ring. */
+static void add_ring(const pattern *p, const int *ring, int n, double factor, double (*q)[3],
+                     double (*K)[9]) {
+  for (int j = 0; j < n; j++) {
+    double *qj = q[ring[j]];
+    for (int i = j, at = p->colptr[ring[j]]; i < n; i++, at++) {
+      while (p->row[at] < ring[i]) at++;
+      for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) K[at][3 * r + c] += factor * (q[ring[i]][r] * qj[c]);
+    }
+  }
+}
+
+void corot_kernel_dilatation_tangent(const solid *body, const solid_state *state, int batch,
+                                     double (*gathered)[3], double (*K)[9]) {
   const dilatation *d = &body->dilatation;
-  const pattern *p = &body->pattern;
-  double(*q)[3] = state->gathered;
-  for (int pool = 0; pool < d->npool; pool++) {
+  for (int pool = batch * BATCH; pool < batch_end(d, batch); pool++) {
     const int *ring = d->ring + d->ring_first[pool];
     int n = d->ring_first[pool + 1] - d->ring_first[pool];
     if (!n) continue;
-    gather_slopes(body, state, pool);
-    double factor = d->lambda[pool] / (d->per * d->volume[pool]);
-    for (int j = 0; j < n; j++) {
-      double *qj = q[ring[j]];
-      for (int i = j, at = p->colptr[ring[j]]; i < n; i++, at++) {
-        while (p->row[at] < ring[i]) at++;
-        for (int r = 0; r < 3; r++)
-          for (int c = 0; c < 3; c++) K[at][3 * r + c] += factor * (q[ring[i]][r] * qj[c]);
-      }
-    }
-    for (int j = 0; j < n; j++) memset(q[ring[j]], 0, sizeof *q);
+    gather_slopes(body, state, pool, gathered);
+    add_ring(&body->pattern, ring, n, d->lambda[pool] / (d->per * d->volume[pool]), gathered, K);
+    for (int j = 0; j < n; j++) memset(gathered[ring[j]], 0, sizeof *gathered);
   }
 }

@@ -196,15 +196,24 @@ static corot_status make_room_aside(bool damped, solid_ranges *r) {
   return corot_fail(COROT_ENOMEM, "no memory for the seams of %d ranges", r->plan.n);
 }
 
+static corot_status make_gathered(int nnode, solid_ranges *r) {
+  r->gathered = calloc(r->plan.n, sizeof *r->gathered);
+  bool room = r->gathered != NULL;
+  for (int k = 0; k < r->plan.n && room; k++)
+    room = (r->gathered[k] = calloc(nnode, sizeof *r->gathered[k])) != NULL;
+  return room ? COROT_OK : corot_fail(COROT_ENOMEM, "no memory for averages of %d nodes", nnode);
+}
+
 corot_status corot_ranges_create(const corot_mesh *mesh, const element_set *t, const pattern *p,
-                                 int n, int together, bool damped, block_vd (*force)[3],
-                                 solid_ranges *out) {
+                                 int n, int together, bool damped, bool averaged,
+                                 block_vd (*force)[3], solid_ranges *out) {
   solid_ranges r = {0};
   corot_status status = share_chunks(p, n, together, &r.plan);
   if (r.plan.n == 1) r.plan.due = p->due, r.plan.turn = p->turn;
   if (!status && r.plan.n > 1) status = find_seams(mesh->nnode, t, p, &r.plan);
   if (!status) status = make_windows(t, p, force, &r);
   if (!status && r.plan.n > 1) status = make_room_aside(damped, &r);
+  if (!status && averaged) status = make_gathered(mesh->nnode, &r);
   if (status) {
     corot_ranges_clear(&r);
     return status;
@@ -216,6 +225,8 @@ corot_status corot_ranges_create(const corot_mesh *mesh, const element_set *t, c
 void corot_ranges_clear(solid_ranges *r) {
   range_plan *plan = &r->plan;
   for (int k = 1; r->force && k < plan->n && r->windowed; k++) free(r->force[k]);
+  for (int k = 0; r->gathered && k < plan->n; k++) free(r->gathered[k]);
+  free(r->gathered);
   if (plan->n > 1) free((int *)plan->due), free((int *)plan->turn);
   free(plan->chunk);
   free(plan->seam), free(plan->force_first), free(plan->copy_first), free(plan->copy);
@@ -229,6 +240,7 @@ size_t corot_ranges_bytes(const solid_ranges *r, const element_set *t, const pat
   const range_plan *plan = &r->plan;
   size_t bytes = (plan->n + 1) * sizeof *plan->chunk;
   bytes += plan->n * (sizeof *r->force + sizeof *r->told);
+  if (r->gathered) bytes += plan->n * (sizeof *r->gathered + p->nnode * sizeof **r->gathered);
   if (plan->n == 1) return bytes;
   size_t nforce = plan->force_first[plan->nseam], npart = plan->part_first[plan->nshared];
   if (r->windowed) bytes += (plan->n - 1) * (size_t)p->window * t->kind->nnode * sizeof **r->force;

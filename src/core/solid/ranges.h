@@ -47,9 +47,10 @@ typedef struct range_result {
 /* What the ranges write to. */
 typedef struct solid_ranges {
   range_plan plan;
-  bool windowed;         /* each range has a window of its own; else one buffer has all elements */
-  block_vd (**force)[3]; /* [n] windows [window][kind->nnode], the first being the state's own */
-  range_result *told;    /* [n] */
+  bool windowed;          /* each range has a window of its own; else one buffer has all elements */
+  block_vd (**force)[3];  /* [n] windows [window][kind->nnode], the first being the state's own */
+  range_result *told;     /* [n] */
+  double (**gathered)[3]; /* [n] [nnode] zero between uses; NULL unless dilatations are averaged */
   double (*aside)[3]; /* [force_first[nseam]] forces set aside; NULL, as the next, of one range */
   double (*aside_K)[9], (*aside_D)[9]; /* [part_first[nshared]] parts of K and D; of D, NULL unless
                                           it is damped */
@@ -58,8 +59,8 @@ typedef struct solid_ranges {
 /* `n` ranges, or as many as there are chunks; `together` elements, as many as have a tet of a
    coarser level above them, stay in one range. */
 corot_status corot_ranges_create(const corot_mesh *mesh, const element_set *t, const pattern *p,
-                                 int n, int together, bool damped, block_vd (*force)[3],
-                                 solid_ranges *out);
+                                 int n, int together, bool damped, bool averaged,
+                                 block_vd (*force)[3], solid_ranges *out);
 void corot_ranges_clear(solid_ranges *r);
 size_t corot_ranges_bytes(const solid_ranges *r, const element_set *t, const pattern *p);
 

@@ -57,15 +57,13 @@ size_t corot_solid_bytes(const solid *body) {
 }
 
 static corot_status allocate_averages(const solid *body, solid_state *s) {
-  int nnode = body->mesh->nnode, npoint = points_of(&body->elements);
-  int npool = body->dilatation.npool;
+  int npoint = points_of(&body->elements), npool = body->dilatation.npool;
   if (!npool) return COROT_OK;
   s->dilatation = corot_vector_calloc(npoint, sizeof *s->dilatation);
   s->dilatation_change = corot_vector_calloc(npoint, sizeof *s->dilatation_change);
   s->slope = corot_vector_calloc((size_t)npoint * body->elements.kind->nnode, sizeof *s->slope);
   s->pool = malloc(npool * sizeof *s->pool);
-  s->gathered = calloc(nnode, sizeof *s->gathered);
-  if (!s->dilatation || !s->dilatation_change || !s->slope || !s->pool || !s->gathered)
+  if (!s->dilatation || !s->dilatation_change || !s->slope || !s->pool)
     return corot_fail(COROT_ENOMEM, "no memory for a state of %d averages", npool);
   return COROT_OK;
 }
@@ -92,7 +90,7 @@ corot_status corot_solid_state_fill(const solid *body, solid_state *s) {
 
 corot_status corot_solid_share(const solid *body, int n, const solid_state *s, solid_ranges *r) {
   return corot_ranges_create(body->mesh, &body->elements, &body->pattern, n, body->together,
-                             body->damped, s->force, r);
+                             body->damped, body->dilatation.npool > 0, s->force, r);
 }
 
 void corot_solid_state_clear(solid_state *s) {
@@ -107,7 +105,6 @@ void corot_solid_state_clear(solid_state *s) {
   free(s->dilatation_change);
   free(s->pool);
   free(s->slope);
-  free(s->gathered);
   free(s->force);
 }
 
@@ -119,7 +116,7 @@ size_t corot_solid_state_bytes(const solid *body, const solid_state *s) {
                  body->pattern.nchunk * (sizeof *s->chunk_sum + sizeof *s->chunk_angles) +
                  corot_ranges_bytes(&s->ranges, &body->elements, &body->pattern);
   if (npool)
-    bytes += npoint * (2 * sizeof *s->dilatation + nnode * sizeof *s->slope) +
-             npool * sizeof *s->pool + body->mesh->nnode * sizeof *s->gathered;
+    bytes +=
+        npoint * (2 * sizeof *s->dilatation + nnode * sizeof *s->slope) + npool * sizeof *s->pool;
   return bytes;
 }

@@ -69,7 +69,6 @@ typedef struct solid_state {
   block_vd *dilatation_change; /* [points] the same of a derivative */
   double *pool;                /* [dilatation.npool] */
   block_vd (*slope)[3];        /* [points][kind->nnode] weight times d tr(e_p) / du */
-  double (*gathered)[3];       /* [nnode] zero between uses */
   block_vd (*force)[3];        /* [window][kind->nnode] element forces, see pattern.h */
   double (*chunk_sum)[2];      /* [nchunk] of energies, in the order of the elements */
   chunk_angles *chunk_angles;  /* [nchunk] */
