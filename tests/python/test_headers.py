@@ -28,6 +28,8 @@ LEFT_OUT = {
     r"corot_block_multiply": "matrices are scipy's, and multiply themselves",
     r"corot_pencil_view": "State.matrices has K and D, Pencil solves with S",
     r"corot_mesh_box_\w+": "none so far",
+    r"corot_state_parallel": "Python has no parallel loop to lend",
+    r"corot_model_threads|corot_processors": "State.threads = 0 takes as many",
     r"corot_sundials_version|corot_version|corot_error|corot_fail": "called, by _library and build_info",
 }
 

@@ -159,6 +159,22 @@ class Meshes(Folder):
 
 
 class Models(unittest.TestCase):
+    def test_threads_of_a_state(self):
+        model = make_bar()
+        u, v = np.full(model.ndof, 1e-4), np.ones(model.ndof)
+        state = corot.State(model)
+        self.assertEqual(state.threads, 1)
+        alone = state.residual(0, u, v)
+        for n in (2, 3, 0, 1):
+            state.threads = n
+            self.assertEqual(state.threads, n or 1)  # it is a small body
+            np.testing.assert_array_equal(state.residual(0, u, v), alone)
+        for n in (-1, 257):
+            with self.assertRaisesRegex(corot.InvalidError, "threads: "):
+                state.threads = n
+        with self.assertRaises(TypeError):
+            state.threads = 1.5
+
     def test_what_a_model_says(self):
         model = make_bar()
         self.assertEqual((model.ndof, model.strain, model.viscosity, model.mass_kind),

@@ -63,6 +63,19 @@ class State(Handle):
     def __repr__(self) -> str:
         return f"<State of {self.model!r}>"
 
+    @property
+    def threads(self) -> int:
+        """How many threads share out what is evaluated and solved with this state: 1 at first. Results
+        are the same to the last bit for every number. 0 takes as many as pay here for a model of this
+        size. InvalidError above 256, MemoryError for a thread that the system does not start."""
+        with self._guard:
+            return int(lib.corot_state_thread_count(self._pointer))
+
+    @threads.setter
+    def threads(self, n: int) -> None:
+        with self._guard:
+            check(lib.corot_state_threads(self._pointer, n))
+
     @contextmanager
     def _evaluate(self) -> Iterator[Any]:
         """The state's pointer, for this thread alone, its inputs included."""
