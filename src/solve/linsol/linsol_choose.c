@@ -23,7 +23,7 @@ enum { NORDERING = 1 };
 /* The solvers, each with its row in a file of its own. */
 static const linsol_ops *const solvers[] = {&corot_linsol_klu, &corot_linsol_cholmod,
                                             &corot_linsol_pcg};
-enum { NSOLVER = sizeof solvers / sizeof *solvers, MOST_NAMES = 4 };
+enum { NSOLVER = sizeof solvers / sizeof *solvers, MOST_NAMES = 5 };
 _Static_assert((int)NSOLVER <= MOST_NAMES, "a choice has no room for the names of all solvers");
 
 /* What else there is to choose: how it is called, and the names that it has beside auto. */
@@ -35,7 +35,7 @@ static const choice orderings = {.what = "ordering", .name = {"amd", "metis"}};
 static const choice factors = {.what = "factor", .name = {"simplicial", "supernodal"}};
 static const choice preconditioners = {
     .what = "preconditioner",
-    .name = {"block-jacobi", "incomplete-cholesky", "hierarchical", "multigrid"}};
+    .name = {"block-jacobi", "incomplete-cholesky", "hierarchical", "multigrid", "amg"}};
 
 const char *const corot_linsol_direct = HAVE_CHOLMOD ? "cholmod" : "klu";
 
@@ -98,8 +98,9 @@ static corot_status find(linsol_plan *plan) {
 }
 
 static corot_status check_refinement(const corot_linear_def *d) {
-  bool needed = row_of(d->solver)->iterative && corot_multilevel_find(d->preconditioner);
-  if (!needed || d->refinement) return COROT_OK;
+  const multilevel_ops *levels =
+      row_of(d->solver)->iterative ? corot_multilevel_find(d->preconditioner) : NULL;
+  if (!levels || !levels->refined || d->refinement) return COROT_OK;
   return corot_fail(COROT_EINVAL, "preconditioner %s: the mesh has no refinement",
                     d->preconditioner);
 }

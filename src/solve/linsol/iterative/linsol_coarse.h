@@ -2,14 +2,13 @@
 #ifndef COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_COARSE_H
 #define COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_COARSE_H
 
+#include "linsol_bottom.h"
 #include "linsol_galerkin.h"
-#include "solve/linsol/linsol.h"
 
 typedef struct coarse_level {
   const galerkin_level *level;
   const int *slot; /* of the node_matrix */
-  linsol s;        /* of the unknowns that are free; no solver where none is */
-  double *x;       /* [s.csc->n] */
+  bottom bottom;   /* of the unknowns that are free */
 } coarse_level;
 
 /* `csc` and A are those of the finest level: the unknowns of level 0 are their first ones. A and

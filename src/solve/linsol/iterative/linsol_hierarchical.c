@@ -35,11 +35,11 @@ static corot_status fill(const corot_refinement *refinement, basis *b) {
 }
 
 static corot_status basis_create(const corot_csc *csc, const node_matrix *A,
-                                 const corot_refinement *refinement, void **self) {
+                                 const linsol_plan *plan, void **self) {
   basis *b = calloc(1, sizeof *b);
   if (!b) return corot_fail(COROT_ENOMEM, "no memory for a hierarchical basis");
   b->csc = csc, b->A = A;
-  corot_status status = fill(refinement, b);
+  corot_status status = fill(plan->def.refinement, b);
   if (status) {
     basis_destroy(b);
     return status;
@@ -104,6 +104,7 @@ static corot_status basis_apply(void *self, const double *r, double *z) {
 
 const multilevel_ops corot_hierarchical_basis = {
     .name = "hierarchical",
+    .refined = true,
     .create = basis_create,
     .factor = basis_factor,
     .apply = basis_apply,

@@ -58,11 +58,11 @@ static corot_status fill(const corot_refinement *refinement, multigrid *m) {
 }
 
 static corot_status multigrid_create(const corot_csc *csc, const node_matrix *A,
-                                     const corot_refinement *refinement, void **self) {
+                                     const linsol_plan *plan, void **self) {
   multigrid *m = calloc(1, sizeof *m);
   if (!m) return corot_fail(COROT_ENOMEM, "no memory for multigrid");
   m->csc = csc, m->A = A;
-  corot_status status = fill(refinement, m);
+  corot_status status = fill(plan->def.refinement, m);
   if (status) {
     multigrid_destroy(m);
     return status;
@@ -188,6 +188,7 @@ static corot_status multigrid_apply(void *self, const double *r, double *z) {
 
 const multilevel_ops corot_multigrid = {
     .name = "multigrid",
+    .refined = true,
     .create = multigrid_create,
     .factor = multigrid_factor,
     .apply = multigrid_apply,
