@@ -164,8 +164,9 @@ enum { NPRECONDITIONER = 2 };
 
 static void *factored(const family *f, const multilevel_ops *ops) {
   void *made;
+  linsol_plan plan = {.def.refinement = f->r};
   assert_ptr_equal(corot_multilevel_find(ops->name), ops);
-  assert_ok(ops->create(f->pencil->csc, &f->A, f->r, &made));
+  assert_ok(ops->create(f->pencil->csc, &f->A, &plan, &made));
   assert_ok(ops->factor(made));
   return made;
 }

@@ -35,7 +35,7 @@ static const choice orderings = {.what = "ordering", .name = {"amd", "metis"}};
 static const choice factors = {.what = "factor", .name = {"simplicial", "supernodal"}};
 static const choice preconditioners = {
     .what = "preconditioner",
-    .name = {"block-jacobi", "incomplete-cholesky", "hierarchical", "multigrid", "amg"}};
+    .name = {"block-jacobi", "incomplete-cholesky", "amg", "hierarchical", "multigrid"}};
 
 const char *const corot_linsol_direct = HAVE_CHOLMOD ? "cholmod" : "klu";
 

@@ -84,11 +84,14 @@ static COROT_CLONES void subtract_3(const block_rows *R, int first, int end, con
                                     double *y) {
   const double *B = R->value + 9 * (size_t)R->rowptr[first];
   for (int i = first; i < end; i++) {
-    vd4 s = vd4_load(x + 3 * (size_t)i);
+    vd4 s = vd4_load(x + 3 * (size_t)i), t = {0}, u = {0}; /* three sums go side by side */
     for (int k = R->rowptr[i]; k < R->rowptr[i + 1]; k++, B += 9) {
       const double *xk = x + 3 * (size_t)R->col[k];
-      s += vd4_load(B) * xk[0] + vd4_load(B + 3) * xk[1] + vd4_load(B + 6) * xk[2];
+      s += vd4_load(B) * xk[0];
+      t += vd4_load(B + 3) * xk[1];
+      u += vd4_load(B + 6) * xk[2];
     }
+    s += t + u;
     double *out = y + 3 * (size_t)i;
     out[0] -= s[0], out[1] -= s[1], out[2] -= s[2];
   }
