@@ -64,6 +64,8 @@ struct linsol_plan {
   bool by_cost;     /* the solver was chosen by its cost, not asked for by name */
   linsol_rival rival;
   long most_iterations; /* of an iterative solver, for one system; 0: its own limit */
+  int most_direct;      /* unknowns of a coarsest level that a direct solver is left with; 0: the
+                           preconditioner's own limit */
   int *order;           /* [unknowns] of a direct solver: an order of little fill; else NULL */
   const double (*x)[3]; /* [nodes of the mesh] where they are when a matrix is factored, for the
                            solver's life; NULL: not known, or of no importance */
