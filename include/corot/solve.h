@@ -40,7 +40,9 @@ typedef struct corot_linear_def {
                                  V-cycles through aggregates of nodes, whose iterations hardly grow
                                  with the mesh; on a refined mesh also "hierarchical", its
                                  hierarchical basis, or "multigrid", V-cycles through its levels,
-                                 both with a factor of level 0. "auto" takes none of these three */
+                                 both with a factor of level 0, or aggregates where that has more
+                                 than 30 000 unknowns. "auto": "amg" in statics of 1500 unknowns and
+                                 more, else "incomplete-cholesky" */
   double tolerance; /* of pcg: residual relative to the right-hand side, > 0 */
   corot_role role;
   const corot_refinement *refinement; /* of the model's mesh, for these two; only read while the

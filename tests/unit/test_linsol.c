@@ -382,8 +382,10 @@ static void names_are_obeyed(void **state) {
   corot_linear_def def = corot_linear_defaults();
   def.solver = "klu", def.ordering = "amd";
   assert_string_equal(choice_of(&def, csc), "klu, amd");
-  def.solver = "pcg", def.role = COROT_ROLE_STATIC;
+  def.solver = "pcg";
   assert_string_equal(choice_of(&def, csc), "pcg, incomplete-cholesky");
+  def.role = COROT_ROLE_STATIC;
+  assert_string_equal(choice_of(&def, csc), "pcg, amg");
   def.preconditioner = "block-jacobi";
   assert_string_equal(choice_of(&def, csc), "pcg, block-jacobi");
   if (built("cholmod")) {
