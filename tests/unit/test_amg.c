@@ -147,30 +147,30 @@ static void list_motions(const pair *p, double (*B)[6]) {
   }
 }
 
-static pair make_pair(holding how, const double abc[3]) {
-  pair p = {.b = large_box(how)};
+/* *p: the rows refer to the matrix in it. */
+static void make_pair(holding how, const double abc[3], pair *p) {
+  *p = (pair){.b = large_box(how)};
   int at, count;
-  p.pencil = pencil_of(&p.b, abc);
-  assert_ok(corot_nodes_create(p.pencil->csc, &p.A));
-  corot_nodes_load(&p.A, p.pencil->csc, p.pencil->S);
-  assert_true(corot_nodes_jacobi(&p.A, &at));
-  assert_ok(corot_rows_create(&p.A, &p.rows));
-  corot_rows_load(&p.A, &p.rows);
+  p->pencil = pencil_of(&p->b, abc);
+  assert_ok(corot_nodes_create(p->pencil->csc, &p->A));
+  corot_nodes_load(&p->A, p->pencil->csc, p->pencil->S);
+  assert_true(corot_nodes_jacobi(&p->A, &at));
+  assert_ok(corot_rows_create(&p->A, &p->rows));
+  corot_rows_load(&p->rows);
   double *work[3];
-  for (int k = 0; k < 3; k++) work[k] = corot_rows_vector(p.A.n, 3);
-  p.largest = 1.1 * corot_rows_largest(&p.rows, 10, work);
+  for (int k = 0; k < 3; k++) work[k] = corot_rows_vector(p->A.n, 3);
+  p->largest = 1.1 * corot_rows_largest(&p->rows, 10, work);
   for (int k = 0; k < 3; k++) free(work[k]);
-  int *aggregate = malloc(p.A.n * sizeof *aggregate);
-  graph_rows g = {p.A.n, p.rows.rowptr, p.rows.col};
+  int *aggregate = malloc(p->A.n * sizeof *aggregate);
+  graph_rows g = {p->A.n, p->rows.rowptr, p->rows.col};
   assert_ok(corot_aggregate(&g, aggregate, &count));
-  assert_ok(corot_prolong_create(&p.rows, aggregate, count, &p.P));
-  assert_ok(corot_project_create(&p.rows, &p.P, &p.project, &p.coarse));
-  p.B = malloc(18 * p.A.n * sizeof *p.B);
-  list_motions(&p, (double(*)[6])p.B);
-  memcpy(p.P.T, p.B, 18 * p.A.n * sizeof *p.B);
-  corot_prolong_split(&p.P);
-  corot_prolong_smooth(&p.rows, p.largest, &p.P);
-  return p;
+  assert_ok(corot_prolong_create(&p->rows, aggregate, count, &p->P));
+  assert_ok(corot_project_create(&p->rows, &p->P, &p->project, &p->coarse));
+  p->B = malloc(18 * p->A.n * sizeof *p->B);
+  list_motions(p, (double(*)[6])p->B);
+  memcpy(p->P.T, p->B, 18 * p->A.n * sizeof *p->B);
+  corot_prolong_split(&p->P);
+  corot_prolong_smooth(&p->rows, p->largest, &p->P);
 }
 
 static void drop_pair(pair *p) {
@@ -183,14 +183,16 @@ static void drop_pair(pair *p) {
 static void rows_are_the_matrix(void **state) {
   (void)state;
   for (int h = 0; h < NHOLDING; h++) {
-    pair p = make_pair(h, step);
+    pair p;
+    make_pair(h, step, &p);
     int n = 3 * p.A.n;
     double *x = corot_rows_vector(p.A.n, 3), *y = calloc(2 * n, sizeof *y), *z = y + n;
     uint64_t seed = 2;
     for (int i = 0; i < n; i++) x[i] = noise(&seed);
     corot_nodes_multiply(&p.A, x, z);
     corot_rows_subtract(&p.rows, x, y);
-    for (int i = 0; i < n; i++) assert_close(-y[i], z[i], 0, 1e-14 * norm_max(n, z));
+    /* single precision rounds each of some 15 or 40 blocks by 6e-8 at the most */
+    for (int i = 0; i < n; i++) assert_close(-y[i], z[i], 0, 3e-7 * norm_max(n, z));
     free(x), free(y), drop_pair(&p);
   }
 }
@@ -200,7 +202,8 @@ static void rows_are_the_matrix(void **state) {
 static void the_largest_eigenvalue_is_found(void **state) {
   (void)state;
   for (int k = 0; k < 2; k++) {
-    pair p = make_pair(CLAMPED, k ? step : stiffness);
+    pair p;
+    make_pair(CLAMPED, k ? step : stiffness, &p);
     int n = 3 * p.A.n;
     double *x = corot_rows_vector(p.A.n, 3), *y = calloc(n, sizeof *y), found = 0;
     uint64_t seed = 2;
@@ -232,7 +235,8 @@ static void rigid_motions_are_reproduced(void **state) {
   (void)state;
   for (int h = 0; h < NHOLDING; h++)
     for (int k = 0; k < 2; k++) {
-      pair p = make_pair(h, k ? step : stiffness);
+      pair p;
+      make_pair(h, k ? step : stiffness, &p);
       int n = 3 * p.A.n, ncoarse = p.P.ncoarse;
       double *b = corot_rows_vector(p.A.n, 3), *x = corot_rows_vector(ncoarse, 6);
       double *y = calloc(2 * n, sizeof *y), *Ab = y + n;
@@ -240,11 +244,10 @@ static void rigid_motions_are_reproduced(void **state) {
         for (int i = 0; i < n; i++) b[i] = p.B[6 * i + mode];
         for (int i = 0; i < 6 * ncoarse; i++) x[i] = p.P.R[6 * i + mode];
         prolong(&p, x, y);
-        memset(Ab, 0, n * sizeof *Ab);
-        corot_rows_subtract(&p.rows, b, Ab);
+        corot_nodes_multiply(&p.A, b, Ab);
         if (h == FREE && k == 0) assert_below(norm_max(n, Ab), 1e-12 * norm_max(n, b));
         for (int i = 0; i < n; i++)
-          assert_close(y[i], b[i] + 4.0 / 3 / p.largest * Ab[i], 0, 1e-12 * norm_max(n, b));
+          assert_close(y[i], b[i] - 4.0 / 3 / p.largest * Ab[i], 0, 1e-12 * norm_max(n, b));
       }
       free(b), free(x), free(y), drop_pair(&p);
     }
@@ -253,7 +256,8 @@ static void rigid_motions_are_reproduced(void **state) {
 static void the_columns_of_an_aggregate_are_orthonormal(void **state) {
   (void)state;
   for (int h = 0; h < NHOLDING; h++) {
-    pair p = make_pair(h, step);
+    pair p;
+    make_pair(h, step, &p);
     for (int a = 0; a < p.P.ncoarse; a++)
       for (int j = 0; j < 6; j++)
         for (int k = 0; k < 6; k++) {
@@ -272,7 +276,8 @@ static void the_columns_of_an_aggregate_are_orthonormal(void **state) {
 
 static void restriction_is_transposed_prolongation(void **state) {
   (void)state;
-  pair p = make_pair(GUIDED, step);
+  pair p;
+  make_pair(GUIDED, step, &p);
   int n = 3 * p.A.n, ncoarse = 6 * p.P.ncoarse;
   double *x = corot_rows_vector(p.P.ncoarse, 6), *y = corot_rows_vector(p.A.n, 3);
   double *Px = calloc(n, sizeof *Px), *Py = calloc(ncoarse, sizeof *Py);
@@ -293,7 +298,8 @@ static void restriction_is_transposed_prolongation(void **state) {
 static void the_coarse_matrix_is_the_projected_one(void **state) {
   (void)state;
   for (int h = 0; h < NHOLDING; h++) {
-    pair p = make_pair(h, step);
+    pair p;
+    make_pair(h, step, &p);
     for (int t = 0; t < 2; t++) {
       memcpy(p.P.T, p.B, 18 * p.A.n * sizeof *p.B);
       corot_prolong_split(&p.P);
@@ -305,14 +311,13 @@ static void the_coarse_matrix_is_the_projected_one(void **state) {
     double *y = calloc(2 * ncoarse, sizeof *y), *z = y + ncoarse, *APx = calloc(n, sizeof *APx);
     for (int j = 0; j < ncoarse; j += 11) {
       memset(x, 0, ncoarse * sizeof *x), memset(y, 0, ncoarse * sizeof *y);
-      memset(APx, 0, n * sizeof *APx);
       x[j] = 1;
       prolong(&p, x, Px);
-      corot_rows_subtract(&p.rows, Px, APx);
+      corot_nodes_multiply(&p.A, Px, APx);
       corot_prolong_restrict(&p.P, APx, z);
       corot_rows_subtract(&p.coarse, x, y);
       bool dead = norm_max(n, Px) == 0;
-      for (int i = 0; i < ncoarse; i++) assert_close(y[i], dead && i == j ? -1 : z[i], 0, 1e-13);
+      for (int i = 0; i < ncoarse; i++) assert_close(y[i], dead && i == j ? -1 : -z[i], 0, 1e-13);
       assert_close(y[j], -1, 0, 1e-15);
     }
     free(x), free(y), free(Px), free(APx), drop_pair(&p);
@@ -325,7 +330,8 @@ static void it_is_symmetric_and_positive(void **state) {
   (void)state;
   for (int h = 0; h < NHOLDING; h++)
     for (int k = h == FREE; k < 2; k++) {
-      pair p = make_pair(h, k ? step : stiffness);
+      pair p;
+      make_pair(h, k ? step : stiffness, &p);
       linsol_plan plan = {.x = (const double(*)[3])p.b.mesh->x};
       void *M;
       assert_ptr_equal(corot_multilevel_find("amg"), &corot_amg);

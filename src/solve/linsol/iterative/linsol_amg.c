@@ -122,21 +122,31 @@ static corot_status make_levels(amg *m) {
   return status;
 }
 
-/* The lower triangle of I + O in columns, the ones of the diagonal being those behind the values.
-   Counts only if there is no room yet. */
+/* Where entry (r, c) of the block below the diagonal stands that mirrors block e. */
+static int source_of(const block_rows *A, int e, int r, int c) {
+  int s = A->size;
+  return A->nodes ? 9 * (A->n + (A->source[e] >> 1)) + 3 * c + r : s * s * e + s * r + c;
+}
+
+/* That of a one: on the diagonal, or behind the values. */
+static int source_of_one(const block_rows *A, int j) {
+  return A->nodes ? 9 * (j / 3) + 4 * (j % 3) : A->rowptr[A->n] * A->size * A->size;
+}
+
+/* The lower triangle of I + O in columns. Counts only if there is no room yet. */
 static int list_entries(const block_rows *A, corot_csc *csc) {
-  int nnz = 0, s = A->size, one = A->rowptr[A->n] * s * s;
+  int nnz = 0, s = A->size;
   for (int j = 0; j < csc->n; j++) {
     csc->colptr[j] = csc->diagonal[j] = nnz;
     csc->node[j] = j / s;
-    if (csc->row) csc->row[nnz] = j, csc->source[nnz] = one;
+    if (csc->row) csc->row[nnz] = j, csc->source[nnz] = source_of_one(A, j);
     nnz++;
     for (int e = A->rowptr[j / s]; e < A->rowptr[j / s + 1]; e++) {
       if (A->col[e] < j / s) continue;
-      for (int r = 0; r < s; r++, nnz++) /* of A_ij, which is A_ji' */
+      for (int r = 0; r < s; r++, nnz++)
         if (csc->row) {
           csc->row[nnz] = s * A->col[e] + r;
-          csc->source[nnz] = s * s * e + s * r + j % s;
+          csc->source[nnz] = source_of(A, e, r, j % s);
         }
     }
   }
@@ -215,7 +225,7 @@ static void list_motions(const amg *m, double (*B)[ROWS_MODES]) {
 
 static corot_status amg_factor(void *self) {
   amg *m = self;
-  corot_rows_load(m->A, &m->level[0].A);
+  corot_rows_load(&m->level[0].A);
   for (int k = 0; k < m->nlevel - 1; k++) {
     amg_level *l = &m->level[k];
     double *const work[3] = {l->x, l->r, l->d};
@@ -235,7 +245,9 @@ static corot_status amg_factor(void *self) {
                         "pcg: the matrix is not positive definite (aggregate %d of level %d)", at,
                         k + 1);
   }
-  corot_status status = corot_bottom_factor(&m->bottom, m->level[m->nlevel - 1].A.value);
+  const block_rows *last = &m->level[m->nlevel - 1].A;
+  corot_status status =
+      corot_bottom_factor(&m->bottom, last->nodes ? last->nodes->value : last->value);
   return status ? corot_fail(status, "pcg, level %d: %s", m->nlevel - 1, corot_error()) : COROT_OK;
 }
 

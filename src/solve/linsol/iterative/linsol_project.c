@@ -122,6 +122,7 @@ COROT_INLINE void add_square(int size, const double *image, const double *T, dou
 COROT_INLINE void find_images(const block_rows *A, const prolongator *P, int size, int column,
                               projection *r) {
   size_t block = (size_t)size * M;
+  double room[9];
   memset(r->W, 0, (size_t)r->n * block * sizeof *r->W);
   for (int p = P->colptr[column]; p < P->colptr[column + 1]; p++) {
     int i = P->row[p];
@@ -129,8 +130,7 @@ COROT_INLINE void find_images(const block_rows *A, const prolongator *P, int siz
     double *own = r->W + (size_t)r->where[i] * block;
     for (size_t k = 0; k < block; k++) own[k] += T[k];
     for (int k = A->rowptr[i]; k < A->rowptr[i + 1]; k++)
-      add_transposed(size, A->value + (size_t)size * size * k, T,
-                     r->W + (size_t)r->where[A->col[k]] * block);
+      add_transposed(size, rows_block(A, k, room), T, r->W + (size_t)r->where[A->col[k]] * block);
   }
 }
 

@@ -173,6 +173,7 @@ COROT_INLINE void subtract_product(int size, double omega, const double *B, cons
 
 COROT_INLINE void smooth(const block_rows *A, double omega, int size, prolongator *P) {
   size_t block = (size_t)size * M;
+  double room[9];
   for (int i = 0; i < A->n; i++) {
     size_t begin = P->rowptr[i] * block, end = P->rowptr[i + 1] * block;
     memset(P->value + begin, 0, (end - begin) * sizeof *P->value);
@@ -184,7 +185,7 @@ COROT_INLINE void smooth(const block_rows *A, double omega, int size, prolongato
     for (int k = A->rowptr[i]; k < A->rowptr[i + 1]; k++) {
       int j = A->col[k];
       if (P->aggregate[j] < 0) continue;
-      subtract_product(size, omega, A->value + (size_t)size * size * k, P->T + j * block,
+      subtract_product(size, omega, rows_block(A, k, room), P->T + j * block,
                        block_at(P, i, P->aggregate[j]));
     }
   }

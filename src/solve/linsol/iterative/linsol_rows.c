@@ -25,7 +25,7 @@ corot_status corot_rows_allocate_values(block_rows *R) {
 }
 
 void corot_rows_clear(block_rows *R) {
-  free(R->rowptr), free(R->col), free(R->source), free(R->value);
+  free(R->rowptr), free(R->col), free(R->source), free(R->value), free(R->single);
   *R = (block_rows){0};
 }
 
@@ -43,9 +43,11 @@ static void fill_pattern(const node_matrix *A, int *next, block_rows *R) {
 corot_status corot_rows_create(const node_matrix *A, block_rows *R) {
   int nbelow = A->colptr[A->n];
   COROT_TRY(corot_rows_allocate(A->n, 2 * nbelow, ROWS_NODE, R));
+  R->nodes = A;
+  R->single = calloc(18 * (size_t)nbelow + ROWS_BEYOND, sizeof *R->single);
   R->source = malloc((2 * (size_t)nbelow + 1) * sizeof *R->source);
   int *next = malloc(((size_t)A->n + 1) * sizeof *next);
-  bool enough = R->source && next;
+  bool enough = R->source && R->single && next;
   if (enough) {
     for (int j = 0; j < A->n; j++)
       for (int k = A->colptr[j]; k < A->colptr[j + 1]; k++)
@@ -57,20 +59,15 @@ corot_status corot_rows_create(const node_matrix *A, block_rows *R) {
     fill_pattern(A, next, R);
   }
   free(next);
-  if (!enough) return corot_fail(COROT_ENOMEM, "no memory for the rows of %d nodes", A->n);
-  return corot_rows_allocate_values(R);
+  return enough ? COROT_OK : corot_fail(COROT_ENOMEM, "no memory for the rows of %d nodes", A->n);
 }
 
-void corot_rows_load(const node_matrix *A, block_rows *R) {
-  const double *below = A->value + 9 * (size_t)A->n;
+void corot_rows_load(block_rows *R) {
+  double room[9];
   for (int e = 0; e < R->rowptr[R->n]; e++) {
-    const double *B = below + 9 * (size_t)(R->source[e] >> 1);
-    double *to = R->value + 9 * (size_t)e;
-    if (R->source[e] & 1)
-      for (int c = 0; c < 3; c++)
-        for (int r = 0; r < 3; r++) to[3 * c + r] = B[3 * r + c];
-    else
-      memcpy(to, B, 9 * sizeof *to);
+    const double *B = rows_block(R, e, room);
+    float *to = R->single + 9 * (size_t)e;
+    for (int k = 0; k < 9; k++) to[k] = (float)B[k];
   }
 }
 
@@ -82,14 +79,14 @@ double *corot_rows_vector(int n, int size) {
 
 static COROT_CLONES void subtract_3(const block_rows *R, int first, int end, const double *x,
                                     double *y) {
-  const double *B = R->value + 9 * (size_t)R->rowptr[first];
+  const float *B = R->single + 9 * (size_t)R->rowptr[first];
   for (int i = first; i < end; i++) {
     vd4 s = vd4_load(x + 3 * (size_t)i), t = {0}, u = {0}; /* three sums go side by side */
     for (int k = R->rowptr[i]; k < R->rowptr[i + 1]; k++, B += 9) {
       const double *xk = x + 3 * (size_t)R->col[k];
-      s += vd4_load(B) * xk[0];
-      t += vd4_load(B + 3) * xk[1];
-      u += vd4_load(B + 6) * xk[2];
+      s += vd4_widen(B) * xk[0];
+      t += vd4_widen(B + 3) * xk[1];
+      u += vd4_widen(B + 6) * xk[2];
     }
     s += t + u;
     double *out = y + 3 * (size_t)i;
