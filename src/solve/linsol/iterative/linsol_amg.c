@@ -4,9 +4,9 @@
    All levels are scaled so that the blocks on the diagonal of their matrix are the identity; what
    smooths is a polynomial of Chebyshev in it. Sums go along rows, in one order.
 
-   Libraries have this, too: PETSc (GAMG) and hypre (BoomerAMG), both with MPI. A process that begins
-   MPI by itself takes 0.3 s, two threads and a daemon for it, and a copy of the process that ends
-   does not come back from MPI. On a cube of 105 000 unknowns, to 1e-8, they take 23 and 16
+   Libraries have this, too: PETSc (GAMG) and hypre (BoomerAMG), both with MPI. A process that
+   begins MPI by itself takes 0.3 s, two threads and a daemon for it, and a copy of the process that
+   ends does not come back from MPI. On a cube of 105 000 unknowns, to 1e-8, they take 23 and 16
    iterations; 1.9 and 2.2 s to set up, 1.7 and 7.8 s to solve. This takes 18, and 0.4 and 0.7 s. On
    a bar with holes GAMG takes 43 iterations, BoomerAMG 124, and this 22.
 
