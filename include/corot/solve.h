@@ -36,10 +36,13 @@ typedef struct corot_linear_def {
   const char *solver;         /* "auto", "klu", "cholmod" (if built in), "pcg" */
   const char *ordering;       /* of klu and cholmod: "auto", "amd", "metis" (if built in) */
   const char *factor;         /* of cholmod: "auto", "simplicial", "supernodal" */
-  const char *preconditioner; /* of pcg: "auto", "block-jacobi", "incomplete-cholesky"; on a refined
-                                 mesh also "hierarchical", its hierarchical basis, or "multigrid",
-                                 V-cycles through its levels, both with a factor of level 0. "auto"
-                                 takes neither */
+  const char *preconditioner; /* of pcg: "auto", "block-jacobi", "incomplete-cholesky", "amg",
+                                 V-cycles through aggregates of nodes, whose iterations hardly grow
+                                 with the mesh; on a refined mesh also "hierarchical", its
+                                 hierarchical basis, or "multigrid", V-cycles through its levels,
+                                 both with a factor of level 0, or aggregates where that has more
+                                 than 30 000 unknowns. "auto": "amg" in statics of 1500 unknowns and
+                                 more, else "incomplete-cholesky" */
   double tolerance; /* of pcg: residual relative to the right-hand side, > 0 */
   corot_role role;
   const corot_refinement *refinement; /* of the model's mesh, for these two; only read while the

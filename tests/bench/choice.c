@@ -58,6 +58,7 @@ static const struct candidate {
     {"cholmod", "metis", "supernodal", "auto", 1000000},
     {"pcg", "auto", "auto", "block-jacobi", 1000000},
     {"pcg", "auto", "auto", "incomplete-cholesky", 1000000},
+    {"pcg", "auto", "auto", "amg", 1000000},
 };
 enum { NCANDIDATE = sizeof candidates / sizeof *candidates };
 

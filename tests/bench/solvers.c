@@ -16,6 +16,7 @@ corot_status problem_create(const specimen *s, const corot_linear_def *def, doub
   if (!p->x) return corot_fail(COROT_ENOMEM, "no memory for %d unknowns", s->n);
   p->b = p->x + s->n;
   for (int i = 0; i < s->n; i++) p->b[i] = 1 + i % 3;
+  corot_linsol_move(&p->s, s->model, 0, s->u);
   corot_csc_combine(s->model, p->s.csc, a, b, (const double(*)[9])s->D, c, (const double(*)[9])s->K,
                     p->s.value);
   return COROT_OK;

@@ -91,6 +91,7 @@ static void preconditioners_by_levels_begin_anew(void **state) {
   (void)state;
   check(&choices[0], COROT_COUPLING_MEAN, "hierarchical", COROT_FRAMES_EXACT);
   check(&choices[0], COROT_COUPLING_MEAN, "multigrid", COROT_FRAMES_HELD);
+  check(&choices[0], COROT_COUPLING_MEAN, "amg", COROT_FRAMES_HELD);
 }
 
 /* Measures, couplings, the level of the frames, and whether these are conservative. */

@@ -160,18 +160,26 @@ static void coarse_matrices_are_as_sparse_as_their_meshes(void **state) {
 
 static const multilevel_ops *const preconditioners[] = {&corot_hierarchical_basis,
                                                         &corot_multigrid};
-enum { NPRECONDITIONER = 2 };
+enum { NPRECONDITIONER = 2, FEW = 10 };
 
-static void *factored(const family *f, const multilevel_ops *ops) {
+/* `most`: unknowns of level 0 that are factored, more being left to aggregates; 0: all there are.
+ */
+static linsol_plan plan_of(const family *f, int most) {
+  return (linsol_plan){
+      .def.refinement = f->r, .most_direct = most, .x = (const double(*)[3])f->b.mesh->x};
+}
+
+static void *factored(const family *f, const multilevel_ops *ops, int most) {
   void *made;
+  linsol_plan plan = plan_of(f, most);
   assert_ptr_equal(corot_multilevel_find(ops->name), ops);
-  assert_ok(ops->create(f->pencil->csc, &f->A, f->r, &made));
+  assert_ok(ops->create(f->pencil->csc, &f->A, &plan, &made));
   assert_ok(ops->factor(made));
   return made;
 }
 
-static void check_symmetry(const family *f, const multilevel_ops *ops) {
-  void *M = factored(f, ops);
+static void check_symmetry(const family *f, const multilevel_ops *ops, int most) {
+  void *M = factored(f, ops, most);
   int n = 3 * f->A.n;
   double *x = calloc(4 * n, sizeof *x), *y = x + n, *Mx = y + n, *My = Mx + n;
   uint64_t seed = 3;
@@ -195,7 +203,8 @@ static void they_are_symmetric_and_positive(void **state) {
   (void)state;
   for (int nsupport = 0; nsupport <= NSUPPORT; nsupport++) {
     family f = make_family(2, nsupport);
-    for (int k = 0; k < NPRECONDITIONER; k++) check_symmetry(&f, preconditioners[k]);
+    for (int k = 0; k < NPRECONDITIONER; k++)
+      for (int most = 0; most <= FEW; most += FEW) check_symmetry(&f, preconditioners[k], most);
     drop_family(&f);
   }
 }
@@ -207,7 +216,7 @@ static void the_basis_is_inverted_as_its_definition_says(void **state) {
   galerkin g;
   assert_ok(corot_galerkin_create(f.pencil->csc, &f.A, f.r, &g));
   corot_galerkin_load(&g);
-  void *M = factored(&f, &corot_hierarchical_basis);
+  void *M = factored(&f, &corot_hierarchical_basis, 0);
   int nnode = f.A.n, n0 = f.r->nnode[0];
   double(*x)[3] = malloc(3 * nnode * sizeof *x), (*y)[3] = x + nnode, (*r)[3] = y + nnode;
   double *all = x[0], *values = y[0];
@@ -227,6 +236,58 @@ static void the_basis_is_inverted_as_its_definition_says(void **state) {
   for (int i = 0; i < 3 * nnode; i++) /* the condition number of T and D is some 1e3 */
     assert_close(values[i], all[i], 0, 1e-12);
   free(x), corot_hierarchical_basis.destroy(M), corot_galerkin_clear(&g), drop_family(&f);
+}
+
+/* Of x' A x, the part that is left after x has lost M^-1 A x: less than all of it, so that the
+   V-cycles of aggregates stand for the factor of level 0. */
+static double left_by(const family *f, const multilevel_ops *ops, int most) {
+  void *M = factored(f, ops, most);
+  node_matrix *A = (node_matrix *)&f->A;
+  int n = 3 * A->n;
+  double *x = calloc(3 * n, sizeof *x), *Ax = x + n, *y = Ax + n, left = 0;
+  uint64_t seed = 3;
+  for (int i = 0; i < f->b.n; i++) x[A->slot[i]] = noise(&seed);
+  for (int k = 0; k < 30; k++) { /* what is left longest is left in the end */
+    corot_nodes_multiply(A, x, Ax);
+    double before = inner(n, x, Ax);
+    assert_ok(ops->apply(M, Ax, y));
+    for (int i = 0; i < n; i++) x[i] -= y[i];
+    corot_nodes_multiply(A, x, Ax);
+    left = inner(n, x, Ax) / before;
+  }
+  free(x), ops->destroy(M);
+  return left;
+}
+
+static void aggregates_stand_for_a_factor_of_level_0(void **state) {
+  (void)state;
+  for (int nsupport = 0; nsupport <= NSUPPORT; nsupport++) {
+    family f = make_family(2, nsupport);
+    double direct = left_by(&f, &corot_multigrid, 0), cycle = left_by(&f, &corot_multigrid, FEW);
+    assert_above(cycle, 0);
+    assert_below(cycle, fmax(1.5 * direct, 0.5));
+    drop_family(&f);
+  }
+}
+
+static corot_status make_with_aggregates(void *context) {
+  const family *f = context;
+  linsol_plan plan = plan_of(f, FEW);
+  void *made;
+  COROT_TRY(corot_multigrid.create(f->pencil->csc, &f->A, &plan, &made));
+  corot_multigrid.destroy(made);
+  return COROT_OK;
+}
+
+static void aggregates_of_level_0_can_fail(void **state) {
+  (void)state;
+  family f = make_family(2, 1);
+  assert_true(assert_survives_failed_allocations(make_with_aggregates, &f) > 40);
+  void *M = factored(&f, &corot_multigrid, FEW);
+  corot_pencil_combine(f.pencil, -200, 0, 1);
+  corot_nodes_load(&f.A, f.pencil->csc, f.pencil->S);
+  assert_fails(corot_multigrid.factor(M), COROT_RETRY, "pcg, level 0: ");
+  corot_multigrid.destroy(M), drop_family(&f);
 }
 
 /* --- as part of a solver --- */
@@ -466,6 +527,8 @@ int main(void) {
       cmocka_unit_test(coarse_matrices_are_as_sparse_as_their_meshes),
       cmocka_unit_test(they_are_symmetric_and_positive),
       cmocka_unit_test(the_basis_is_inverted_as_its_definition_says),
+      cmocka_unit_test(aggregates_stand_for_a_factor_of_level_0),
+      cmocka_unit_test(aggregates_of_level_0_can_fail),
       cmocka_unit_test(they_solve_like_klu),
       cmocka_unit_test(without_levels_they_are_exact),
       cmocka_unit_test(iterations_of_v_cycles_hardly_grow_from_level_to_level),

@@ -193,6 +193,7 @@ static const corot_linear_def solvers[] = {
     {"cholmod", "amd", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
     {"pcg", "auto", "auto", "block-jacobi", 1e-13, COROT_ROLE_DYNAMIC, NULL},
     {"pcg", "auto", "auto", "incomplete-cholesky", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"pcg", "auto", "auto", "amg", 1e-13, COROT_ROLE_DYNAMIC, NULL},
 };
 enum { NSOLVER = sizeof solvers / sizeof *solvers };
 

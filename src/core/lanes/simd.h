@@ -90,6 +90,14 @@ COROT_INLINE vd4 vd4_load(const double *x) {
   return a;
 }
 
+/* Of four numbers of single precision. */
+COROT_INLINE vd4 vd4_widen(const float *x) {
+  typedef float vf4 __attribute__((vector_size(16)));
+  vf4 a;
+  memcpy(&a, x, sizeof a);
+  return __builtin_convertvector(a, vd4);
+}
+
 /* For each width:
    vi_any        whether a lane is set; halves are folded onto each other, so that a few
                  instructions do

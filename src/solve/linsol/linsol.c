@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/sized.h"
+#include "solve/linsol/iterative/linsol_multilevel.h"
 
 /* The solver of a definition whose size is not ours, which has no first member to say so. */
 static const char other_version[] = "of another version";
@@ -36,7 +37,26 @@ static corot_status check_refinement(const corot_model *model, const corot_refin
                     r->nnode[r->nlevel], nnode);
 }
 
-static corot_status make(const corot_model *model, const linsol_plan *plan, linsol *s) {
+/* Where the nodes are, for solvers that ask. */
+static corot_status place(const corot_model *model, linsol_plan *plan, linsol *s) {
+  if (!plan->ops->iterative || !corot_multilevel_find(plan->def.preconditioner)) return COROT_OK;
+  const corot_mesh *mesh = corot_model_mesh(model);
+  s->x = malloc(mesh->nnode * sizeof *s->x);
+  if (!s->x) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", mesh->nnode);
+  memcpy(s->x, mesh->x, mesh->nnode * sizeof *s->x);
+  plan->x = (const double(*)[3])s->x;
+  return COROT_OK;
+}
+
+void corot_linsol_move(linsol *s, const corot_model *model, double t, const double *u) {
+  if (!s->x) return;
+  const corot_mesh *mesh = corot_model_mesh(model);
+  corot_nodal(model, t, u, NULL, s->x, NULL);
+  for (int i = 0; i < mesh->nnode; i++)
+    for (int c = 0; c < 3; c++) s->x[i][c] += mesh->x[i][c];
+}
+
+static corot_status make(const corot_model *model, linsol_plan *plan, linsol *s) {
   s->ops = plan->ops;
   s->name = plan->name;
   s->by_cost = plan->by_cost;
@@ -48,6 +68,7 @@ static corot_status make(const corot_model *model, const linsol_plan *plan, lins
   }
   s->value = malloc(s->csc->nnz * sizeof *s->value);
   if (!s->value) return corot_fail(COROT_ENOMEM, "no memory for %d entries", s->csc->nnz);
+  COROT_TRY(place(model, plan, s));
   return s->ops->create(s->csc, plan, &s->solver);
 }
 
@@ -67,6 +88,7 @@ void corot_linsol_clear(linsol *s) {
   if (s->solver) s->ops->destroy(s->solver);
   corot_csc_destroy(s->csc);
   free(s->value);
+  free(s->x);
   *s = (linsol){0};
 }
 

@@ -68,7 +68,11 @@ struct linsol_plan {
   bool by_cost;     /* the solver was chosen by its cost, not asked for by name */
   linsol_rival rival;
   long most_iterations; /* of an iterative solver, for one system; 0: its own limit */
+  int most_direct;      /* unknowns of a coarsest level that a direct solver is left with; 0: the
+                           preconditioner's own limit */
   int *order;           /* [unknowns] of a direct solver: an order of little fill; else NULL */
+  const double (*x)[3]; /* [nodes of the mesh] where they are when a matrix is factored, for the
+                           solver's life; NULL: not known, or of no importance */
 };
 
 /* `lower`: the lower triangle. COROT_EINVAL: a name that does not exist, or is not in this build.
@@ -89,6 +93,7 @@ typedef struct linsol {
   double *value; /* [csc->nnz] */
   void *solver;
   linsol_rival rival;
+  double (*x)[3]; /* as in the plan */
 } linsol;
 
 /* On the model's pattern. What is half made is released by clear. */
@@ -98,6 +103,10 @@ corot_status corot_linear_check(const corot_linear_def *def);
 COROT_SISTERS corot_status corot_linsol_create(const corot_model *model,
                                                const corot_linear_def *def, linsol *s);
 COROT_SISTERS void corot_linsol_clear(linsol *s);
+
+/* Matrices are of the body displaced by u at t from now on, and not at rest. */
+COROT_SISTERS void corot_linsol_move(linsol *s, const corot_model *model, double t,
+                                     const double *u);
 
 /* Negative pivots of the symmetric matrix `value` on `A` (both triangles), none of which is moved
    from the diagonal: as many as it has negative eigenvalues. Zero pivots count, too. */

@@ -105,6 +105,7 @@ corot_status corot_pencil_assemble(corot_pencil *p, double t, const double *u, c
   p->t = t;
   memcpy(p->u, u, p->n * sizeof *u);
   for (int i = 0; i < p->n; i++) p->v[i] = v ? v[i] : 0;
+  corot_linsol_move(&p->chosen, p->model, t, u);
   p->counts.nassembly++;
   p->counts.assembly_s += clock_wall() - start;
   return status;

@@ -24,22 +24,22 @@ static void basis_destroy(void *self) {
   free(b);
 }
 
-static corot_status fill(const corot_refinement *refinement, basis *b) {
-  COROT_TRY(corot_galerkin_create(b->csc, b->A, refinement, &b->levels));
+static corot_status fill(const linsol_plan *plan, basis *b) {
+  COROT_TRY(corot_galerkin_create(b->csc, b->A, plan->def.refinement, &b->levels));
   size_t n = b->A->n, later = n - b->levels.level[0].n;
   b->inverse = malloc((later + 1) * sizeof *b->inverse);
   b->v = malloc((n + 1) * sizeof *b->v);
   if (!b->inverse || !b->v)
     return corot_fail(COROT_ENOMEM, "no memory for the hierarchical basis of %zu nodes", n);
-  return corot_coarse_create(b->csc, b->A, &b->levels.level[0], &b->coarse);
+  return corot_coarse_create(b->csc, b->A, &b->levels.level[0], plan, &b->coarse);
 }
 
 static corot_status basis_create(const corot_csc *csc, const node_matrix *A,
-                                 const corot_refinement *refinement, void **self) {
+                                 const linsol_plan *plan, void **self) {
   basis *b = calloc(1, sizeof *b);
   if (!b) return corot_fail(COROT_ENOMEM, "no memory for a hierarchical basis");
   b->csc = csc, b->A = A;
-  corot_status status = fill(refinement, b);
+  corot_status status = fill(plan, b);
   if (status) {
     basis_destroy(b);
     return status;
@@ -104,6 +104,7 @@ static corot_status basis_apply(void *self, const double *r, double *z) {
 
 const multilevel_ops corot_hierarchical_basis = {
     .name = "hierarchical",
+    .refined = true,
     .create = basis_create,
     .factor = basis_factor,
     .apply = basis_apply,

@@ -51,18 +51,18 @@ static corot_status make_grids(multigrid *m) {
   return enough ? COROT_OK : corot_fail(COROT_ENOMEM, "no memory for the grids of %d nodes", g->n);
 }
 
-static corot_status fill(const corot_refinement *refinement, multigrid *m) {
-  COROT_TRY(corot_galerkin_create(m->csc, m->A, refinement, &m->levels));
+static corot_status fill(const linsol_plan *plan, multigrid *m) {
+  COROT_TRY(corot_galerkin_create(m->csc, m->A, plan->def.refinement, &m->levels));
   COROT_TRY(make_grids(m));
-  return corot_coarse_create(m->csc, m->A, &m->levels.level[0], &m->coarse);
+  return corot_coarse_create(m->csc, m->A, &m->levels.level[0], plan, &m->coarse);
 }
 
 static corot_status multigrid_create(const corot_csc *csc, const node_matrix *A,
-                                     const corot_refinement *refinement, void **self) {
+                                     const linsol_plan *plan, void **self) {
   multigrid *m = calloc(1, sizeof *m);
   if (!m) return corot_fail(COROT_ENOMEM, "no memory for multigrid");
   m->csc = csc, m->A = A;
-  corot_status status = fill(refinement, m);
+  corot_status status = fill(plan, m);
   if (status) {
     multigrid_destroy(m);
     return status;
@@ -188,6 +188,7 @@ static corot_status multigrid_apply(void *self, const double *r, double *z) {
 
 const multilevel_ops corot_multigrid = {
     .name = "multigrid",
+    .refined = true,
     .create = multigrid_create,
     .factor = multigrid_factor,
     .apply = multigrid_apply,

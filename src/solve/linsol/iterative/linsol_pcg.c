@@ -3,7 +3,7 @@
 
    The preconditioner C C' or C (I + L)(I + L') C' is applied to the system from both sides, so
    that what SUNDIALS sees has none: with incomplete Cholesky an iteration then costs one product.
-   Those of a refined mesh SUNDIALS applies, and C is I. */
+   Those by levels SUNDIALS applies; C is I, or that of block Jacobi. */
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
@@ -83,12 +83,13 @@ static bool make_cg(pcg *p) {
 }
 
 static corot_status prepare(pcg *p, const linsol_plan *plan) {
-  if (p->ops) COROT_TRY(corot_order_create(p->csc, plan->def.refinement, &p->ordered));
+  if (p->ops && p->ops->refined)
+    COROT_TRY(corot_order_create(p->csc, plan->def.refinement, &p->ordered));
   if (p->ordered.csc) p->csc = p->ordered.csc;
   COROT_TRY(corot_nodes_create(p->csc, !p->ops, &p->A));
   p->A.unknown = p->ordered.unknown;
   corot_nodes_keep(&p->A);
-  if (p->ops) COROT_TRY(p->ops->create(p->csc, &p->A, plan->def.refinement, &p->levels));
+  if (p->ops) COROT_TRY(p->ops->create(p->csc, &p->A, plan, &p->levels));
   int n = 3 * p->A.n;
   /* in exact arithmetic as many iterations as unknowns suffice; rounding may ask for some more */
   p->most = 10 * n + 100;
@@ -140,10 +141,11 @@ static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
   *fresh = true;
   p->factored = false;
   corot_nodes_load(&p->A, p->csc, corot_order_values(&p->ordered, value));
-  if (p->ops)
-    COROT_TRY(p->ops->factor(p->levels));
-  else if (!(p->cholesky ? incomplete_cholesky(p, value, &at) : corot_nodes_jacobi(&p->A, &at)))
+  if (!(p->cholesky                 ? incomplete_cholesky(p, value, &at)
+        : !p->ops || p->ops->scaled ? corot_nodes_jacobi(&p->A, &at)
+                                    : true))
     return corot_nodes_indefinite(&p->A, p->csc, at);
+  if (p->ops) COROT_TRY(p->ops->factor(p->levels));
   p->factored = true;
   return COROT_OK;
 }
@@ -258,6 +260,7 @@ static const linsol_variant variants[] = {
     {.name = "pcg, incomplete-cholesky", .preconditioner = "incomplete-cholesky"},
     {.name = "pcg, hierarchical", .preconditioner = "hierarchical"},
     {.name = "pcg, multigrid", .preconditioner = "multigrid"},
+    {.name = "pcg, amg", .preconditioner = "amg"},
     {.name = NULL},
 };
 
