@@ -146,6 +146,17 @@ static size_t room_of(int i, const vtu *w, const corot_mesh *mesh) {
   return is_there(i, w) ? 8 + padded(array_bytes(i, mesh)) : 0;
 }
 
+static unsigned of_mesh(const corot_mesh *mesh, unsigned what) {
+  return corot_mesh_order(mesh) == 2 ? what | OF_ORDER_2 : what;
+}
+
+size_t vtu_bytes(const corot_mesh *mesh) {
+  const vtu w = {.is = of_mesh(mesh, OF_MOTION)};
+  size_t bytes = 0;
+  for (int i = 0; i < NARRAY; i++) bytes += room_of(i, &w, mesh);
+  return bytes;
+}
+
 /* Appends to text [HEADER], which is known to be long enough. */
 static void append(char *text, const char *format, ...) {
   size_t length = strlen(text);
@@ -290,7 +301,7 @@ static corot_status create(const char *dir, const corot_mesh *mesh, const int *m
   vtu *w = calloc(1, sizeof *w);
   if (!w) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
   w->pvd = -1;
-  w->is = corot_mesh_order(mesh) == 2 ? what | OF_ORDER_2 : what;
+  w->is = of_mesh(mesh, what);
   w->list = growth_begin();
   corot_status status = make_image(w, mesh, material);
   if (status == COROT_OK) status = name_files(w, dir);

@@ -31,6 +31,7 @@
 #define COROT_APP_FOLDER_WRITE_VTU_H
 
 #include <corot/mesh.h>
+#include <stddef.h>
 
 #include "growth.h"
 
@@ -56,6 +57,9 @@ corot_status vtu_create_modes(const char *dir, const corot_mesh *mesh, const int
 
 /* The largest displacement of a mode as it is shown, over the length of the model. */
 #define MODE_SHOWN 0.1
+
+/* Bytes of a frame of a motion, but for a few kB of text. */
+size_t vtu_bytes(const corot_mesh *mesh);
 
 vtu_fields vtu_arrays(vtu *w);
 
