@@ -550,6 +550,58 @@ static void failed_allocations_are_reported(void **state) {
     }
 }
 
+/* What a plan comes to on a bar of that many cells, with so much memory in the machine and for the
+   process. */
+static corot_status plan_within(double machine, double process, const char *solver,
+                                linsol_plan *plan) {
+  bar_def def = example2;
+  def.cells[0] = def.cells[1] = 3, def.cells[2] = 12;
+  bar b = bar_create(&def);
+  corot_csc *csc;
+  corot_linear_def linear = corot_linear_defaults();
+  const corot_memory_limit memory = {machine, process, "the test"};
+  linear.solver = solver, linear.factor = "simplicial";
+  assert_ok(corot_csc_create(b.model, COROT_LOWER, &csc));
+  corot_status status = corot_linsol_choose_within(&memory, &linear, csc, plan);
+  corot_csc_destroy(csc);
+  bar_destroy(&b);
+  return status;
+}
+
+/* By the count of its entries, before it is made: 16 bytes each by columns, of some 100 000. */
+static void a_factor_beyond_the_memory_is_refused_or_spared(void **state) {
+  (void)state;
+  linsol_plan plan = {0};
+  assert_ok(plan_within(1e12, 1e12, "auto", &plan));
+  assert_string_equal(plan.ops->name, corot_linsol_direct);
+  assert_true(plan.by_cost);
+  corot_linsol_plan_clear(&plan);
+  /* chosen: within a third of the machine's memory, and within that of the process */
+  const double machine[] = {3e6, 1e12}, process[] = {3e6, 1e6};
+  for (int k = 0; k < 2; k++) {
+    assert_ok(plan_within(machine[k], process[k], "auto", &plan));
+    assert_string_equal(plan.ops->name, "pcg");
+    assert_false(plan.by_cost); /* so that no direct solver takes its place */
+    assert_true(plan.most_iterations == 0);
+    corot_linsol_plan_clear(&plan);
+  }
+  /* asked for by name: within that of the process */
+  assert_fails(plan_within(1e12, 1e6, corot_linsol_direct, &plan), COROT_ENOMEM,
+               "and the test has 0.001; pcg, which makes none, needs");
+  assert_non_null(strstr(corot_error(), corot_linsol_direct));
+  assert_ok(plan_within(1e6, 1e12, corot_linsol_direct, &plan));
+  corot_linsol_plan_clear(&plan);
+  assert_ok(plan_within(1e6, 1e6, "pcg", &plan));
+  corot_linsol_plan_clear(&plan);
+}
+
+static void the_machine_says_how_much_memory_there_is(void **state) {
+  (void)state;
+  corot_memory_limit m = corot_memory_limits();
+  assert_true(m.machine > 1e6 && m.process > 1e6 && m.process <= m.machine);
+  assert_non_null(m.what);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(solve_to_rounding),
@@ -562,6 +614,8 @@ int main(void) {
       cmocka_unit_test(there_is_no_solution_without_a_factor),
       cmocka_unit_test(pcg_iterates_to_its_tolerance),
       cmocka_unit_test(auto_goes_by_shape_size_and_role),
+      cmocka_unit_test(a_factor_beyond_the_memory_is_refused_or_spared),
+      cmocka_unit_test(the_machine_says_how_much_memory_there_is),
       cmocka_unit_test(names_are_obeyed),
       cmocka_unit_test(other_names_are_refused),
       cmocka_unit_test(orderings_keep_the_unknowns_of_a_node_together),

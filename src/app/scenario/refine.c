@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "app/text/no_memory.h"
+#include "core/base/memory_limit.h"
 
 /* Of a mesh of either order, while it is made. */
 static const double bytes_per_tet[] = {0, 50, 250};
@@ -25,19 +25,10 @@ corot_status refine_fits(int ntet, int nlevel, double memory) {
   return fits(ntet, 1, nlevel, memory);
 }
 
-/* Infinite where the system does not say. */
-static double physical_memory(void) {
-#ifdef _SC_PHYS_PAGES
-  long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-  if (pages > 0 && size > 0) return (double)pages * (double)size;
-#endif
-  return INFINITY;
-}
-
 corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
                          corot_refinement **refinement) {
   corot_mesh *fine;
-  COROT_TRY(fits((*mesh)->ntet, corot_mesh_order(*mesh), nlevel, physical_memory()));
+  COROT_TRY(fits((*mesh)->ntet, corot_mesh_order(*mesh), nlevel, corot_memory_limits().process));
   COROT_TRY(corot_mesh_refine(*mesh, nlevel, diagonal, &fine, refinement));
   corot_mesh_destroy(*mesh);
   *mesh = fine;
@@ -96,7 +87,7 @@ static corot_status check_room(const corot_mesh *mesh, int order, double memory)
 corot_status change_order(int order, corot_mesh **mesh, corot_refinement *refinement) {
   corot_mesh *changed;
   if (order == corot_mesh_order(*mesh)) return COROT_OK;
-  COROT_TRY(check_room(*mesh, order, physical_memory()));
+  COROT_TRY(check_room(*mesh, order, corot_memory_limits().process));
   COROT_TRY(corot_mesh_change_order(*mesh, order, &changed));
   corot_mesh_destroy(*mesh);
   *mesh = changed;

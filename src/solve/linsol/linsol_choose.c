@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/memory_limit.h"
 #include "linsol.h"
 #include "linsol_graph.h"
 #include "solve/linsol/iterative/linsol_multilevel.h"
@@ -139,17 +140,54 @@ static const double steps = 20, solutions = 1.1;
    many as there are nodes along an edge, times this; without it, as there are along the body. */
 static const double per_edge = 9, per_length = 20;
 
-/* Larger factors (8 GB) do not fit many a memory. */
-static const double most_entries = 1e9;
+/* Bytes for an entry of the factor: cholmod in dense blocks, with its work space (11 measured, with
+   blocks that are filled up), and by columns; klu, which has two factors with their indices. */
+static const double in_blocks = 11, by_columns = 16, of_klu = 30;
+
+/* Bytes for an entry of the matrix's triangle of what there is beside a factor: mesh, model, state,
+   K and D, the matrix, the integrator's vectors and a frame of the fields; and for what conjugate
+   gradients need (corot-bench phases). */
+static const double beside = 100, of_iteration = 20;
+
+/* Factors that need more of the machine than this part are not chosen: others are at work on it. */
+static const double most_of_machine = 1.0 / 3;
 
 static double factor_ns(const graph_fill *f) { return operation_ns * f->flops + made_ns * f->nnz; }
+
+static bool pays_in_blocks(const graph_fill *f) { return f->flops > dense * f->nnz; }
+
+/* Of a whole run by the direct solver that is asked for or would be chosen. */
+static double bytes_of(const corot_linear_def *d, const corot_csc *csc, const graph_fill *f) {
+  const char *solver = d->solver ? d->solver : corot_linsol_direct;
+  bool blocks = d->factor ? strcmp(d->factor, "supernodal") == 0 : pays_in_blocks(f);
+  double entry = strcmp(solver, "klu") == 0 ? of_klu : blocks ? in_blocks : by_columns;
+  return beside * csc->nnz + entry * f->nnz;
+}
+
+/* A direct solver that does not fit: its memory, and the sentence. */
+static corot_status check_room(const corot_linear_def *d, const corot_csc *csc, const graph_fill *f,
+                               const corot_memory_limit *memory) {
+  double bytes = bytes_of(d, csc, f);
+  if (bytes <= memory->process) return COROT_OK;
+  return corot_fail(
+      COROT_ENOMEM,
+      "linear solver %s: a factor of %.3g entries for %d unknowns needs %.3g GB of memory in all, "
+      "and %s has %.3g; pcg, which makes none, needs %.3g",
+      d->solver, f->nnz, csc->n, bytes / 1e9, memory->what, memory->process / 1e9,
+      (beside + of_iteration) * csc->nnz / 1e9);
+}
+
+/* Whether a factor would leave too little of the memory for others. */
+static bool is_too_large(const corot_linear_def *d, const corot_csc *csc, const graph_fill *f,
+                         const corot_memory_limit *memory) {
+  return bytes_of(d, csc, f) > fmin(memory->process, most_of_machine * memory->machine);
+}
 
 /* Whether conjugate gradients are the faster, by a margin: a factor does not depend on how well
    conditioned a matrix is, nor on the guesses above. */
 static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill *f,
                            corot_role role) {
   const double margin = 1.15;
-  if (f->nnz > most_entries) return true;
   if (role == COROT_ROLE_STATIC && HAVE_CHOLMOD)
     return false; /* pcg cannot tell a stable equilibrium */
   double factor = factor_ns(f), solution = solved_ns * f->nnz;
@@ -166,14 +204,30 @@ static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill
    direct solver that was not chosen are kept, and one system may cost three factors and solutions
    (see corot_pencil_solve). */
 static void limit_iterations(const corot_csc *csc, const graph_fill *f, linsol_plan *plan) {
-  if (f->nnz > most_entries) return; /* there is no other */
   double iteration = iterated_ns * csc->nnz;
   plan->rival.factor = factor_ns(f) / iteration;
   plan->rival.solution = solved_ns * f->nnz / iteration;
   plan->most_iterations = 100 + lround(fmin(1e9, 3 * (plan->rival.factor + plan->rival.solution)));
 }
 
-static corot_status analyze(const corot_csc *csc, node_graph *g, linsol_plan *plan) {
+static corot_status decide(const corot_csc *csc, node_graph *g, const graph_fill *f,
+                           const corot_memory_limit *memory, linsol_plan *plan) {
+  corot_linear_def *d = &plan->def;
+  bool too_large = is_too_large(d, csc, f, memory);
+  if (!d->solver && (too_large || iteration_pays(csc, g, f, d->role))) {
+    d->solver = corot_linsol_pcg.name;
+    plan->by_cost = !too_large;
+    if (!too_large) limit_iterations(csc, f, plan); /* else there is no other */
+  } else {
+    if (!d->solver) d->solver = corot_linsol_direct;
+    COROT_TRY(check_room(d, csc, f, memory));
+  }
+  if (!d->factor) d->factor = pays_in_blocks(f) ? "supernodal" : "simplicial";
+  return COROT_OK;
+}
+
+static corot_status analyze(const corot_csc *csc, node_graph *g, const corot_memory_limit *memory,
+                            linsol_plan *plan) {
   corot_linear_def *d = &plan->def;
   graph_fill fill = {0};
   int *nodes = malloc(csc->n * sizeof *nodes);
@@ -185,18 +239,12 @@ static corot_status analyze(const corot_csc *csc, node_graph *g, linsol_plan *pl
   for (int k = 0, i = 0; k < g->n && !status; k++)
     for (int j = g->first[nodes[k]]; j < g->first[nodes[k] + 1]; j++) plan->order[i++] = j;
   free(nodes);
-  if (status) return status;
-  if (!d->solver && iteration_pays(csc, g, &fill, d->role)) {
-    d->solver = corot_linsol_pcg.name;
-    limit_iterations(csc, &fill, plan);
-  }
-  if (!d->solver) d->solver = corot_linsol_direct;
-  if (!d->factor) d->factor = fill.flops > dense * fill.nnz ? "supernodal" : "simplicial";
-  return COROT_OK;
+  return status ? status : decide(csc, g, &fill, memory, plan);
 }
 
-corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
-                                 linsol_plan *plan) {
+corot_status corot_linsol_choose_within(const corot_memory_limit *memory,
+                                        const corot_linear_def *def, const corot_csc *lower,
+                                        linsol_plan *plan) {
   linsol_plan p = {.def = *def};
   node_graph g = {0};
   COROT_TRY(look_up_all(&p.def));
@@ -205,7 +253,7 @@ corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *l
   p.by_cost = !asked;
   if (!asked || !asked->iterative) {
     status = corot_graph_create(lower, &g);
-    if (!status) status = analyze(lower, &g, &p);
+    if (!status) status = analyze(lower, &g, memory, &p);
   }
   corot_graph_clear(&g);
   if (!p.def.preconditioner) p.def.preconditioner = "incomplete-cholesky";
@@ -217,6 +265,12 @@ corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *l
   }
   *plan = p;
   return COROT_OK;
+}
+
+corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
+                                 linsol_plan *plan) {
+  const corot_memory_limit memory = corot_memory_limits();
+  return corot_linsol_choose_within(&memory, def, lower, plan);
 }
 
 void corot_linsol_plan_clear(linsol_plan *plan) {
