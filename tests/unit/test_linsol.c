@@ -559,10 +559,10 @@ static corot_status plan_within(double machine, double process, const char *solv
   bar b = bar_create(&def);
   corot_csc *csc;
   corot_linear_def linear = corot_linear_defaults();
-  const corot_memory_limit memory = {machine, process, "the test"};
+  const corot_memory_limit limits = {machine, process, "the test"};
   linear.solver = solver, linear.factor = "simplicial";
   assert_ok(corot_csc_create(b.model, COROT_LOWER, &csc));
-  corot_status status = corot_linsol_choose_within(&memory, &linear, csc, plan);
+  corot_status status = corot_linsol_choose_within(&limits, &linear, csc, plan);
   corot_csc_destroy(csc);
   bar_destroy(&b);
   return status;
