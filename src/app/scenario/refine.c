@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "app/text/no_memory.h"
@@ -23,6 +24,21 @@ static corot_status fits(int ntet, int order, int nlevel, double memory) {
 
 corot_status refine_fits(int ntet, int nlevel, double memory) {
   return fits(ntet, 1, nlevel, memory);
+}
+
+/* Of a mesh of either order, its model and the state of its evaluations (corot-bench phases). */
+static const double bytes_of_run[] = {0, 500, 3400};
+
+corot_status run_fits(int ntet, int order, int nlevel, const corot_memory_limit *memory) {
+  double fine = ntet * pow(8, nlevel), bytes = fine * bytes_of_run[order];
+  if (bytes <= memory->process) return COROT_OK;
+  char refined[80] = "";
+  if (nlevel > 0)
+    snprintf(refined, sizeof refined, "refining %d tets %d times makes %.3g, ", ntet, nlevel, fine);
+  return corot_fail(COROT_EINVAL,
+                    "%s%.3g tets of order %d need at least %.3g GB of memory in a run, and %s has "
+                    "%.3g",
+                    refined, fine, order, bytes / 1e9, memory->what, memory->process / 1e9);
 }
 
 corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
