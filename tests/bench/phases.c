@@ -129,7 +129,7 @@ static corot_status solve(body *b) { return corot_pencil_solve(b->pencil, b->s.r
 static corot_status write_fields(body *b) {
   int *material = calloc((size_t)b->mesh->ntet, sizeof *material);
   if (!material) return corot_fail(COROT_ENOMEM, "no memory for %d tets", b->mesh->ntet);
-  corot_status status = vtu_create(b->folder, b->mesh, material, &b->fields);
+  corot_status status = vtu_create(b->folder, b->mesh, material, VTU_RAW, &b->fields);
   free(material);
   COROT_TRY(status);
   vtu_fields to = vtu_arrays(b->fields);

@@ -481,7 +481,8 @@ static void resolved_values(void **state) {
       "\"start\":\"rest\",\"statics\":{\"frames\":\"exact\",\"tolerance\":1e-10,"
       "\"max_iterations\":20,\"first_step\":1.0,\"min_step\":0.0001,\"max_step\":1.0},"
       "\"probes\":{},\"output\":{\"fields\":"
-      "\"vtu\",\"every\":\"auto\",\"history\":true,\"states\":\"none\",\"space_error\":\"auto\"}}");
+      "\"vtu\",\"every\":\"auto\",\"compression\":\"none\",\"history\":true,\"states\":\"none\","
+      "\"space_error\":\"auto\"}}");
   free(text);
   json_decref(r);
 }

@@ -41,9 +41,10 @@ static corot_status begin(fields *f, const writer_source *source) {
   int *material = calloc((size_t)mesh->ntet, sizeof *material);
   if (!material) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", source->dir);
   fields_number_materials(&source->scenario->model, mesh, material);
+  vtu_data data = source->scenario->compress_fields ? VTU_ZLIB : VTU_RAW;
   corot_status status = source->from
-                            ? vtu_resume(source->dir, mesh, material, source->from, &f->file)
-                            : vtu_create(source->dir, mesh, material, &f->file);
+                            ? vtu_resume(source->dir, mesh, material, data, source->from, &f->file)
+                            : vtu_create(source->dir, mesh, material, data, &f->file);
   free(material);
   COROT_TRY(status);
   return source->from ? COROT_OK : groups_write(source->dir, source->scenario->resolved, mesh);

@@ -112,6 +112,7 @@ typedef struct scenario {
 
   bool write_fields;    /* output.fields: vtu */
   int field_every;      /* every so many output times; 0: auto (field_frames.h) */
+  bool compress_fields; /* output.compression: zlib */
   bool write_history;   /* output.history: true */
   bool write_all_steps; /* output.steps: all */
   bool write_states;    /* output.states: binary */

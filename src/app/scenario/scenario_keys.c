@@ -198,6 +198,7 @@ static const schema_key keys[] = {
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},
   {"output.every",            INTEGER,         OPTIONAL, POSITIVE,     "",        "auto", "auto", "fields at every so many output times, and the last; auto: 1 or, where all frames of a run would take more than 100 MB together, so many that they take at most that, or the first and the last alone; corot check and corot run say so"},
+  {"output.compression",      CHOICE,          OPTIONAL, ANY,          "",        "none", "none|zlib", "of the fields; zlib: as ParaView and VTK read them, bit for bit the same"},
   {"output.history",          CHOICE,          OPTIONAL, ANY,          "",        "true", "true|false", "history.csv: probes and energies at the end of every step, not at output times alone"},
   {"output.steps",            CHOICE,          OPTIONAL, ANY,          "",        0, "thin|all", "rows of steps.csv; thin, the default: each step up to 10 000, each tenth up to 100 000, each hundredth up to 1 000 000 and so on, and kinks, restarts, failures and the last one; result.json says what is there"},
   {"output.states",           CHOICE,          OPTIONAL, ANY,          "",        "none", "binary|none", "states.bin: displacement and velocity of all degrees of freedom at the output times, to the last bit"},
