@@ -372,7 +372,7 @@ static corot_status warn(run *r, int code) {
   corot_statistics n = corot_integrator_statistics(r->integrator);
   run_end end = run_end_of(r->scenario, r->model, r->state, r->outputs, r->options);
   end.code = code;
-  end.work = (run_work){n.nfe + n.nfeQ, n.nje, n.nfactor, n.nsolve};
+  end.work = (run_work){n.nfe + n.nfeQ, n.nje, n.nfactor, n.nsolve, n.nli};
   return run_warn_after(&end, &r->warnings, &r->seen);
 }
 

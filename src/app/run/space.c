@@ -16,18 +16,17 @@
 #define OF_FORCE 1e-7 /* with what an integrator does beside */
 #define OF_ASSEMBLY 5e-7
 #define OF_SOLUTION 4e-7
+#define OF_ITERATION 5e-8 /* conjugate gradients */
 #define OF_ESTIMATE 4e-5
 static double of_factor(double n) { return 4e-9 * n * n; }
 
 #define MOST_OF_A_RUN 0.1
 #define NEXT_TO_NOTHING 0.05 /* [s] as above: what reading and writing files takes anyway */
 
-static bool is_cheap(const space_question *q) {
-  double ntet = corot_model_mesh(q->model)->ntet, n = corot_model_ndof(q->model);
-  const run_work *w = &q->work;
+bool space_is_cheap(double ntet, double n, const run_work *w) {
   double run = ntet * (OF_FORCE * (double)w->nforce + OF_ASSEMBLY * (double)w->nassembly +
-                       OF_SOLUTION * (double)w->nsolve) +
-               of_factor(n) * (double)w->nfactor;
+                       OF_SOLUTION * (double)w->nsolve + OF_ITERATION * (double)w->niteration);
+  if (w->niteration == 0) run += of_factor(n) * (double)w->nfactor;
   double estimate = OF_ESTIMATE * ntet + of_factor(n);
   return estimate <= NEXT_TO_NOTHING || estimate <= MOST_OF_A_RUN * run;
 }
@@ -43,7 +42,7 @@ static const char *find_reason(const space_question *q) {
   if (!q->ended_well) return "the run has not reached its end";
   if (s->space_error == SPACE_ERROR_ON) return NULL;
   if (q->options->lean) return "option --lean";
-  if (!is_cheap(q))
+  if (!space_is_cheap(corot_model_mesh(q->model)->ntet, corot_model_ndof(q->model), &q->work))
     return "it may take more than a tenth of the run; output.space_error: true makes it";
   return NULL;
 }

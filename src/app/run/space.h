@@ -15,7 +15,11 @@
 /* What a run has done, for its cost. */
 typedef struct run_work {
   long nforce, nassembly, nfactor, nsolve;
+  long niteration; /* of an iterative solver, whose factors are none */
 } run_work;
+
+/* Whether an estimate on a mesh of that many tets and degrees of freedom costs little beside it. */
+bool space_is_cheap(double ntet, double n, const run_work *work);
 
 typedef struct space_seen {
   const char *left_out; /* why there is no estimate, static; NULL: there is one, */
