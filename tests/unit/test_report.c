@@ -112,6 +112,63 @@ static void a_surface_is_what_one_tet_has(void **state) {
   corot_mesh_destroy(mesh);
 }
 
+/* By the divergence theorem, of what the triangles enclose: they wind outward. */
+static double enclosed(const surface *s, const corot_mesh *mesh) {
+  double volume = 0;
+  for (int i = 0; i < s->ntri; i++) {
+    const double *x[3];
+    for (int k = 0; k < 3; k++) x[k] = mesh->x[s->node[s->corner[i][k]]];
+    for (int k = 0; k < 3; k++) {
+      int l = (k + 1) % 3, m = (k + 2) % 3;
+      volume += x[0][k] * (x[1][l] * x[2][m] - x[1][m] * x[2][l]) / 6;
+    }
+  }
+  return volume;
+}
+
+/* A cube and a plate one cell thick, whose sides must not fall together; triangles that replace
+   some of a curved or cut corner enclose a little less, of the plate nothing at all. */
+static void a_large_surface_is_thinned(void **state) {
+  (void)state;
+  static const corot_box boxes[] = {{{1, 1, 1}, {12, 12, 12}, {0}, COROT_BOX_KUHN},
+                                    {{1, 1, 0.01}, {30, 30, 1}, {0}, COROT_BOX_KUHN}};
+  for (int b = 0; b < 2; b++) {
+    corot_mesh *mesh;
+    surface s, whole;
+    assert_ok(corot_mesh_box(&boxes[b], &mesh));
+    const double(*x)[3] = (const double(*)[3])mesh->x;
+    assert_ok(surface_create(mesh->nnode, mesh->ntet, (const int(*)[4])mesh->tet, &s));
+    assert_ok(surface_create(mesh->nnode, mesh->ntet, (const int(*)[4])mesh->tet, &whole));
+    int ntri = s.ntri;
+    assert_ok(surface_thin(&s, x, mesh->nnode, ntri));
+    assert_int_equal(s.ntri, ntri); /* it is no larger */
+    assert_null(s.stands);
+    assert_ok(surface_thin(&s, x, mesh->nnode, 500));
+    assert_in_range(s.ntri, 150, 500);
+    double volume = enclosed(&whole, mesh);
+    assert_close(enclosed(&s, mesh), volume, 0.05, 0);
+
+    /* each node has one that stands for it, which is near; inside there is none */
+    double low = 1, high = 0;
+    for (int i = 0; i < s.nnode; i++) {
+      assert_int_equal(s.stands[s.node[i]], i);
+      if (i > 0) assert_true(s.node[i] > s.node[i - 1]);
+      low = fmin(low, x[s.node[i]][0]), high = fmax(high, x[s.node[i]][0]);
+    }
+    assert_true(low == 0 && high == 1);
+    int inside = 0;
+    for (int i = 0; i < mesh->nnode; i++) {
+      inside += s.stands[i] < 0;
+      for (int c = 0; c < 3 && s.stands[i] >= 0; c++)
+        assert_close(x[s.node[s.stands[i]]][c], x[i][c], 0, 0.2);
+    }
+    assert_int_equal(inside, b == 0 ? 11 * 11 * 11 : 0);
+    surface_free(&s);
+    surface_free(&whole);
+    corot_mesh_destroy(mesh);
+  }
+}
+
 /* Three frames of a box, with values that tell where they are from. */
 static void write_fields(const char *dir) {
   corot_mesh *mesh;
@@ -704,6 +761,7 @@ int main(void) {
       cmocka_unit_test(tables_are_read_back),
       cmocka_unit_test(data_are_encoded_for_scripts),
       cmocka_unit_test(a_surface_is_what_one_tet_has),
+      cmocka_unit_test(a_large_surface_is_thinned),
       cmocka_unit_test(fields_are_read_back),
       cmocka_unit_test(foreign_fields_are_refused),
       cmocka_unit_test(compressed_fields_are_the_same_to_the_last_bit),

@@ -7,7 +7,6 @@
 
 #include "app/folder/folder.h"
 #include "app/folder/inventory.h"
-#include "app/run/space.h"
 #include "whole_run.h"
 
 static void a_run_leaves_its_books(void **state) {
@@ -382,22 +381,11 @@ static void a_bad_scenario_leaves_no_folder(void **state) {
   remove_folder(dir);
 }
 
-/* Twenty factors pay for the factor that an estimate makes; as many preconditioners do not. */
-static void iterations_are_no_factors_for_the_space_error(void **state) {
-  (void)state;
-  run_work by_factors = {100, 1, 20, 100, 0}, by_iterations = {100, 1, 20, 100, 2500};
-  assert_true(space_is_cheap(1.38e6, 738360, &by_factors));
-  assert_false(space_is_cheap(1.38e6, 738360, &by_iterations));
-  by_iterations.niteration = 250000000;
-  assert_true(space_is_cheap(1.38e6, 738360, &by_iterations));
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_run_leaves_its_books),
       cmocka_unit_test(the_phases_make_up_the_time),
       cmocka_unit_test(the_output_grid_leaves_the_steps_alone),
-      cmocka_unit_test(iterations_are_no_factors_for_the_space_error),
       cmocka_unit_test(the_end_is_an_output_time),
       cmocka_unit_test(exact_frames_stop_at_kinks_only),
       cmocka_unit_test(the_ledger_closes_with_the_tolerance),
