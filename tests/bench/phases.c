@@ -282,12 +282,13 @@ static void print(const body *b, const result *r) {
 
 static corot_status run_phase(body *b, const struct phase *p) {
   result r = {.name = p->name};
-  double before = resident_now(), wall, cpu;
   resident_begin();
+  double before = resident_now(), wall, cpu;
   wall = wall_clock(), cpu = cpu_clock();
   COROT_TRY(p->work(b));
   r.wall = wall_clock() - wall, r.cpu = cpu_clock() - cpu;
   r.most = resident_most() - b->base;
+  resident_begin();
   r.held = resident_now() - before;
   if (p->work == make_state) b->steps = cost_polar_steps(&b->s);
   r.least = p->least(b);
@@ -308,6 +309,7 @@ static corot_status write_file(body *b, int ntet) {
 static corot_status run_phases(body *b, int ntet) {
   COROT_TRY(write_file(b, ntet));
   b->bandwidth = machine_bandwidth(200 << 20);
+  resident_begin();
   b->base = resident_now();
   for (size_t k = 0; k < sizeof phases / sizeof *phases; k++) COROT_TRY(run_phase(b, &phases[k]));
   if (b->a->json) return COROT_OK;

@@ -577,12 +577,12 @@ static void a_factor_beyond_the_memory_is_refused_or_spared(void **state) {
   assert_true(plan.by_cost);
   corot_linsol_plan_clear(&plan);
   /* chosen: within a third of the machine's memory, and within that of the process */
-  const double machine[] = {3e6, 1e12}, process[] = {3e6, 1e6};
+  const double machine[] = {3e6, 1e12}, process[] = {1e12, 1e6};
   for (int k = 0; k < 2; k++) {
     assert_ok(plan_within(machine[k], process[k], "auto", &plan));
     assert_string_equal(plan.ops->name, "pcg");
-    assert_false(plan.by_cost); /* so that no direct solver takes its place */
-    assert_true(plan.most_iterations == 0);
+    assert_true(plan.by_cost == (k == 0)); /* whether a direct solver may take its place: */
+    assert_true(plan.most_iterations == 0 && plan.rival.factor == 0); /* never by its cost */
     corot_linsol_plan_clear(&plan);
   }
   /* asked for by name: within that of the process */

@@ -67,7 +67,7 @@ struct linsol_plan {
   const linsol_ops *ops;
   const char *name; /* static: "cholmod supernodal, amd", "klu, metis", "pcg, block-jacobi" */
   bool by_cost;     /* the solver was chosen by its cost, not asked for by name, nor because nothing
-                       else fits into memory */
+                       else fits into memory: another may take its place */
   linsol_rival rival;
   long most_iterations; /* of an iterative solver, for one system; 0: its own limit */
   int *order;           /* [unknowns] of a direct solver: an order of little fill; else NULL */

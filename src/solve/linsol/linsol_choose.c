@@ -213,11 +213,14 @@ static void limit_iterations(const corot_csc *csc, const graph_fill *f, linsol_p
 static corot_status decide(const corot_csc *csc, node_graph *g, const graph_fill *f,
                            const corot_memory_limit *memory, linsol_plan *plan) {
   corot_linear_def *d = &plan->def;
-  bool too_large = is_too_large(d, csc, f, memory);
+  bool too_large = is_too_large(d, csc, f, memory), fits = bytes_of(d, csc, f) <= memory->process;
   if (!d->solver && (too_large || iteration_pays(csc, g, f, d->role))) {
     d->solver = corot_linsol_pcg.name;
-    plan->by_cost = !too_large;
-    if (!too_large) limit_iterations(csc, f, plan); /* else there is no other */
+    /* a large factor is made where iterations fail, not where they are slow; what does not fit,
+     * never
+     */
+    plan->by_cost = fits;
+    if (!too_large) limit_iterations(csc, f, plan);
   } else {
     if (!d->solver) d->solver = corot_linsol_direct;
     COROT_TRY(check_room(d, csc, f, memory));
