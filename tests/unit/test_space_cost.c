@@ -12,8 +12,17 @@ static void iterations_are_no_factors_for_the_space_error(void **state) {
   assert_true(space_is_cheap(1.38e6, 738360, &by_iterations));
 }
 
+/* What would end a run for want of memory, when all of it is there but the last file, is left out.
+ */
+static void it_is_not_begun_without_the_memory(void **state) {
+  (void)state;
+  assert_true(space_fits(9e5, 24e9));
+  assert_false(space_fits(1.38e6, 24e9));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(it_is_not_begun_without_the_memory),
       cmocka_unit_test(iterations_are_no_factors_for_the_space_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

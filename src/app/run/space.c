@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "app/text/json_text.h"
+#include "core/base/memory_limit.h"
 #include "run_clock.h"
 
 /* --- What it costs --- */
@@ -31,6 +32,12 @@ bool space_is_cheap(double ntet, double n, const run_work *w) {
   return estimate <= NEXT_TO_NOTHING || estimate <= MOST_OF_A_RUN * run;
 }
 
+/* Model, state and matrices of ten-node tets, 11.5 kB each (corot-bench phases --order 2), and the
+   factor of the four-node ones: as much again for a million of them. */
+#define BYTES_PER_TET 25e3
+
+bool space_fits(double ntet, double memory) { return ntet * BYTES_PER_TET <= memory; }
+
 /* NULL: nothing is against it. */
 static const char *find_reason(const space_question *q) {
   const scenario *s = q->scenario;
@@ -40,6 +47,8 @@ static const char *find_reason(const space_question *q) {
   if (corot_mesh_order(corot_model_mesh(q->model)) != 1)
     return "there is no estimate for ten-node tets";
   if (!q->ended_well) return "the run has not reached its end";
+  if (!space_fits(corot_model_mesh(q->model)->ntet, corot_memory_limits().process))
+    return "ten-node tets need more memory than there is";
   if (s->space_error == SPACE_ERROR_ON) return NULL;
   if (q->options->lean) return "option --lean";
   if (!space_is_cheap(corot_model_mesh(q->model)->ntet, corot_model_ndof(q->model), &q->work))

@@ -44,6 +44,9 @@ typedef struct space_question {
   const probes *probes;
 } space_question;
 
+/* Whether so much memory [byte] will do for an estimate on that many four-node tets. */
+bool space_fits(double ntet, double memory);
+
 /* *out is to be released by space_clear. That there is no solution is a reason to leave it out.
    COROT_ENOMEM. */
 corot_status space_ask(const space_question *q, space_seen *out);
