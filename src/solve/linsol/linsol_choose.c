@@ -105,25 +105,6 @@ static corot_status check_refinement(const corot_linear_def *d) {
                     d->preconditioner);
 }
 
-/* The given ordering, or the one of fewest operations. */
-static corot_status order_nodes(node_graph *g, const char **name, int *order, graph_fill *fill) {
-  int *trial = malloc(g->n * sizeof *trial);
-  if (!trial) return corot_fail(COROT_ENOMEM, "no memory to order %d nodes", g->n);
-  corot_status status = COROT_OK;
-  const char *given = *name;
-  for (int k = 0; k < (given ? 1 : NORDERING) && !status; k++) {
-    const char *ordering = given ? given : orderings.name[k];
-    status = corot_graph_order(g, ordering, trial);
-    if (status) break;
-    graph_fill f = corot_graph_fill(g, trial);
-    if (k > 0 && f.flops >= fill->flops) continue;
-    memcpy(order, trial, g->n * sizeof *order);
-    *name = ordering, *fill = f;
-  }
-  free(trial);
-  return status;
-}
-
 /* Nanoseconds of one core (AVX-512, 2 MB of cache; corot-bench solvers), of which only the ratios
    matter: for an operation of a factorisation and for an entry of the factor that it makes, for an
    entry in a solution, and for an entry of the matrix in an iteration. */
@@ -183,6 +164,39 @@ static bool is_too_large(const corot_linear_def *d, const corot_csc *csc, const 
   return bytes_of(d, csc, f) > fmin(memory->process, most_of_machine * memory->machine);
 }
 
+/* Factors that metis orders have had half the entries of amd's or more (boxes of 3000 to 1.4
+   million tets): where this part of them is too much, metis, which takes ten times as long, is not
+   asked. */
+static const double least_share = 0.4;
+
+static bool is_hopeless(const corot_linear_def *d, const corot_csc *csc, const graph_fill *f,
+                        const corot_memory_limit *memory) {
+  const graph_fill least = {.nnz = least_share * f->nnz, .flops = least_share * f->flops};
+  return !d->solver && is_too_large(d, csc, &least, memory);
+}
+
+/* The given ordering, or the one of fewest operations. */
+static corot_status order_nodes(const corot_csc *csc, node_graph *g,
+                                const corot_memory_limit *memory, corot_linear_def *d, int *order,
+                                graph_fill *fill) {
+  int *trial = malloc(g->n * sizeof *trial);
+  if (!trial) return corot_fail(COROT_ENOMEM, "no memory to order %d nodes", g->n);
+  corot_status status = COROT_OK;
+  const char *given = d->ordering;
+  for (int k = 0; k < (given ? 1 : NORDERING) && !status; k++) {
+    const char *ordering = given ? given : orderings.name[k];
+    status = corot_graph_order(g, ordering, trial);
+    if (status) break;
+    graph_fill f = corot_graph_fill(g, trial);
+    if (k > 0 && f.flops >= fill->flops) continue;
+    memcpy(order, trial, g->n * sizeof *order);
+    d->ordering = ordering, *fill = f;
+    if (is_hopeless(d, csc, fill, memory)) break;
+  }
+  free(trial);
+  return status;
+}
+
 /* Whether conjugate gradients are the faster, by a margin: a factor does not depend on how well
    conditioned a matrix is, nor on the guesses above. */
 static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill *f,
@@ -238,7 +252,7 @@ static corot_status analyze(const corot_csc *csc, node_graph *g, const corot_mem
   corot_status status = COROT_OK;
   if (!nodes || !plan->order)
     status = corot_fail(COROT_ENOMEM, "no memory to order %d unknowns", csc->n);
-  if (!status) status = order_nodes(g, &d->ordering, nodes, &fill);
+  if (!status) status = order_nodes(csc, g, memory, d, nodes, &fill);
   for (int k = 0, i = 0; k < g->n && !status; k++)
     for (int j = g->first[nodes[k]]; j < g->first[nodes[k] + 1]; j++) plan->order[i++] = j;
   free(nodes);
