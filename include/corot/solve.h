@@ -31,7 +31,9 @@ typedef enum corot_role { COROT_ROLE_DYNAMIC, COROT_ROLE_STATIC } corot_role;
    role: in a time step of a length that resolves the slow motion (at much shorter ones, where the
    mass outweighs the stiffness, "pcg" may be several times faster on compact bodies); in statics by
    a solver that can tell whether an equilibrium is stable, if one is built in. Rules:
-   src/solve/linsol/linsol_choose.c. */
+   src/solve/linsol/linsol_choose.c. A direct solver is not chosen where the run would need more than
+   a third of the machine's memory with it, as the entries of its factor are counted before it is
+   made: "pcg" is. */
 typedef struct corot_linear_def {
   const char *solver;         /* "auto", "klu", "cholmod" (if built in), "pcg" */
   const char *ordering;       /* of klu and cholmod: "auto", "amd", "metis" (if built in) */
@@ -63,7 +65,9 @@ typedef struct corot_pencil corot_pencil;
 /* `linear` NULL: the defaults. Model and state must outlive the pencil. COROT_EINVAL: there is no
    model or no state, or the state is another model's; there is no solver, ordering ... of that name,
    or not in this build; the tolerance is not positive; the refinement is not there, or not of the
-   model's mesh; the matrix has more entries than an int counts. COROT_ENOMEM. */
+   model's mesh; the matrix has more entries than an int counts. COROT_ENOMEM; and before anything is
+   factored where a direct solver is asked for whose factor does not fit into the memory of the
+   machine or RLIMIT_AS, with the numbers. */
 COROT_API corot_status corot_pencil_create(const corot_model *model, corot_state *state,
                                  const corot_linear_def *linear, corot_pencil **pencil);
 
@@ -97,8 +101,8 @@ COROT_API corot_status corot_pencil_factor(corot_pencil *pencil);
 
 /* x = S^-1 b; x may be b. COROT_EINVAL: S has no factor, because factoring it failed or was not
    asked for since it was combined. COROT_ENOMEM. COROT_RETRY: pcg met a direction in which S is not positive, or did not
-   converge. If it was not asked for by name, a direct solver takes its place instead, now and for
-   the rest of the run (see corot_pencil_solver), with memory asked for then; and so it does, at a
+   converge. If it was not asked for by name, and a direct solver fits into memory, that takes its
+   place instead, now and for the rest of the run (see corot_pencil_solver), with memory asked for then; and so it does, at a
    factorisation, where the iterations have cost twice as much as it would have. */
 COROT_API corot_status corot_pencil_solve(corot_pencil *pencil, const double *b, double *x);
 

@@ -13,6 +13,7 @@ int command_kernels(int argc, char **argv);
 int command_solvers(int argc, char **argv);
 int command_example(int argc, char **argv);
 int command_memory(int argc, char **argv);
+int command_phases(int argc, char **argv);
 int command_frames(int argc, char **argv);
 int command_threads(int argc, char **argv);
 int command_hierarchy(int argc, char **argv);

@@ -48,6 +48,11 @@ lines "[r['what'] for r in d[1:]] == 2 * ['force', 'tangent', 'energy', 'steps']
 usage threads --threads 0
 usage threads --threads 257
 usage threads --tets none
+for order in 1 2; do
+  lines "[r['phase'] for r in d[1:]] == 'read checks model state analysis force tangent combine factor \\
+    solve output'.split() and all(r['tets'] == 6 and r['wall_s'] > 0 and r['floor_s'] > 0 for r in d[1:])" \
+    phases --json --tets 6 --order $order
+done
 lines "{r['role'] for r in d[1:]} == {'dynamic', 'static'} and sum(r['auto'] for r in d[1:]) == 2
   and all(r['ratio'] >= 1 and r['cost_s'] > 0 for r in d[1:])" solvers --json --most 310
 lines "{r['solver'] for r in d if r.get('role') == 'static'} >= {'pcg, hierarchical', 'pcg, multigrid'}
@@ -82,6 +87,9 @@ usage kernels --peak 0
 usage kernels --lanes x
 usage kernels --order 3
 usage memory extra
+usage phases --tets 0
+usage phases --order 3
+usage phases --step 0
 usage solvers --most 0
 usage solvers --role other
 usage hierarchy --levels 0

@@ -10,6 +10,7 @@ static const char help[] =
     "       corot-bench run [--json] [OPTIONS]\n"
     "       corot-bench frames [--json]\n"
     "       corot-bench memory [--json] [--tets N]\n"
+    "       corot-bench phases [--json] [--tets N]... [--order N] [OPTIONS]\n"
     "       corot-bench threads [--json] [--threads N] [--tets N]... [--order N]\n"
     "       corot-bench hierarchy [--json] [--levels N]\n"
     "       corot-bench jitter [--json] [OPTIONS]\n"
@@ -23,6 +24,7 @@ static const char help[] =
     "run       CPU time of a whole simulation and of its phases\n"
     "frames    what frames cost: polar over warp, update over force, Newton over linear\n"
     "memory    bytes per tet\n"
+    "phases    wall time and memory of the phases of a run, by the number of tets\n"
     "threads   what threads gain, beside what the machine has to give\n"
     "hierarchy solvers that use the levels of a refined mesh, and the hierarchical basis\n"
     "jitter    how even the steps of an animation are in wall time\n"
@@ -57,6 +59,7 @@ int main(int argc, char **argv) {
                                   {"run", command_example},
                                   {"frames", command_frames},
                                   {"memory", command_memory},
+                                  {"phases", command_phases},
                                   {"threads", command_threads},
                                   {"hierarchy", command_hierarchy},
                                   {"jitter", command_jitter},

@@ -32,23 +32,7 @@ static void deform(specimen *s) {
   }
 }
 
-static corot_status fill(const corot_model_def *def, specimen *s) {
-  COROT_TRY(corot_model_create(def, &s->model));
-  COROT_TRY(corot_state_create(s->model, &s->state));
-  s->ntet = corot_model_mesh(s->model)->ntet;
-  s->n = corot_model_ndof(s->model);
-  size_t nblock = corot_model_nblock(s->model);
-  s->y = calloc(7 * (size_t)s->n, sizeof *s->y);
-  s->K = calloc(nblock, sizeof *s->K);
-  s->D = calloc(nblock, sizeof *s->D);
-  if (!s->y || !s->K || !s->D) return corot_fail(COROT_ENOMEM, "no memory for %d tets", s->ntet);
-  s->u = s->y, s->v = s->u + s->n, s->ydot = s->v + s->n;
-  s->r = s->ydot + 2 * s->n, s->du = s->r + s->n, s->dv = s->du + s->n;
-  deform(s);
-  return corot_frames_update(s->model, s->state, 0, s->u, NULL);
-}
-
-corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, specimen *out) {
+corot_status solid_define(corot_mesh *mesh, const char *strain, bool damped, specimen *s) {
   if (!corot_mesh_find_group(mesh, "base"))
     COROT_TRY(corot_mesh_group_plane(mesh, "base", 2, 0, 0));
   corot_material material = {.lambda = 1e5, .mu = 1e4, .density = 1000};
@@ -59,8 +43,34 @@ corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, spe
   def.viscosity = COROT_COROTATED, def.mass = COROT_MASS_LUMPED; /* the paper's */
   def.nmaterial = 1, def.material = &material;
   def.nfix = 1, def.fix = &fix;
+  COROT_TRY(corot_model_create(&def, &s->model));
+  s->ntet = corot_model_mesh(s->model)->ntet;
+  s->n = corot_model_ndof(s->model);
+  return COROT_OK;
+}
+
+corot_status solid_begin(specimen *s) {
+  COROT_TRY(corot_state_create(s->model, &s->state));
+  s->y = calloc(7 * (size_t)s->n, sizeof *s->y);
+  if (!s->y) return corot_fail(COROT_ENOMEM, "no memory for %d tets", s->ntet);
+  s->u = s->y, s->v = s->u + s->n, s->ydot = s->v + s->n;
+  s->r = s->ydot + 2 * (size_t)s->n, s->du = s->r + s->n, s->dv = s->du + s->n;
+  deform(s);
+  return corot_frames_update(s->model, s->state, 0, s->u, NULL);
+}
+
+static corot_status fill(specimen *s) {
+  COROT_TRY(solid_begin(s));
+  size_t nblock = corot_model_nblock(s->model);
+  s->K = calloc(nblock, sizeof *s->K);
+  s->D = calloc(nblock, sizeof *s->D);
+  return s->K && s->D ? COROT_OK : corot_fail(COROT_ENOMEM, "no memory for %d tets", s->ntet);
+}
+
+corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, specimen *out) {
   specimen s = {0};
-  corot_status status = fill(&def, &s);
+  corot_status status = solid_define(mesh, strain, damped, &s);
+  if (!status) status = fill(&s);
   if (status) {
     solid_clear(&s);
     return status;

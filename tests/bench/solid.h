@@ -22,6 +22,10 @@ corot_status solid_mesh(int ntet, int order, corot_mesh **mesh);
    strains of up to 5 %. Either without damping or with that of the second example of Hauth &
    Strasser (2004). The mesh may be destroyed. */
 corot_status solid_create(corot_mesh *mesh, const char *strain, bool damped, specimen *out);
+/* The same in two steps, and without K and D. */
+corot_status solid_define(corot_mesh *mesh, const char *strain, bool damped, specimen *s);
+corot_status solid_begin(specimen *s);
+
 void solid_clear(specimen *s);
 
 #endif

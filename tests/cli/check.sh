@@ -87,6 +87,14 @@ expect 0 mesh box --size 0.1,0.1,0.2 --cells 1,1,2 --split kuhn -o sub/block.msh
 sed 's/^mesh:.*/mesh: {file: block.msh}/' model.yaml >sub/model.yaml
 expect 0 check sub/model.yaml; out "sub/block.msh: 12 nodes"
 
+# Fields of very many output times are thinned, where nobody says how often.
+expect 0 check model.yaml --set time.output=1e-7; out "fields         of every 15th output time"
+out "output.every: 1 writes all 500001"
+expect 0 check model.yaml --set time.output=1e-7 --json
+json 'd["fields"]["thinned"] and 90e6 < d["fields"]["bytes"] <= 100e6'
+expect 0 check model.yaml --set time.output=1e-7 --set output.every=1 --json
+json 'd["fields"]["frames"] == 500001 and not d["fields"]["thinned"]'
+
 # What is wrong, and where.
 expect 3 check none.yaml; no_out; err "none.yaml: No such file"
 expect 3 check .; no_out

@@ -42,6 +42,12 @@ expect 3 run model.yaml --set mesh.box=null --set mesh.file=none.msh -o c; err "
 echo >file
 expect 5 run model.yaml -o file/x; err "file: exists and is not a folder"; no_out
 
+# Which output times have fields.
+expect 0 run model.yaml -o f --set output.every=2
+cp f/result.json stdout; json 'd["fields"]["every"] == 2 and not d["fields"]["thinned"]'
+expect 0 run model.yaml -o f --set output.fields=none --force
+cp f/result.json stdout; json 'd["fields"] is None'
+
 # Interrupted: what there is gets written, and the exit code says by what.
 for signal in INT:130 TERM:143; do
   "$corot" run model.yaml -o i --set time.end=1e6 --set output.fields=none >stdout 2>stderr &

@@ -18,4 +18,6 @@ integrator: {rtol: 1.0e-3}
 probes: {corner: {point: [0.1, 0.1, 0.6]}, middle: {point: [0.05, 0.05, 0.3]}}
 END
 "$1" run bent.yaml -o bent --quiet
-exec $python -B "$here/check_fields.py" bent 0.5
+$python -B "$here/check_fields.py" bent 0.5
+"$1" run bent.yaml -o packed --quiet --set output.compression=zlib
+exec $python -B "$here/same_fields.py" bent packed

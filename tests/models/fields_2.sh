@@ -18,4 +18,6 @@ time: {end: 0.5, output: 0.25}
 integrator: {rtol: 1.0e-3}
 END
 "$1" run quarter.yaml -o quarter --quiet
-exec $python -B "$here/check_fields_2.py" quarter
+$python -B "$here/check_fields_2.py" quarter
+"$1" run quarter.yaml -o packed --quiet --set output.compression=zlib
+exec $python -B "$here/same_fields.py" quarter packed

@@ -554,6 +554,71 @@ static void failed_allocations_are_reported(void **state) {
     }
 }
 
+/* What a plan comes to on a bar of that many cells, with so much memory in the machine and for the
+   process. */
+static corot_status plan_within(int across, int along, double machine, double process,
+                                const char *solver, linsol_plan *plan) {
+  bar_def def = example2;
+  def.cells[0] = def.cells[1] = across, def.cells[2] = along;
+  bar b = bar_create(&def);
+  corot_csc *csc;
+  corot_linear_def linear = corot_linear_defaults();
+  const corot_memory_limit limits = {machine, process, "the test"};
+  linear.solver = solver, linear.factor = "simplicial";
+  assert_ok(corot_csc_create(b.model, COROT_LOWER, &csc));
+  corot_status status = corot_linsol_choose_within(&limits, &linear, csc, plan);
+  corot_csc_destroy(csc);
+  bar_destroy(&b);
+  return status;
+}
+
+/* By the count of its entries, before it is made: 16 bytes each by columns, of some 100 000. */
+static void a_factor_beyond_the_memory_is_refused_or_spared(void **state) {
+  (void)state;
+  linsol_plan plan = {0};
+  assert_ok(plan_within(3, 12, 1e12, 1e12, "auto", &plan));
+  assert_string_equal(plan.ops->name, corot_linsol_direct);
+  assert_true(plan.by_cost);
+  corot_linsol_plan_clear(&plan);
+  /* chosen: within a third of the machine's memory, and within that of the process */
+  const double machine[] = {3e6, 1e12}, process[] = {1e12, 1e6};
+  for (int k = 0; k < 2; k++) {
+    assert_ok(plan_within(3, 12, machine[k], process[k], "auto", &plan));
+    assert_string_equal(plan.ops->name, "pcg");
+    assert_true(plan.by_cost == (k == 0)); /* whether a direct solver may take its place: */
+    assert_true(plan.most_iterations == 0 && plan.rival.factor == 0); /* never by its cost */
+    corot_linsol_plan_clear(&plan);
+  }
+  /* asked for by name: within that of the process */
+  assert_fails(plan_within(3, 12, 1e12, 1e6, corot_linsol_direct, &plan), COROT_ENOMEM,
+               "and the test has 0.001; pcg, which makes none, needs");
+  assert_non_null(strstr(corot_error(), corot_linsol_direct));
+  assert_ok(plan_within(3, 12, 1e6, 1e12, corot_linsol_direct, &plan));
+  corot_linsol_plan_clear(&plan);
+  assert_ok(plan_within(3, 12, 1e6, 1e6, "pcg", &plan));
+  corot_linsol_plan_clear(&plan);
+}
+
+/* Of a cube metis makes a smaller factor, but not one so much smaller. */
+static void metis_is_not_asked_for_a_factor_that_nothing_makes_fit(void **state) {
+  (void)state;
+  linsol_plan plan = {0};
+  assert_ok(plan_within(10, 10, 1e12, 1e12, "auto", &plan));
+  if (built("cholmod")) assert_string_equal(plan.def.ordering, "metis");
+  corot_linsol_plan_clear(&plan);
+  assert_ok(plan_within(10, 10, 1e12, 1e6, "auto", &plan));
+  assert_string_equal(plan.ops->name, "pcg");
+  assert_string_equal(plan.def.ordering, "amd");
+  corot_linsol_plan_clear(&plan);
+}
+
+static void the_machine_says_how_much_memory_there_is(void **state) {
+  (void)state;
+  corot_memory_limit m = corot_memory_limits();
+  assert_true(m.machine > 1e6 && m.process > 1e6 && m.process <= m.machine);
+  assert_non_null(m.what);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(solve_to_rounding),
@@ -566,6 +631,9 @@ int main(void) {
       cmocka_unit_test(there_is_no_solution_without_a_factor),
       cmocka_unit_test(pcg_iterates_to_its_tolerance),
       cmocka_unit_test(auto_goes_by_shape_size_and_role),
+      cmocka_unit_test(a_factor_beyond_the_memory_is_refused_or_spared),
+      cmocka_unit_test(metis_is_not_asked_for_a_factor_that_nothing_makes_fit),
+      cmocka_unit_test(the_machine_says_how_much_memory_there_is),
       cmocka_unit_test(names_are_obeyed),
       cmocka_unit_test(other_names_are_refused),
       cmocka_unit_test(orderings_keep_the_unknowns_of_a_node_together),

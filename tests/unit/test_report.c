@@ -6,6 +6,7 @@
 #include "alloc.h"
 #include "app/folder/read_csv.h"
 #include "app/folder/write_vtu.h"
+#include "app/folder/zlib_array.h"
 #include "report/chart/precision.h"
 #include "report/command/report.h"
 #include "report/page/encode.h"
@@ -111,13 +112,70 @@ static void a_surface_is_what_one_tet_has(void **state) {
   corot_mesh_destroy(mesh);
 }
 
+/* By the divergence theorem, of what the triangles enclose: they wind outward. */
+static double enclosed(const surface *s, const corot_mesh *mesh) {
+  double volume = 0;
+  for (int i = 0; i < s->ntri; i++) {
+    const double *x[3];
+    for (int k = 0; k < 3; k++) x[k] = mesh->x[s->node[s->corner[i][k]]];
+    for (int k = 0; k < 3; k++) {
+      int l = (k + 1) % 3, m = (k + 2) % 3;
+      volume += x[0][k] * (x[1][l] * x[2][m] - x[1][m] * x[2][l]) / 6;
+    }
+  }
+  return volume;
+}
+
+/* A cube and a plate one cell thick, whose sides must not fall together; triangles that replace
+   some of a curved or cut corner enclose a little less, of the plate nothing at all. */
+static void a_large_surface_is_thinned(void **state) {
+  (void)state;
+  static const corot_box boxes[] = {{{1, 1, 1}, {12, 12, 12}, {0}, COROT_BOX_KUHN},
+                                    {{1, 1, 0.01}, {30, 30, 1}, {0}, COROT_BOX_KUHN}};
+  for (int b = 0; b < 2; b++) {
+    corot_mesh *mesh;
+    surface s, whole;
+    assert_ok(corot_mesh_box(&boxes[b], &mesh));
+    const double(*x)[3] = (const double(*)[3])mesh->x;
+    assert_ok(surface_create(mesh->nnode, mesh->ntet, (const int(*)[4])mesh->tet, &s));
+    assert_ok(surface_create(mesh->nnode, mesh->ntet, (const int(*)[4])mesh->tet, &whole));
+    int ntri = s.ntri;
+    assert_ok(surface_thin(&s, x, mesh->nnode, ntri));
+    assert_int_equal(s.ntri, ntri); /* it is no larger */
+    assert_null(s.stands);
+    assert_ok(surface_thin(&s, x, mesh->nnode, 500));
+    assert_in_range(s.ntri, 150, 500);
+    double volume = enclosed(&whole, mesh);
+    assert_close(enclosed(&s, mesh), volume, 0.05, 0);
+
+    /* each node has one that stands for it, which is near; inside there is none */
+    double low = 1, high = 0;
+    for (int i = 0; i < s.nnode; i++) {
+      assert_int_equal(s.stands[s.node[i]], i);
+      if (i > 0) assert_true(s.node[i] > s.node[i - 1]);
+      low = fmin(low, x[s.node[i]][0]), high = fmax(high, x[s.node[i]][0]);
+    }
+    assert_true(low == 0 && high == 1);
+    int inside = 0;
+    for (int i = 0; i < mesh->nnode; i++) {
+      inside += s.stands[i] < 0;
+      for (int c = 0; c < 3 && s.stands[i] >= 0; c++)
+        assert_close(x[s.node[s.stands[i]]][c], x[i][c], 0, 0.2);
+    }
+    assert_int_equal(inside, b == 0 ? 11 * 11 * 11 : 0);
+    surface_free(&s);
+    surface_free(&whole);
+    corot_mesh_destroy(mesh);
+  }
+}
+
 /* Three frames of a box, with values that tell where they are from. */
 static void write_fields(const char *dir) {
   corot_mesh *mesh;
   vtu *w;
   assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {1, 1, 1}, {0}, COROT_BOX_KUHN}, &mesh));
   int material[6] = {0};
-  assert_ok(vtu_create(dir, mesh, material, &w));
+  assert_ok(vtu_create(dir, mesh, material, VTU_RAW, &w));
   vtu_fields v = vtu_arrays(w);
   for (int k = 0; k < 3; k++) {
     for (int i = 0; i < mesh->nnode; i++)
@@ -155,6 +213,68 @@ static void fields_are_read_back(void **state) {
   fields_frame_free(&frame);
   fields_close(&f);
   remove_folder(dir);
+}
+
+/* In [-1, 1], the same in each run. */
+static double noise(uint64_t *seed) {
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return (double)(*seed >> 11) * 0x1p-52 - 1;
+}
+
+/* Numbers of which some repeat, in arrays of several blocks; frame k of either kind of file. */
+static void write_large(const char *dir, const corot_mesh *mesh, vtu_data data) {
+  int *material = calloc((size_t)mesh->ntet, sizeof *material);
+  uint64_t seed = 1;
+  vtu *w;
+  assert_ok(vtu_create(dir, mesh, material, data, &w));
+  vtu_fields v = vtu_arrays(w);
+  for (int k = 0; k < 2; k++) {
+    for (int i = 0; i < mesh->nnode; i++)
+      for (int c = 0; c < 3; c++) v.displacement[i][c] = i % 3 ? noise(&seed) : k;
+    for (int e = 0; e < mesh->ntet; e++) v.von_mises[e] = noise(&seed), v.det[e] = 1;
+    assert_ok(vtu_write(w, k));
+  }
+  assert_ok(vtu_finish(w));
+  vtu_destroy(w);
+  free(material);
+}
+
+static void assert_same_frame(const fields *f, const fields *g, int k) {
+  fields_frame a, b;
+  size_t nnode = (size_t)f->nnode, ntet = (size_t)f->ntet;
+  assert_ok(fields_frame_create(f, &a));
+  assert_ok(fields_frame_create(g, &b));
+  assert_ok(fields_read(f, k, &a));
+  assert_ok(fields_read(g, k, &b));
+  assert_memory_equal(a.displacement, b.displacement, nnode * sizeof *a.displacement);
+  assert_memory_equal(a.velocity, b.velocity, nnode * sizeof *a.velocity);
+  assert_memory_equal(a.frame, b.frame, ntet * sizeof *a.frame);
+  assert_memory_equal(a.von_mises, b.von_mises, ntet * sizeof *a.von_mises);
+  assert_memory_equal(a.det, b.det, ntet * sizeof *a.det);
+  fields_frame_free(&a);
+  fields_frame_free(&b);
+}
+
+static void compressed_fields_are_the_same_to_the_last_bit(void **state) {
+  (void)state;
+  char *dir = temporary_folder(), *raw = temporary_folder();
+  corot_mesh *mesh;
+  fields f, g;
+  assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {22, 22, 22}, {0}, COROT_BOX_KUHN}, &mesh));
+  assert_true(24 * (size_t)mesh->nnode > ZLIB_BLOCK);
+  write_large(raw, mesh, VTU_RAW);
+  write_large(dir, mesh, VTU_ZLIB);
+  assert_ok(fields_open(raw, &f));
+  assert_ok(fields_open(dir, &g));
+  assert_int_equal(g.nframe, 2);
+  assert_memory_equal(f.x, g.x, (size_t)f.nnode * sizeof *f.x);
+  assert_memory_equal(f.tet, g.tet, (size_t)f.ntet * sizeof *f.tet);
+  for (int k = 0; k < 2; k++) assert_same_frame(&f, &g, k);
+  fields_close(&f);
+  fields_close(&g);
+  corot_mesh_destroy(mesh);
+  remove_folder(dir);
+  remove_folder(raw);
 }
 
 static void put_bytes(const char *path, const char *bytes, size_t size) {
@@ -206,6 +326,42 @@ static void foreign_fields_are_refused(void **state) {
   put_file(in(dir, "fields.pvd"), "<DataSet timestep=\"0\" file=\"fields/a.vtu");
   assert_fails(fields_open(dir, &f), COROT_EFORMAT, "entry 0");
   free(good);
+  remove_folder(dir);
+}
+
+/* Each byte of a small file is changed in its turn, and the file is cut there: it is refused or
+   read as it stands, where what has changed are values. */
+static void damaged_compressed_fields_do_no_harm(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  corot_mesh *mesh;
+  assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {1, 1, 1}, {0}, COROT_BOX_KUHN}, &mesh));
+  write_large(dir, mesh, VTU_ZLIB);
+  size_t size;
+  const char *path = in(dir, "fields/fields_000000.vtu");
+  char *good = slurp(path, &size);
+  int refused = 0;
+  for (size_t i = 0; i < size; i += i < 4096 ? 97 : 3) {
+    for (int cut = 0; cut < 2; cut++) {
+      fields f;
+      fields_frame frame;
+      good[i] ^= 0x41;
+      put_bytes(path, good, cut ? i : size);
+      good[i] ^= 0x41;
+      corot_status status = fields_open(dir, &f);
+      if (!status) {
+        assert_ok(fields_frame_create(&f, &frame));
+        status = fields_read(&f, 0, &frame);
+        fields_frame_free(&frame);
+        fields_close(&f);
+      }
+      refused += status != COROT_OK;
+      assert_true(status == COROT_OK || status == COROT_EFORMAT || status == COROT_ENOMEM);
+    }
+  }
+  assert_true(refused > 100);
+  free(good);
+  corot_mesh_destroy(mesh);
   remove_folder(dir);
 }
 
@@ -514,7 +670,7 @@ static void large_groups_have_few_marks(void **state) {
   vtu *w;
   assert_ok(corot_mesh_box(&(corot_box){{1, 1, 1}, {20, 20, 20}, {0}}, &mesh));
   int *material = calloc((size_t)mesh->ntet, sizeof *material);
-  assert_ok(vtu_create(dir, mesh, material, &w));
+  assert_ok(vtu_create(dir, mesh, material, VTU_RAW, &w));
   assert_ok(vtu_write(w, 0));
   assert_ok(vtu_finish(w));
   vtu_destroy(w);
@@ -605,8 +761,11 @@ int main(void) {
       cmocka_unit_test(tables_are_read_back),
       cmocka_unit_test(data_are_encoded_for_scripts),
       cmocka_unit_test(a_surface_is_what_one_tet_has),
+      cmocka_unit_test(a_large_surface_is_thinned),
       cmocka_unit_test(fields_are_read_back),
       cmocka_unit_test(foreign_fields_are_refused),
+      cmocka_unit_test(compressed_fields_are_the_same_to_the_last_bit),
+      cmocka_unit_test(damaged_compressed_fields_do_no_harm),
       cmocka_unit_test(text_of_files_is_never_markup),
       cmocka_unit_test(damaged_runs_do_no_harm),
       cmocka_unit_test(failed_allocations_are_survived),

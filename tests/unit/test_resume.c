@@ -113,12 +113,12 @@ static void frames_since_are_taken_away_and_others_stay(void **state) {
   const char *theirs[] = {"fields/fields_.vtu", "fields/fields_old.vtu", "fields/notes.txt"};
   vtu *w = NULL;
   pack p = {0};
-  assert_ok(vtu_create(whole, two_tets(), material, &w));
+  assert_ok(vtu_create(whole, two_tets(), material, VTU_RAW, &w));
   for (int i = 0; i < 3; i++) assert_ok(vtu_write(w, i));
   assert_ok(vtu_finish(w));
   vtu_destroy(w);
 
-  assert_ok(vtu_create(dir, two_tets(), material, &w));
+  assert_ok(vtu_create(dir, two_tets(), material, VTU_RAW, &w));
   for (int i = 0; i < 6; i++) {
     assert_ok(vtu_write(w, i));
     if (i == 1) assert_ok(vtu_pack(w, &p));
@@ -129,7 +129,7 @@ static void frames_since_are_taken_away_and_others_stay(void **state) {
   for (int i = 0; i < 3; i++) put_file(in(dir, theirs[i]), "mine");
 
   pack from = corot_pack_reader(p.data, p.bytes);
-  assert_ok(vtu_resume(dir, two_tets(), material, &from, &w));
+  assert_ok(vtu_resume(dir, two_tets(), material, VTU_RAW, &from, &w));
   assert_true(exists(in(dir, "fields/fields_000005.vtu")));
   assert_ok(vtu_cut(w));
   for (int i = 2; i < 10; i++) {
@@ -145,10 +145,40 @@ static void frames_since_are_taken_away_and_others_stay(void **state) {
 
   put_file(in(dir, "fields/fields_000001.vtu"), "cut");
   from.at = 0;
-  assert_fails(vtu_resume(dir, two_tets(), material, &from, &w), COROT_EFORMAT,
+  assert_fails(vtu_resume(dir, two_tets(), material, VTU_RAW, &from, &w), COROT_EFORMAT,
                "fields_000001.vtu: is not what it was at the checkpoint");
   corot_pack_clear(&p);
   remove_folder(whole);
+  remove_folder(dir);
+}
+
+/* Of these no two are as long: their sizes are known together. */
+static void compressed_frames_go_on_and_others_are_refused(void **state) {
+  (void)state;
+  char *dir = temporary_folder();
+  const int material[] = {0, 1};
+  vtu *w = NULL;
+  pack p = {0};
+  assert_ok(vtu_create(dir, two_tets(), material, VTU_ZLIB, &w));
+  for (int i = 0; i < 4; i++) {
+    vtu_arrays(w).displacement[i][0] = 0.1 * (i + 1); /* each frame a few bytes longer */
+    assert_ok(vtu_write(w, i));
+    if (i == 1) assert_ok(vtu_pack(w, &p));
+  }
+  vtu_destroy(w);
+  pack from = corot_pack_reader(p.data, p.bytes);
+  assert_ok(vtu_resume(dir, two_tets(), material, VTU_ZLIB, &from, &w));
+  assert_ok(vtu_cut(w));
+  assert_false(exists(in(dir, "fields/fields_000002.vtu")));
+  assert_ok(vtu_write(w, 2));
+  vtu_destroy(w);
+  assert_true(exists(in(dir, "fields/fields_000002.vtu")));
+
+  put_file(in(dir, "fields/fields_000001.vtu"), "cut");
+  from.at = 0;
+  assert_fails(vtu_resume(dir, two_tets(), material, VTU_ZLIB, &from, &w), COROT_EFORMAT,
+               "fields: the frames are not what they were at the checkpoint");
+  corot_pack_clear(&p);
   remove_folder(dir);
 }
 
@@ -328,7 +358,7 @@ static corot_status resume_again(void *context) {
   vtu *w = NULL;
   COROT_TRY(table_resume(a->dir, "probes.csv", &from, &t));
   from = corot_pack_reader(a->fields.data, a->fields.bytes);
-  corot_status status = vtu_resume(a->dir, two_tets(), (const int[]){0, 0}, &from, &w);
+  corot_status status = vtu_resume(a->dir, two_tets(), (const int[]){0, 0}, VTU_RAW, &from, &w);
   if (status == COROT_OK) vtu_destroy(w);
   corot_status closed = table_close(t);
   return status == COROT_OK ? closed : status;
@@ -344,7 +374,7 @@ static void no_allocation_may_fail_unnoticed(void **state) {
   assert_survives_failed_allocations(write_again, NULL);
   again a = {.dir = dir, .table = packed_table(dir)};
   vtu *w = NULL;
-  assert_ok(vtu_create(dir, two_tets(), (const int[]){0, 0}, &w));
+  assert_ok(vtu_create(dir, two_tets(), (const int[]){0, 0}, VTU_RAW, &w));
   assert_ok(vtu_write(w, 0));
   assert_ok(vtu_pack(w, &a.fields));
   vtu_destroy(w);
@@ -360,6 +390,7 @@ int main(void) {
       cmocka_unit_test(a_table_goes_on_from_the_row_it_had),
       cmocka_unit_test(a_table_that_is_other_is_refused),
       cmocka_unit_test(frames_since_are_taken_away_and_others_stay),
+      cmocka_unit_test(compressed_frames_go_on_and_others_are_refused),
       cmocka_unit_test(a_meter_that_is_read_back_measures_the_same),
       cmocka_unit_test(a_schedule_that_is_read_back_has_the_same_times_left),
       cmocka_unit_test(a_file_reads_back),

@@ -47,7 +47,7 @@ static void defaults(void **state) {
   assert_close(s->t_end, 2, 0, 0);
   assert_close(s->output_step, 0.02, 0, 0);
   assert_true(s->write_fields);
-  assert_int_equal(s->field_every, 1);
+  assert_int_equal(s->field_every, 0);
   assert_null(s->mesh_file);
   assert_int_equal(s->box.cells[2], 2);
   assert_close(s->box.size[2], 2, 0, 0);
@@ -481,7 +481,8 @@ static void resolved_values(void **state) {
       "\"start\":\"rest\",\"statics\":{\"frames\":\"exact\",\"tolerance\":1e-10,"
       "\"max_iterations\":20,\"first_step\":1.0,\"min_step\":0.0001,\"max_step\":1.0},"
       "\"probes\":{},\"output\":{\"fields\":"
-      "\"vtu\",\"every\":1,\"history\":true,\"states\":\"none\",\"space_error\":\"auto\"}}");
+      "\"vtu\",\"every\":\"auto\",\"compression\":\"none\",\"history\":true,\"states\":\"none\","
+      "\"space_error\":\"auto\"}}");
   free(text);
   json_decref(r);
 }

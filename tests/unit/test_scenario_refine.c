@@ -170,6 +170,17 @@ static void memory_is_counted(void **state) {
   assert_fails(refine_fits(1000, 5, 1e9), COROT_EINVAL,
                "makes 3.28e+07, which need 1.64 GB of memory, and there are 1: at most 4");
   assert_ok(refine_fits(1000, 30, INFINITY));
+
+  /* and with all that a run has beside the mesh */
+  corot_memory_limit memory = {1e9, 64000 * 500, "the test"};
+  assert_ok(run_fits(1000, 1, 2, &memory));
+  memory.process -= 1;
+  assert_fails(run_fits(1000, 1, 2, &memory), COROT_EINVAL,
+               "refining 1000 tets 2 times makes 6.4e+04, 6.4e+04 tets of order 1 need at least "
+               "0.032 GB of memory in a run, and the test has 0.032");
+  assert_fails(run_fits(1000000, 2, 0, &memory), COROT_EINVAL,
+               "1e+06 tets of order 2 need at least 3.4 GB of memory in a run, and the test has");
+  assert_null(strstr(corot_error(), "refining"));
 }
 
 static corot_status build_scenario(void *context) {

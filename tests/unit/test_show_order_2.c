@@ -158,7 +158,7 @@ static void points_of_linear_tets_are_alike(void **state) {
 static void write_fields(const char *dir, const corot_mesh *mesh) {
   vtu *w;
   int *material = calloc((size_t)mesh->ntet, sizeof *material);
-  assert_ok(vtu_create(dir, mesh, material, &w));
+  assert_ok(vtu_create(dir, mesh, material, VTU_RAW, &w));
   vtu_fields v = vtu_arrays(w);
   for (int i = 0; i < mesh->nnode; i++) displacement(mesh->x[i], v.displacement[i]);
   for (int e = 0; e < mesh->ntet; e++) {

@@ -207,7 +207,7 @@ static void fields_read_back(void **state) {
   (void)state;
   char *dir = temporary_folder();
   vtu *w = NULL;
-  assert_ok(vtu_create(dir, two_tets(), (const int[]){1, 0}, &w));
+  assert_ok(vtu_create(dir, two_tets(), (const int[]){1, 0}, VTU_RAW, &w));
   fill(vtu_arrays(w), 1000);
   assert_ok(vtu_write(w, 0.125));
   assert_ok(vtu_finish(w));
@@ -244,7 +244,7 @@ static void the_list_of_frames_is_whole_at_any_time(void **state) {
       "<DataSet timestep=\"0.10000000000000001\" file=\"fields/fields_000001.vtu\"/>\n";
   const char *tail = "</Collection>\n</VTKFile>\n";
   vtu *w = NULL;
-  assert_ok(vtu_create(dir, two_tets(), (const int[]){0, 0}, &w));
+  assert_ok(vtu_create(dir, two_tets(), (const int[]){0, 0}, VTU_RAW, &w));
   snprintf(expected, sizeof expected, "%s%s", head, tail);
   assert_file(in(dir, "fields.pvd"), expected);
   assert_ok(vtu_write(w, 0));
@@ -374,6 +374,8 @@ static void failed_allocations_are_survived(void **state) {
 
   assert_true(assert_survives_failed_allocations(make_schedule, &m) >= 2);
   assert_true(assert_survives_failed_allocations(make_outputs, &m) >= 10);
+  m.scenario.compress_fields = true;
+  assert_true(assert_survives_failed_allocations(make_outputs, &m) >= 12);
   m.scenario.write_fields = false;
   assert_true(assert_survives_failed_allocations(make_outputs, &m) >= 10);
   m.scenario.ncompare = 1;

@@ -14,8 +14,11 @@
 #include "core/element/element.h"
 #include "folder.h"
 #include "inventory.h"
+#include "zlib_array.h"
 
-enum { HEADER = 4096 };
+/* Most characters of what is in front of the data, and its length where that is not known before.
+ */
+enum { HEADER = 4096, PACKED_HEADER = HEADER - 8 };
 
 typedef enum section { FIELD, POINT, CELL, POINTS, CELLS } section;
 
@@ -38,7 +41,8 @@ enum {
   NODES,
   OFFSETS,
   TYPES,
-  NARRAY
+  NARRAY,
+  CONSTANT = MATERIAL /* from here on they are the same in all frames */
 };
 
 /* Arrays that are not in all files: those of a motion, of modes, of a mesh of order 2. */
@@ -92,9 +96,20 @@ static const char pvd_head[] =
 static const char pvd_tail[] = "</Collection>\n</VTKFile>\n";
 static const char file_tail[] = "\n</AppendedData>\n</VTKFile>\n";
 
+/* The file of a frame that is compressed, made anew for each. */
+typedef struct packed_frame {
+  zlib_packer *packer;
+  char *file;           /* what is in front of the arrays has PACKED_HEADER bytes */
+  char *kept[NARRAY];   /* from CONSTANT on: compressed once */
+  size_t nkept[NARRAY]; /* bytes of these */
+} packed_frame;
+
 struct vtu {
-  unsigned is; /* OF_MOTION or OF_MODES, with OF_ORDER_2 */
-  char *image; /* [size] the file of the next frame: header, arrays, closing tags */
+  unsigned is;            /* OF_MOTION or OF_MODES, with OF_ORDER_2 */
+  const corot_mesh *mesh; /* the caller's */
+  packed_frame *packed;   /* NULL: the image is the file */
+  growth sizes;           /* of the frames that are compressed, no two of which are as long */
+  char *image;            /* [size] the file of the next frame: header, arrays, closing tags */
   size_t size;
   char *array[NARRAY]; /* in the image */
   char *path;          /* DIR/fields/fields_NNNNNN.vtu, the number being rewritten */
@@ -113,9 +128,18 @@ corot_status vtu_finish(vtu *w) {
   return file_close(fd, w->pvd_path);
 }
 
+static void packed_destroy(packed_frame *p) {
+  if (!p) return;
+  zlib_packer_destroy(p->packer);
+  for (int i = 0; i < NARRAY; i++) free(p->kept[i]);
+  free(p->file);
+  free(p);
+}
+
 void vtu_destroy(vtu *w) {
   if (!w) return;
   vtu_finish(w);
+  packed_destroy(w->packed);
   free(w->image);
   free(w->path);
   free(w->folder);
@@ -146,6 +170,17 @@ static size_t room_of(int i, const vtu *w, const corot_mesh *mesh) {
   return is_there(i, w) ? 8 + padded(array_bytes(i, mesh)) : 0;
 }
 
+static unsigned of_mesh(const corot_mesh *mesh, unsigned what) {
+  return corot_mesh_order(mesh) == 2 ? what | OF_ORDER_2 : what;
+}
+
+size_t vtu_bytes(const corot_mesh *mesh) {
+  const vtu w = {.is = of_mesh(mesh, OF_MOTION)};
+  size_t bytes = 0;
+  for (int i = 0; i < NARRAY; i++) bytes += room_of(i, &w, mesh);
+  return bytes;
+}
+
 /* Appends to text [HEADER], which is known to be long enough. */
 static void append(char *text, const char *format, ...) {
   size_t length = strlen(text);
@@ -155,16 +190,16 @@ static void append(char *text, const char *format, ...) {
   va_end(arguments);
 }
 
-/* The XML before the data; padded with blanks so that the data begins at a multiple of 8. */
-static void make_header(const vtu *w, const corot_mesh *mesh, char text[HEADER]) {
+/* The XML before the data; padded with blanks so that the data begins at a multiple of `step`.
+   offset [NARRAY] of the arrays from there. */
+static void make_header(const vtu *w, const size_t *offset, size_t step, char text[HEADER]) {
   const uint16_t one = 1;
   bool little = *(const char *)&one == 1;
   text[0] = '\0';
   append(text,
          "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\""
-         " byte_order=\"%s\" header_type=\"UInt64\">\n<UnstructuredGrid>\n",
-         little ? "LittleEndian" : "BigEndian");
-  size_t offset = 0;
+         " byte_order=\"%s\" header_type=\"UInt64\"%s>\n<UnstructuredGrid>\n",
+         little ? "LittleEndian" : "BigEndian", w->packed ? VTU_COMPRESSOR : "");
   for (int i = 0; i < NARRAY; i++) {
     const struct layout *a = &layout[i];
     if (i == 0 || layout[i - 1].section != a->section)
@@ -174,15 +209,15 @@ static void make_header(const vtu *w, const corot_mesh *mesh, char text[HEADER])
       append(text,
              "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"%s format=\"appended\""
              " offset=\"%zu\"/>\n",
-             a->type, a->name, a->values, a->attributes, offset);
-    offset += room_of(i, w, mesh);
+             a->type, a->name, a->values, a->attributes, offset[i]);
     if (i + 1 < NARRAY && layout[i + 1].section == a->section) continue;
     append(text, "%s", tag[a->section].close);
     if (a->section == FIELD)
-      append(text, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n", mesh->nnode, mesh->ntet);
+      append(text, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n", w->mesh->nnode,
+             w->mesh->ntet);
   }
   append(text, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n");
-  int blanks = (int)(padded(strlen(text) + 1) - strlen(text) - 1);
+  int blanks = (int)((strlen(text) + step) / step * step - strlen(text) - 1);
   append(text, "%*s_", blanks, "");
 }
 
@@ -200,13 +235,15 @@ static void put_mesh(vtu *w, const corot_mesh *mesh, const int *material) {
 }
 
 /* Lays out the image: everything that stays the same from frame to frame is put in place. */
-static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *material) {
+static corot_status make_image(vtu *w, const int *material) {
+  const corot_mesh *mesh = w->mesh;
   char header[HEADER];
+  size_t offset[NARRAY], end = 0;
   /* header, a size and the data of each array, tail */
-  make_header(w, mesh, header);
+  for (int i = 0; i < NARRAY; i++) offset[i] = end, end += room_of(i, w, mesh);
+  make_header(w, offset, 8, header);
   size_t at = strlen(header);
-  w->size = at + sizeof file_tail - 1;
-  for (int i = 0; i < NARRAY; i++) w->size += room_of(i, w, mesh);
+  w->size = at + end + sizeof file_tail - 1;
   w->image = calloc(1, w->size);
   if (!w->image)
     return corot_fail(COROT_ENOMEM, "%zu bytes for the fields: out of memory", w->size);
@@ -225,6 +262,51 @@ static corot_status make_image(vtu *w, const corot_mesh *mesh, const int *materi
   put_mesh(w, mesh, material);
   return COROT_OK;
 }
+
+/* --- Compressed --- */
+
+/* The arrays that stay as they are, and room for a whole file. */
+static corot_status make_packed(vtu *w) {
+  packed_frame *p = w->packed;
+  size_t bound = PACKED_HEADER + sizeof file_tail;
+  COROT_TRY(zlib_packer_create(&p->packer));
+  for (int i = 0; i < NARRAY; i++)
+    if (is_there(i, w)) bound += zlib_bound(array_bytes(i, w->mesh));
+  p->file = malloc(bound);
+  if (!p->file) return corot_fail(COROT_ENOMEM, "%zu bytes for the fields: out of memory", bound);
+  for (int i = CONSTANT; i < NARRAY; i++) {
+    p->nkept[i] = zlib_pack(p->packer, w->array[i], array_bytes(i, w->mesh), p->file);
+    p->kept[i] = malloc(p->nkept[i] + 1);
+    if (!p->kept[i] || p->nkept[i] == 0)
+      return corot_fail(COROT_ENOMEM, "%s for the fields: out of memory", layout[i].name);
+    memcpy(p->kept[i], p->file, p->nkept[i]);
+  }
+  return COROT_OK;
+}
+
+/* The file of the image as it is; *size bytes. */
+static corot_status pack_image(vtu *w, size_t *size) {
+  packed_frame *p = w->packed;
+  char header[HEADER];
+  size_t offset[NARRAY] = {0}, at = PACKED_HEADER;
+  for (int i = 0; i < NARRAY; i++) {
+    if (!is_there(i, w)) continue;
+    offset[i] = at - PACKED_HEADER;
+    size_t n = i < CONSTANT
+                   ? zlib_pack(p->packer, w->array[i], array_bytes(i, w->mesh), p->file + at)
+                   : p->nkept[i];
+    if (n == 0) return corot_fail(COROT_EIO, "%s: zlib fails on %s", w->path, layout[i].name);
+    if (i >= CONSTANT) memcpy(p->file + at, p->kept[i], n);
+    at += n;
+  }
+  make_header(w, offset, PACKED_HEADER, header);
+  memcpy(p->file, header, PACKED_HEADER);
+  memcpy(p->file + at, file_tail, sizeof file_tail - 1);
+  *size = at + sizeof file_tail - 1;
+  return COROT_OK;
+}
+
+/* --- The files --- */
 
 /* Writes `text` over the closing tags of the list, and the closing tags after it: at once, so that
    the list is well-formed at any time. */
@@ -262,37 +344,46 @@ static void set_number(vtu *w, int number) {
   snprintf(w->path + w->number_at, w->path_size - w->number_at, "%06d.vtu", number);
 }
 
-/* Every frame is as long as the next one. */
-static corot_status check_frame(vtu *w, int number) {
+/* Every frame is as long as the next one, unless they are compressed: then *sizes takes it in. */
+static corot_status check_frame(vtu *w, int number, growth *sizes) {
   struct stat info;
   set_number(w, number);
-  if (lstat(w->path, &info) == 0 && S_ISREG(info.st_mode) && (size_t)info.st_size == w->size)
-    return COROT_OK;
+  bool there = lstat(w->path, &info) == 0 && S_ISREG(info.st_mode);
+  uint64_t size = there ? (uint64_t)info.st_size : 0;
+  growth_add(sizes, &size, sizeof size);
+  if (there && (w->packed || size == w->size)) return COROT_OK;
   return corot_fail(COROT_EFORMAT, "%s: is not what it was at the checkpoint", w->path);
 }
 
 /* Those of a checkpoint, as they are. */
 static corot_status find_files(vtu *w, pack *p) {
-  growth_exchange(p, &w->list);
-  corot_pack_int(p, &w->nframe);
-  COROT_TRY(corot_pack_status(p));
+  growth sizes = growth_begin();
+  COROT_TRY(vtu_pack(w, p));
   w->nsynchronised = w->nframe;
-  for (int i = 0; i < w->nframe; i++) COROT_TRY(check_frame(w, i));
+  for (int i = 0; i < w->nframe; i++) COROT_TRY(check_frame(w, i, &sizes));
+  if (w->packed && sizes.sum != w->sizes.sum)
+    return corot_fail(COROT_EFORMAT, "%s: the frames are not what they were at the checkpoint",
+                      w->folder);
   return growth_reopen(w->pvd_path, &w->list, &w->pvd);
 }
 
 /* On the files of a checkpoint, or from the beginning (NULL). */
 static corot_status create(const char *dir, const corot_mesh *mesh, const int *material,
-                           unsigned what, pack *p, vtu **out) {
+                           unsigned what, vtu_data data, pack *p, vtu **out) {
   if (mesh->ntet > INT32_MAX / kind_of(mesh)->nnode)
     return corot_fail(COROT_EINVAL, "%d tets are too many for the fields' 32-bit indices",
                       mesh->ntet);
   vtu *w = calloc(1, sizeof *w);
   if (!w) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
   w->pvd = -1;
-  w->is = corot_mesh_order(mesh) == 2 ? what | OF_ORDER_2 : what;
-  w->list = growth_begin();
-  corot_status status = make_image(w, mesh, material);
+  w->is = of_mesh(mesh, what);
+  w->mesh = mesh;
+  w->list = w->sizes = growth_begin();
+  corot_status status = COROT_OK;
+  if (data == VTU_ZLIB && !(w->packed = calloc(1, sizeof *w->packed)))
+    status = corot_fail(COROT_ENOMEM, "%s/fields: out of memory", dir);
+  if (status == COROT_OK) status = make_image(w, material);
+  if (status == COROT_OK && w->packed) status = make_packed(w);
   if (status == COROT_OK) status = name_files(w, dir);
   if (status == COROT_OK) status = p ? find_files(w, p) : make_files(w);
   if (status != COROT_OK) {
@@ -303,18 +394,19 @@ static corot_status create(const char *dir, const corot_mesh *mesh, const int *m
   return COROT_OK;
 }
 
-corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out) {
-  return create(dir, mesh, material, OF_MOTION, NULL, out);
+corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu_data data,
+                        vtu **out) {
+  return create(dir, mesh, material, OF_MOTION, data, NULL, out);
 }
 
-corot_status vtu_resume(const char *dir, const corot_mesh *mesh, const int *material, pack *p,
-                        vtu **out) {
-  return create(dir, mesh, material, OF_MOTION, p, out);
+corot_status vtu_resume(const char *dir, const corot_mesh *mesh, const int *material, vtu_data data,
+                        pack *p, vtu **out) {
+  return create(dir, mesh, material, OF_MOTION, data, p, out);
 }
 
 corot_status vtu_create_modes(const char *dir, const corot_mesh *mesh, const int *material,
-                              vtu **out) {
-  return create(dir, mesh, material, OF_MODES, NULL, out);
+                              vtu_data data, vtu **out) {
+  return create(dir, mesh, material, OF_MODES, data, NULL, out);
 }
 
 vtu_fields vtu_arrays(vtu *w) {
@@ -336,12 +428,19 @@ vtu_fields vtu_arrays(vtu *w) {
 corot_status vtu_write(vtu *w, double t) {
   memcpy(w->array[TIME], &t, sizeof t);
   set_number(w, w->nframe);
-  COROT_TRY(file_replace(w->path, w->temporary, w->image, w->size));
+  uint64_t size = w->size;
+  if (w->packed) {
+    size_t packed;
+    COROT_TRY(pack_image(w, &packed));
+    size = packed;
+  }
+  COROT_TRY(file_replace(w->path, w->temporary, w->packed ? w->packed->file : w->image, size));
 
   char entry[160];
   snprintf(entry, sizeof entry, "<DataSet timestep=\"%.17g\" file=\"fields/fields_%06d.vtu\"/>\n",
            t, w->nframe);
   COROT_TRY(extend_list(w, entry));
+  growth_add(&w->sizes, &size, sizeof size);
   w->nframe++;
   return COROT_OK;
 }
@@ -351,6 +450,7 @@ corot_status vtu_write(vtu *w, double t) {
 corot_status vtu_pack(vtu *w, pack *p) {
   growth_exchange(p, &w->list);
   corot_pack_int(p, &w->nframe);
+  if (w->packed) growth_exchange(p, &w->sizes);
   return corot_pack_status(p);
 }
 

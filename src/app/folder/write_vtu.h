@@ -25,12 +25,13 @@
      cell data   material
 
    Numbers are Float64 as they stand in memory ("appended raw", UInt64 sizes), each array at a
-   multiple of 8 bytes. A frame appears as a whole, by renaming, and is listed after that: whenever
-   the program is killed, the folder can be opened. */
+   multiple of 8 bytes; or compressed. A frame appears as a whole, by renaming, and is listed after
+   that: whenever the program is killed, the folder can be opened. */
 #ifndef COROT_APP_FOLDER_WRITE_VTU_H
 #define COROT_APP_FOLDER_WRITE_VTU_H
 
 #include <corot/mesh.h>
+#include <stddef.h>
 
 #include "growth.h"
 
@@ -48,14 +49,25 @@ typedef struct vtu_fields {
   double (*von_mises_at)[4], (*det_at)[4];
 } vtu_fields;
 
-/* Makes DIR/fields and an empty DIR/fields.pvd. material: [ntet]. All memory is taken here. */
-corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu **out);
+/* How the arrays are in a file: as they are in memory, or each compressed (zlib_array.h), bit for
+   bit the same when it is read. Then the attribute of VTKFile that says so. */
+typedef enum vtu_data { VTU_RAW, VTU_ZLIB } vtu_data;
+#define VTU_COMPRESSOR " compressor=\"vtkZLibDataCompressor\""
+
+/* Makes DIR/fields and an empty DIR/fields.pvd. material: [ntet]. All memory is taken here. The
+   mesh must outlive the writer. */
+corot_status vtu_create(const char *dir, const corot_mesh *mesh, const int *material, vtu_data data,
+                        vtu **out);
 
 corot_status vtu_create_modes(const char *dir, const corot_mesh *mesh, const int *material,
-                              vtu **out);
+                              vtu_data data, vtu **out);
 
 /* The largest displacement of a mode as it is shown, over the length of the model. */
 #define MODE_SHOWN 0.1
+
+/* Bytes of a frame of a motion, but for a few kB of text; of one that is compressed, more than it
+   has. */
+size_t vtu_bytes(const corot_mesh *mesh);
 
 vtu_fields vtu_arrays(vtu *w);
 
@@ -66,8 +78,8 @@ corot_status vtu_write(vtu *w, double t);
    vtu_cut() takes away the frames since; the frames before are looked at for their sizes. And what
    is written is on the disk. Failures as of growth_reopen. */
 corot_status vtu_pack(vtu *w, pack *p);
-corot_status vtu_resume(const char *dir, const corot_mesh *mesh, const int *material, pack *p,
-                        vtu **out);
+corot_status vtu_resume(const char *dir, const corot_mesh *mesh, const int *material, vtu_data data,
+                        pack *p, vtu **out);
 corot_status vtu_cut(vtu *w);
 corot_status vtu_synchronise(vtu *w);
 

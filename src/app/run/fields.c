@@ -6,10 +6,12 @@
 
 #include "app/folder/write_groups.h"
 #include "app/folder/write_vtu.h"
+#include "app/scenario/field_frames.h"
 
 typedef struct fields {
   const corot_model *model;
-  int every; /* moments */
+  int every; /* moments; of equilibria, whose number is not known before, each if nobody says */
+  bool thinned;
   vtu *file;
 } fields;
 
@@ -39,19 +41,20 @@ static corot_status begin(fields *f, const writer_source *source) {
   int *material = calloc((size_t)mesh->ntet, sizeof *material);
   if (!material) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", source->dir);
   fields_number_materials(&source->scenario->model, mesh, material);
+  vtu_data data = source->scenario->compress_fields ? VTU_ZLIB : VTU_RAW;
   corot_status status = source->from
-                            ? vtu_resume(source->dir, mesh, material, source->from, &f->file)
-                            : vtu_create(source->dir, mesh, material, &f->file);
+                            ? vtu_resume(source->dir, mesh, material, data, source->from, &f->file)
+                            : vtu_create(source->dir, mesh, material, data, &f->file);
   free(material);
   COROT_TRY(status);
   return source->from ? COROT_OK : groups_write(source->dir, source->scenario->resolved, mesh);
 }
 
 static corot_status open_fields(const writer_source *source, void **writer) {
-  int every = source->scenario->field_every;
+  const field_frames frames = field_frames_of(source->scenario, corot_model_mesh(source->model));
   fields *f = calloc(1, sizeof *f);
   if (!f) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", source->dir);
-  *f = (fields){.model = source->model, .every = every > 0 ? every : 1};
+  *f = (fields){.model = source->model, .every = frames.every, .thinned = frames.thinned};
   corot_status status = begin(f, source);
   if (status != COROT_OK) {
     close_fields(f);
@@ -72,7 +75,8 @@ static corot_status synchronise_fields(void *writer) {
 static corot_status cut_fields(void *writer) { return vtu_cut(((fields *)writer)->file); }
 
 static bool is_due(const fields *f, const moment *now) {
-  return now->last || now->number % f->every == 0;
+  bool each = now->still && f->thinned;
+  return now->last || each || now->number % f->every == 0;
 }
 
 static corot_status evaluate_fields(void *writer, const moment *now) {

@@ -102,7 +102,8 @@ static corot_status open_fields(modal_run *r) {
   if (!material) return corot_fail(COROT_ENOMEM, "%s/fields: out of memory", r->options->dir);
   const corot_mesh *mesh = corot_model_mesh(r->model);
   fields_number_materials(&r->scenario->model, mesh, material);
-  corot_status status = vtu_create_modes(r->options->dir, mesh, material, &r->fields);
+  vtu_data data = r->scenario->compress_fields ? VTU_ZLIB : VTU_RAW;
+  corot_status status = vtu_create_modes(r->options->dir, mesh, material, data, &r->fields);
   free(material);
   return status;
 }

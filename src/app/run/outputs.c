@@ -332,6 +332,7 @@ corot_status outputs_write(outputs *o, corot_state *state, const instant *now, b
   const moment all = {.t = now->t,
                       .number = o->count,
                       .last = last,
+                      .still = now->still,
                       .state = state,
                       .u = now->u,
                       .v = now->v,

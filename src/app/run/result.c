@@ -8,6 +8,7 @@
 
 #include "app/folder/folder.h"
 #include "app/folder/provenance.h"
+#include "app/scenario/field_frames.h"
 #include "app/scenario/words.h"
 #include "app/text/json_text.h"
 
@@ -141,6 +142,14 @@ static json_t *steps_part(const outputs *o) {
                    thin_rule(&n));
 }
 
+/* Who reads the fields, whether each output time is there; of a run with fields. */
+static json_t *fields_part(const scenario *s, const run_summary *run) {
+  if (!s->write_fields || run->statics) return json_null();
+  field_frames f = field_frames_of(s, corot_model_mesh(run->model));
+  return json_pack("{s:i, s:f, s:b}", "every", f.every, "bytes_per_frame", f.bytes, "thinned",
+                   f.thinned);
+}
+
 json_t *result_versions(void) {
   return json_pack("{s:s, s:s, s:s}", "corot", corot_version(), "sundials",
                    corot_sundials_version(), "compiler", provenance_compiler);
@@ -156,7 +165,7 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:i, s:o, s:o, "
       "s:o, "
       "s:o, s:o, s:o, s:o,"
-      " s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
+      " s:o, s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
       json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
@@ -167,10 +176,10 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
       timings_part(run), "threads", run->threads, "memory", memory_part(run), "probes",
       outputs_probes(o), "energy", energy_part(o), "quantities", outputs_quantities(o), "extremes",
-      extremes_part(o), "observed", observed_part(run), "steps_csv", steps_part(o), "space_error",
-      space_json(outputs_recorded(o), &run->seen->space), "versions", result_versions(),
-      "provenance", provenance, "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
-      "scenario", s->resolved);
+      extremes_part(o), "observed", observed_part(run), "steps_csv", steps_part(o), "fields",
+      fields_part(s, run), "space_error", space_json(outputs_recorded(o), &run->seen->space),
+      "versions", result_versions(), "provenance", provenance, "hashes", "scenario", h->scenario,
+      "mesh", h->mesh, "run", h->run, "scenario", s->resolved);
   if (!run->statics && run->nresume >= 0)
     result = json_text_with(result, "resumed", integer(run->nresume));
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");

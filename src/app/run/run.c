@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/scenario/field_frames.h"
 #include "app/scenario/threads.h"
 #include "app/text/say.h"
 #include "quantities.h"
@@ -341,6 +342,14 @@ static corot_status summarize(const run *r, const char *reason, int code, run_su
   return has_hashes(r) ? COROT_OK : hashes_of(r->scenario->resolved, r->mesh, &summary->hashes);
 }
 
+/* That not every output time has a frame, where nobody has asked for so few. */
+static void tell_fields(const run *r) {
+  const field_frames frames = field_frames_of(r->scenario, r->mesh);
+  char text[160];
+  field_frames_words(&frames, sizeof text, text);
+  if (frames.thinned) say("fields %s\n", text);
+}
+
 static void tell(const run *r, const run_summary *summary) {
   const char *path = r->scenario->path, *dir = r->options->dir;
   if (summary->reason)
@@ -355,6 +364,7 @@ static void tell(const run *r, const run_summary *summary) {
   say("%s: %.6g s in %ld steps, %ld factorisations, %.3g s (%.3g x real time)%s; %s\n", path,
       summary->t_reached, summary->statistics.nst, summary->statistics.nfactor, summary->wall_s,
       summary->t_reached / summary->wall_s, space, dir);
+  tell_fields(r);
   outputs_tell(r->outputs);
 }
 
@@ -362,7 +372,7 @@ static corot_status warn(run *r, int code) {
   corot_statistics n = corot_integrator_statistics(r->integrator);
   run_end end = run_end_of(r->scenario, r->model, r->state, r->outputs, r->options);
   end.code = code;
-  end.work = (run_work){n.nfe + n.nfeQ, n.nje, n.nfactor, n.nsolve};
+  end.work = (run_work){n.nfe + n.nfeQ, n.nje, n.nfactor, n.nsolve, n.nli};
   return run_warn_after(&end, &r->warnings, &r->seen);
 }
 

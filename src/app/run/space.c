@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "app/text/json_text.h"
+#include "core/base/memory_limit.h"
 #include "run_clock.h"
 
 /* --- What it costs --- */
@@ -16,21 +17,26 @@
 #define OF_FORCE 1e-7 /* with what an integrator does beside */
 #define OF_ASSEMBLY 5e-7
 #define OF_SOLUTION 4e-7
+#define OF_ITERATION 5e-8 /* conjugate gradients */
 #define OF_ESTIMATE 4e-5
 static double of_factor(double n) { return 4e-9 * n * n; }
 
 #define MOST_OF_A_RUN 0.1
 #define NEXT_TO_NOTHING 0.05 /* [s] as above: what reading and writing files takes anyway */
 
-static bool is_cheap(const space_question *q) {
-  double ntet = corot_model_mesh(q->model)->ntet, n = corot_model_ndof(q->model);
-  const run_work *w = &q->work;
+bool space_is_cheap(double ntet, double n, const run_work *w) {
   double run = ntet * (OF_FORCE * (double)w->nforce + OF_ASSEMBLY * (double)w->nassembly +
-                       OF_SOLUTION * (double)w->nsolve) +
-               of_factor(n) * (double)w->nfactor;
+                       OF_SOLUTION * (double)w->nsolve + OF_ITERATION * (double)w->niteration);
+  if (w->niteration == 0) run += of_factor(n) * (double)w->nfactor;
   double estimate = OF_ESTIMATE * ntet + of_factor(n);
   return estimate <= NEXT_TO_NOTHING || estimate <= MOST_OF_A_RUN * run;
 }
+
+/* Model, state and matrices of ten-node tets, 11.5 kB each (corot-bench phases --order 2), and the
+   factor of the four-node ones: as much again for a million of them. */
+#define BYTES_PER_TET 25e3
+
+bool space_fits(double ntet, double memory) { return ntet * BYTES_PER_TET <= memory; }
 
 /* NULL: nothing is against it. */
 static const char *find_reason(const space_question *q) {
@@ -41,9 +47,11 @@ static const char *find_reason(const space_question *q) {
   if (corot_mesh_order(corot_model_mesh(q->model)) != 1)
     return "there is no estimate for ten-node tets";
   if (!q->ended_well) return "the run has not reached its end";
+  if (!space_fits(corot_model_mesh(q->model)->ntet, corot_memory_limits().process))
+    return "ten-node tets need more memory than there is";
   if (s->space_error == SPACE_ERROR_ON) return NULL;
   if (q->options->lean) return "option --lean";
-  if (!is_cheap(q))
+  if (!space_is_cheap(corot_model_mesh(q->model)->ntet, corot_model_ndof(q->model), &q->work))
     return "it may take more than a tenth of the run; output.space_error: true makes it";
   return NULL;
 }

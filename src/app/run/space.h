@@ -15,7 +15,11 @@
 /* What a run has done, for its cost. */
 typedef struct run_work {
   long nforce, nassembly, nfactor, nsolve;
+  long niteration; /* of an iterative solver, whose factors are none */
 } run_work;
+
+/* Whether an estimate on a mesh of that many tets and degrees of freedom costs little beside it. */
+bool space_is_cheap(double ntet, double n, const run_work *work);
 
 typedef struct space_seen {
   const char *left_out; /* why there is no estimate, static; NULL: there is one, */
@@ -39,6 +43,9 @@ typedef struct space_question {
   const double *u, *v; /* [ndof] displacement and velocity then */
   const probes *probes;
 } space_question;
+
+/* Whether so much memory [byte] will do for an estimate on that many four-node tets. */
+bool space_fits(double ntet, double memory);
 
 /* *out is to be released by space_clear. That there is no solution is a reason to leave it out.
    COROT_ENOMEM. */

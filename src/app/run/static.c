@@ -247,7 +247,7 @@ static corot_status warn(equilibrium_run *r, int code) {
   run_end end = run_end_of(r->scenario, r->model, r->state, r->outputs, r->options);
   end.statics = true;
   end.code = code;
-  end.work = (run_work){n.nfe, n.nje, n.nfactor, n.nsolve};
+  end.work = (run_work){n.nfe, n.nje, n.nfactor, n.nsolve, n.nli};
   return run_warn_after(&end, &r->warnings, &r->seen);
 }
 

@@ -23,6 +23,7 @@ typedef struct moment {
   double t;                                        /* [s] */
   long number;                                     /* from 0 */
   bool last;                                       /* of the run */
+  bool still;                                      /* an equilibrium */
   corot_state *state;                              /* for evaluations */
   const double *u, *v;                             /* [n] */
   const double (*displacement)[3], (*velocity)[3]; /* [nnode] */

@@ -9,6 +9,7 @@
 #include "app/text/json_text.h"
 #include "app/text/plural.h"
 #include "core/mesh/mesh.h"
+#include "field_frames.h"
 #include "probe_location.h"
 #include "words.h"
 
@@ -312,9 +313,17 @@ static void print_probe(const probe_def *p, const corot_location *at, const coro
   fputc('\n', out);
 }
 
+static void print_fields(const scenario *s, const facts *f, FILE *out) {
+  char text[160];
+  const field_frames frames = field_frames_of(s, f->mesh);
+  field_frames_words(&frames, sizeof text, text);
+  if (frames.thinned) fprintf(out, "fields         %s\n", text);
+}
+
 static void print_run(const scenario *s, const facts *f, FILE *out) {
   print_integrator(s, &f->chosen, out);
   fprintf(out, "time           0 to %g s, output every %g s\n", s->t_end, s->output_step);
+  print_fields(s, f, out);
   if (s->checkpoint_steps > 0)
     fprintf(out, "checkpoint     after each %ld step%s, written every %g s of the clock\n",
             s->checkpoint_steps, plural(s->checkpoint_steps), s->checkpoint_every);
@@ -440,6 +449,11 @@ json_t *facts_json(const scenario *s, const facts *f) {
   j = json_text_with(j, "bytes", json_integer((json_int_t)f->bytes));
   j = json_text_with(j, "integrator", integrator_json(s, &f->chosen));
   j = json_text_with(j, "time", json_pack("{s:f, s:f}", "end", s->t_end, "output", s->output_step));
+  const field_frames frames = field_frames_of(s, f->mesh);
+  j = json_text_with(
+      j, "fields",
+      json_pack("{s:i, s:I, s:f, s:b}", "every", frames.every, "frames", (json_int_t)frames.n,
+                "bytes", frames.bytes * (double)frames.n, "thinned", frames.thinned));
   if (s->checkpoint_steps > 0)
     j = json_text_with(j, "checkpoint",
                        json_pack("{s:f, s:I}", "every", s->checkpoint_every, "steps",

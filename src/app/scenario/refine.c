@@ -3,10 +3,11 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "app/text/no_memory.h"
+#include "core/base/memory_limit.h"
 
 /* Of a mesh of either order, while it is made. */
 static const double bytes_per_tet[] = {0, 50, 250};
@@ -25,19 +26,25 @@ corot_status refine_fits(int ntet, int nlevel, double memory) {
   return fits(ntet, 1, nlevel, memory);
 }
 
-/* Infinite where the system does not say. */
-static double physical_memory(void) {
-#ifdef _SC_PHYS_PAGES
-  long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-  if (pages > 0 && size > 0) return (double)pages * (double)size;
-#endif
-  return INFINITY;
+/* Of a mesh of either order, its model and the state of its evaluations (corot-bench phases). */
+static const double bytes_of_run[] = {0, 500, 3400};
+
+corot_status run_fits(int ntet, int order, int nlevel, const corot_memory_limit *memory) {
+  double fine = ntet * pow(8, nlevel), bytes = fine * bytes_of_run[order];
+  if (bytes <= memory->process) return COROT_OK;
+  char refined[80] = "";
+  if (nlevel > 0)
+    snprintf(refined, sizeof refined, "refining %d tets %d times makes %.3g, ", ntet, nlevel, fine);
+  return corot_fail(COROT_EINVAL,
+                    "%s%.3g tets of order %d need at least %.3g GB of memory in a run, and %s has "
+                    "%.3g",
+                    refined, fine, order, bytes / 1e9, memory->what, memory->process / 1e9);
 }
 
 corot_status refine_mesh(int nlevel, corot_diagonal diagonal, corot_mesh **mesh,
                          corot_refinement **refinement) {
   corot_mesh *fine;
-  COROT_TRY(fits((*mesh)->ntet, corot_mesh_order(*mesh), nlevel, physical_memory()));
+  COROT_TRY(fits((*mesh)->ntet, corot_mesh_order(*mesh), nlevel, corot_memory_limits().process));
   COROT_TRY(corot_mesh_refine(*mesh, nlevel, diagonal, &fine, refinement));
   corot_mesh_destroy(*mesh);
   *mesh = fine;
@@ -96,7 +103,7 @@ static corot_status check_room(const corot_mesh *mesh, int order, double memory)
 corot_status change_order(int order, corot_mesh **mesh, corot_refinement *refinement) {
   corot_mesh *changed;
   if (order == corot_mesh_order(*mesh)) return COROT_OK;
-  COROT_TRY(check_room(*mesh, order, physical_memory()));
+  COROT_TRY(check_room(*mesh, order, corot_memory_limits().process));
   COROT_TRY(corot_mesh_change_order(*mesh, order, &changed));
   corot_mesh_destroy(*mesh);
   *mesh = changed;

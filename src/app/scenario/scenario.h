@@ -111,7 +111,8 @@ typedef struct scenario {
   const quantity_def *quantity; /* [nquantity] */
 
   bool write_fields;    /* output.fields: vtu */
-  int field_every;      /* every so many output times */
+  int field_every;      /* every so many output times; 0: auto (field_frames.h) */
+  bool compress_fields; /* output.compression: zlib */
   bool write_history;   /* output.history: true */
   bool write_all_steps; /* output.steps: all */
   bool write_states;    /* output.states: binary */

@@ -56,6 +56,16 @@ static corot_status set_order(const scenario *s, corot_mesh **mesh, corot_refine
   return config_fail(place(s, "mesh.order"), "%s", corot_error());
 }
 
+/* Before anything is made of the mesh that takes long. */
+static corot_status check_memory(const scenario *s, const corot_mesh *mesh) {
+  const corot_memory_limit memory = corot_memory_limits();
+  int order = s->order > 0 ? s->order : corot_mesh_order(mesh);
+  corot_status status = run_fits(mesh->ntet, order, s->refine, &memory);
+  if (status == COROT_OK) return COROT_OK;
+  config_node *refine = place(s, "mesh.refine");
+  return config_fail(s->refine > 0 ? refine : place(s, "mesh"), "%s", corot_error());
+}
+
 /* A file's four-node tets may be all that there is. */
 static corot_status check_levels(const scenario *s, const corot_refinement *refinement) {
   if (!scenario_solves_by_levels(s) || refinement->nlevel > 0) return COROT_OK;
@@ -89,7 +99,8 @@ static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinemen
 static corot_status build_mesh(const scenario *s, corot_mesh **out, corot_refinement **refinement) {
   corot_mesh *mesh = NULL;
   COROT_TRY(load_mesh(s, &mesh));
-  corot_status status = add_groups(s, true, mesh);
+  corot_status status = check_memory(s, mesh);
+  if (status == COROT_OK) status = add_groups(s, true, mesh);
   if (status == COROT_OK) status = check_hierarchy(s, mesh);
   if (status == COROT_OK && s->order == 1) status = set_order(s, &mesh, NULL);
   if (status == COROT_OK) status = refine(s, &mesh, refinement);

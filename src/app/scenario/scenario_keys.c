@@ -158,7 +158,7 @@ static const schema_key keys[] = {
   {"integrator.jacobian.gamma_change", NUMBER, OPTIONAL, POSITIVE,     "",        "auto", "auto", "factor anew when step times leading coefficient changes by this fraction"},
   {"integrator.jacobian.convergence", NUMBER,  OPTIONAL, POSITIVE,     "",        "auto", "auto", "Newton's iteration ends at this fraction of the tolerance"},
   {"linear_solver",           SCHEMA_SHORT,    OPTIONAL, ANY,          "",        "auto", 0, "how a step's linear system is solved; the name alone will do"},
-  {"linear_solver.name",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod|pcg", "klu: sparse LU; cholmod: sparse Cholesky; pcg: conjugate gradients; auto: by size"},
+  {"linear_solver.name",      CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|klu|cholmod|pcg", "klu: sparse LU; cholmod: sparse Cholesky; pcg: conjugate gradients; auto: by size, and no factor with which the run would need more than a third of the memory of the machine. What is asked for and needs more than there is is refused before it is made"},
   {"linear_solver.ordering",  CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|amd|metis", "klu, cholmod: of the mesh's nodes, against fill"},
   {"linear_solver.factor",    CHOICE,          OPTIONAL, ANY,          "",        "auto", "auto|simplicial|supernodal", "cholmod: entry by entry, or in dense blocks"},
   {"linear_solver.preconditioner", CHOICE,     OPTIONAL, ANY,          "",        "auto", "auto|block-jacobi|incomplete-cholesky|amg|hierarchical|multigrid", "pcg: what it is preconditioned with; amg: V-cycles through aggregates of nodes, on any mesh; with mesh.refine, unless mesh.marks follow, or ten-node tets also by levels, of which the corners of ten-node tets are one, the coarsest factored, or left to amg where it has more than 30 000 unknowns: their hierarchical basis, or V-cycles"},
@@ -197,7 +197,8 @@ static const schema_key keys[] = {
 
   {"output",                  MAP,             OPTIONAL, ANY,          "",        "{}", 0, "what is written beside the tables"},
   {"output.fields",           CHOICE,          OPTIONAL, ANY,          "",        "vtu", "vtu|none", "fields on the mesh, for ParaView"},
-  {"output.every",            INTEGER,         OPTIONAL, POSITIVE,     "",        "1", 0, "fields at every so many output times"},
+  {"output.every",            INTEGER,         OPTIONAL, POSITIVE,     "",        "auto", "auto", "fields at every so many output times, and the last; auto: 1 or, where all frames of a run would take more than 100 MB together, so many that they take at most that, or the first and the last alone; corot check and corot run say so"},
+  {"output.compression",      CHOICE,          OPTIONAL, ANY,          "",        "none", "none|zlib", "of the fields; zlib: as ParaView and VTK read them, bit for bit the same"},
   {"output.history",          CHOICE,          OPTIONAL, ANY,          "",        "true", "true|false", "history.csv: probes and energies at the end of every step, not at output times alone"},
   {"output.steps",            CHOICE,          OPTIONAL, ANY,          "",        0, "thin|all", "rows of steps.csv; thin, the default: each step up to 10 000, each tenth up to 100 000, each hundredth up to 1 000 000 and so on, and kinks, restarts, failures and the last one; result.json says what is there"},
   {"output.states",           CHOICE,          OPTIONAL, ANY,          "",        "none", "binary|none", "states.bin: displacement and velocity of all degrees of freedom at the output times, to the last bit"},

@@ -174,6 +174,7 @@ static void read_output(scenario *s) {
   s->space_error = text_is(root, "output.space_error", "auto")   ? SPACE_ERROR_AUTO
                    : text_is(root, "output.space_error", "true") ? SPACE_ERROR_ON
                                                                  : SPACE_ERROR_OFF;
+  s->compress_fields = text_is(root, "output.compression", "zlib");
   s->field_every = (int)number_at(root, "output.every");
 }
 

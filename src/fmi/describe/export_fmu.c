@@ -34,13 +34,14 @@ static const char licenses[] =
     "  AMD, COLAMD             BSD-3-Clause\n"
     "  libfyaml, jansson       MIT\n"
     "  libmd                   BSD-3-Clause, BSD-2-Clause, ISC, public domain\n"
+    "  zlib                    Zlib\n"
     "\n"
     "Whoever hands it on gives along their notices, and for KLU and BTF either their source with "
     "the\n"
     "objects of the rest, or the offer of both: corot is built, and the FMU exported again, from\n"
     "its source with any version of these libraries. In Debian the notices are in\n"
     "/usr/share/doc/PACKAGE/copyright of libsundials-dev, libsuitesparse-dev, libfyaml-dev,\n"
-    "libjansson-dev and libmd-dev.\n";
+    "libjansson-dev, libmd-dev and zlib1g-dev.\n";
 
 /* --- Names --- */
 

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/mesh/mesh.h"
+
 typedef struct face {
   int key[3];    /* its nodes, ascending */
   int corner[3]; /* the same, winding outward */
@@ -17,6 +19,7 @@ void surface_free(surface *s) {
   free(s->middle);
   free(s->tet);
   free(s->node);
+  free(s->stands);
   *s = (surface){0};
 }
 
@@ -56,16 +59,28 @@ static int by_tet(const void *a, const void *b) {
   return by_key(a, b);
 }
 
-/* Moves the faces that occur once to the front, in the order of their tets, and counts them. */
-static int keep_single(int n, face *f) {
-  qsort(f, (size_t)n, sizeof *f, by_key);
-  int kept = 0;
-  for (int i = 0, next; i < n; i = next) {
-    for (next = i + 1; next < n && by_key(&f[i], &f[next]) == 0; next++) continue;
-    if (next == i + 1) f[kept++] = f[i];
+/* The faces that occur once, in the order of their tets. */
+static corot_status list_single(int nnode, int ntet, const int (*tet)[4], const int (*mid)[6],
+                                int *n, face **out) {
+  corot_face *all;
+  int nface = 4 * ntet, kept = 0;
+  COROT_TRY(corot_faces_sort(nnode, ntet, tet, &all));
+  for (int i = 0, next; i < nface; i = next) { /* their sides to the front */
+    for (next = i + 1; next < nface && corot_face_compare(&all[i], &all[next]) == 0; next++)
+      continue;
+    if (next == i + 1) all[kept++].side = all[i].side;
   }
+  face *f = malloc(((size_t)kept + 1) * sizeof *f);
+  for (int i = 0; f && i < kept; i++) {
+    int e = all[i].side / 4;
+    f[i] = face_of(e, tet[e], mid ? mid[e] : NULL, all[i].side % 4);
+  }
+  free(all);
+  if (!f) return corot_fail(COROT_ENOMEM, "the surface of %d tets: out of memory", ntet);
   qsort(f, (size_t)kept, sizeof *f, by_tet);
-  return kept;
+  *n = kept;
+  *out = f;
+  return COROT_OK;
 }
 
 /* number [nnode]: 0 to begin with, then one more than each node's number on the surface. */
@@ -100,18 +115,11 @@ static bool allocate(int nnode, bool curved, surface *s) {
 
 corot_status surface_create_of_order(int nnode, int ntet, const int (*tet)[4], const int (*mid)[6],
                                      surface *out) {
-  size_t nface = 4 * (size_t)ntet;
-  face *f = malloc((nface + 1) * sizeof *f);
-  int *number = calloc((size_t)nnode + 1, sizeof *number);
   surface s = {0};
-  bool complete = f && number;
-  if (complete) {
-    /* the faces that belong to one tet alone */
-    for (int e = 0; e < ntet; e++)
-      for (int k = 0; k < 4; k++) f[4 * e + k] = face_of(e, tet[e], mid ? mid[e] : NULL, k);
-    s.ntri = keep_single((int)nface, f);
-    complete = allocate(nnode, mid, &s);
-  }
+  face *f = NULL;
+  COROT_TRY(list_single(nnode, ntet, tet, mid, &s.ntri, &f));
+  int *number = calloc((size_t)nnode + 1, sizeof *number);
+  bool complete = number && allocate(nnode, mid, &s);
   if (complete) number_nodes(nnode, number, f, &s);
   free(f);
   free(number);

@@ -3,6 +3,7 @@
 #define COROT_REPORT_READ_VTU_H
 
 #include <corot/base.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef struct vtu_file {
@@ -10,6 +11,7 @@ typedef struct vtu_file {
   int fd;
   long long size, data; /* bytes; where the arrays begin */
   int nnode, ntet;
+  bool compressed;   /* app/folder/zlib_array.h */
   char header[8192]; /* the XML before the data, and a terminator */
 } vtu_file;
 

@@ -38,6 +38,7 @@ typedef struct body {
   const run_folder *run;
   const fields *f;
   surface s;
+  int nwhole;          /* triangles before it was thinned */
   fields_frame frame;  /* the one being read */
   gradients gradients; /* of the triangles' tets */
   int nshown;
@@ -154,6 +155,8 @@ static corot_status prepare(body *b) {
   const fields *f = b->f;
   COROT_TRY(surface_create_of_order(f->nnode, f->ntet, (const int(*)[4])f->tet,
                                     (const int(*)[6])f->mid, &b->s));
+  b->nwhole = b->s.ntri;
+  COROT_TRY(surface_thin(&b->s, (const double(*)[3])f->x, f->nnode, BODY_TRIANGLES));
   COROT_TRY(fields_frame_create(f, &b->frame));
   return gradients_create(f, b->s.ntri, b->s.tet, &b->gradients);
 }
@@ -260,11 +263,17 @@ static corot_status write_data(const body *b, FILE *out) {
 
 static corot_status write_section(const body *b, int stride, FILE *out) {
   double error = 0;
+  char thinned[160] = "";
   for (int k = UX; k <= UZ; k++) {
     double low, high;
     range(count(b, k) * (size_t)b->nshown, b->value[k], &low, &high);
     error = fmax(error, (high - low) / 65535 / 2);
   }
+  if (b->s.ntri < b->nwhole)
+    snprintf(thinned, sizeof thinned,
+             ", of which %d are drawn, for the size of this page: they leave out what is smaller "
+             "than they are",
+             b->s.ntri);
   page_section("body", "Body", out);
   fputs("<figure class=\"body\" id=\"view\"><script type=\"application/json\">", out);
   COROT_TRY(write_data(b, out));
@@ -275,9 +284,10 @@ static corot_status write_section(const body *b, int stride, FILE *out) {
       "click on a chart over time shows that moment here.");
   page_element(
       out, "p class=\"note\"",
-      "The surface has %d triangles; %d of %d frames are here%s. Displacements are kept "
+      "The surface has %d triangles%s; %d of %d frames are here%s. Displacements are kept "
       "to %.1e m, fields to a 130000th of their range; those of a tet are %s.",
-      b->s.ntri, b->nshown, b->f->nframe, stride > 1 ? ", for the size of this page" : "", error,
+      b->nwhole, thinned, b->nshown, b->f->nframe, stride > 1 ? ", for the size of this page" : "",
+      error,
       b->s.middle ? "linear in it, through its four points of integration" : "constant in it");
   page_section_end(out);
   return COROT_OK;

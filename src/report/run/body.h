@@ -12,6 +12,9 @@
    (before base64 makes four of three). */
 enum { BODY_BYTES = 6500000 };
 
+/* A surface of more triangles is thinned. */
+enum { BODY_TRIANGLES = 30000 };
+
 /* Writes the section with its data: of the fields, and of the run that they belong to what is done
    to the body. */
 corot_status body_write(const fields *f, const run_folder *run, FILE *out);

@@ -286,7 +286,8 @@ corot_status conditions_write(const run_folder *run, const fields *f, const surf
   c.number = malloc((size_t)f->nnode * sizeof *c.number);
   if (!c.number) return corot_fail(COROT_ENOMEM, "%d nodes: out of memory", f->nnode);
   for (int i = 0; i < f->nnode; i++) c.number[i] = -1;
-  for (int i = 0; i < s->nnode; i++) c.number[s->node[i]] = i;
+  for (int i = 0; i < s->nnode && !s->stands; i++) c.number[s->node[i]] = i;
+  for (int i = 0; i < f->nnode && s->stands; i++) c.number[i] = s->stands[i];
   const json_t *boundary = lookup(run->result, "scenario.boundary");
   corot_status status = write_list(&c, "supports", boundary, write_support, out);
   if (status == COROT_OK)

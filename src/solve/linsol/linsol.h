@@ -5,6 +5,7 @@
 #include <corot/solve.h>
 #include <stdbool.h>
 
+#include "core/base/memory_limit.h"
 #include "core/base/sisters.h"
 #include "core/base/team.h"
 
@@ -65,7 +66,8 @@ struct linsol_plan {
   corot_linear_def def;
   const linsol_ops *ops;
   const char *name; /* static: "cholmod supernodal, amd", "klu, metis", "pcg, block-jacobi" */
-  bool by_cost;     /* the solver was chosen by its cost, not asked for by name */
+  bool by_cost;     /* the solver was chosen by its cost, not asked for by name, nor because nothing
+                       else fits into memory: another may take its place */
   linsol_rival rival;
   long most_iterations; /* of an iterative solver, for one system; 0: its own limit */
   int most_direct;      /* unknowns of a coarsest level that a direct solver is left with; 0: the
@@ -76,9 +78,15 @@ struct linsol_plan {
 };
 
 /* `lower`: the lower triangle. COROT_EINVAL: a name that does not exist, or is not in this build.
- */
+   COROT_ENOMEM: or a factor that does not fit into the memory there is, which is seen from the
+   count of its entries, before it is made. Conjugate gradients are chosen in its place. */
 corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
                                  linsol_plan *plan);
+
+/* The same with other limits than those of corot_memory_limits. */
+corot_status corot_linsol_choose_within(const corot_memory_limit *memory,
+                                        const corot_linear_def *def, const corot_csc *lower,
+                                        linsol_plan *plan);
 
 /* The best direct solver of this build. */
 extern COROT_SISTERS const char *const corot_linsol_direct;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/memory_limit.h"
 #include "linsol.h"
 #include "linsol_graph.h"
 #include "solve/linsol/iterative/linsol_multilevel.h"
@@ -105,25 +106,6 @@ static corot_status check_refinement(const corot_linear_def *d) {
                     d->preconditioner);
 }
 
-/* The given ordering, or the one of fewest operations. */
-static corot_status order_nodes(node_graph *g, const char **name, int *order, graph_fill *fill) {
-  int *trial = malloc(g->n * sizeof *trial);
-  if (!trial) return corot_fail(COROT_ENOMEM, "no memory to order %d nodes", g->n);
-  corot_status status = COROT_OK;
-  const char *given = *name;
-  for (int k = 0; k < (given ? 1 : NORDERING) && !status; k++) {
-    const char *ordering = given ? given : orderings.name[k];
-    status = corot_graph_order(g, ordering, trial);
-    if (status) break;
-    graph_fill f = corot_graph_fill(g, trial);
-    if (k > 0 && f.flops >= fill->flops) continue;
-    memcpy(order, trial, g->n * sizeof *order);
-    *name = ordering, *fill = f;
-  }
-  free(trial);
-  return status;
-}
-
 /* Nanoseconds of one core (AVX-512, 2 MB of cache; corot-bench solvers), of which only the ratios
    matter: for an operation of a factorisation and for an entry of the factor that it makes, for an
    entry in a solution, and for an entry of the matrix in an iteration. */
@@ -148,13 +130,84 @@ static const double per_edge = 9, per_length = 20;
 enum { AMG_LEAST = 1500 };
 static const double amg_whole = 400, amg_iteration = 8;
 
-/* Larger factors (8 GB) do not fit many a memory. */
-static const double most_entries = 1e9;
+static bool takes_amg(const corot_csc *csc, corot_role role) {
+  return role == COROT_ROLE_STATIC && csc->n >= AMG_LEAST;
+}
+
+/* Bytes for an entry of the factor: cholmod in dense blocks, with its work space (11 measured, with
+   blocks that are filled up), and by columns; klu, which has two factors with their indices. */
+static const double in_blocks = 11, by_columns = 16, of_klu = 30;
+
+/* Bytes for an entry of the matrix's triangle of what there is beside a factor: mesh, model, state,
+   K and D, the matrix, the integrator's vectors and a frame of the fields; and for what conjugate
+   gradients need (corot-bench phases). */
+static const double beside = 100, of_iteration = 20;
+
+/* Factors that need more of the machine than this part are not chosen: others are at work on it. */
+static const double most_of_machine = 1.0 / 3;
 
 static double factor_ns(const graph_fill *f) { return operation_ns * f->flops + made_ns * f->nnz; }
 
-static bool takes_amg(const corot_csc *csc, corot_role role) {
-  return role == COROT_ROLE_STATIC && csc->n >= AMG_LEAST;
+static bool pays_in_blocks(const graph_fill *f) { return f->flops > dense * f->nnz; }
+
+/* Of a whole run by the direct solver that is asked for or would be chosen. */
+static double bytes_of(const corot_linear_def *d, const corot_csc *csc, const graph_fill *f) {
+  const char *solver = d->solver ? d->solver : corot_linsol_direct;
+  bool blocks = d->factor ? strcmp(d->factor, "supernodal") == 0 : pays_in_blocks(f);
+  double entry = strcmp(solver, "klu") == 0 ? of_klu : blocks ? in_blocks : by_columns;
+  return beside * csc->nnz + entry * f->nnz;
+}
+
+/* A direct solver that does not fit: its memory, and the sentence. */
+static corot_status check_room(const corot_linear_def *d, const corot_csc *csc, const graph_fill *f,
+                               const corot_memory_limit *memory) {
+  double bytes = bytes_of(d, csc, f);
+  if (bytes <= memory->process) return COROT_OK;
+  return corot_fail(
+      COROT_ENOMEM,
+      "linear solver %s: a factor of %.3g entries for %d unknowns needs %.3g GB of memory in all, "
+      "and %s has %.3g; pcg, which makes none, needs %.3g",
+      d->solver, f->nnz, csc->n, bytes / 1e9, memory->what, memory->process / 1e9,
+      (beside + of_iteration) * csc->nnz / 1e9);
+}
+
+/* Whether a factor would leave too little of the memory for others. */
+static bool is_too_large(const corot_linear_def *d, const corot_csc *csc, const graph_fill *f,
+                         const corot_memory_limit *memory) {
+  return bytes_of(d, csc, f) > fmin(memory->process, most_of_machine * memory->machine);
+}
+
+/* Factors that metis orders have had half the entries of amd's or more (boxes of 3000 to 1.4
+   million tets): where this part of them is too much, metis, which takes ten times as long, is not
+   asked. */
+static const double least_share = 0.4;
+
+static bool is_hopeless(const corot_linear_def *d, const corot_csc *csc, const graph_fill *f,
+                        const corot_memory_limit *memory) {
+  const graph_fill least = {.nnz = least_share * f->nnz, .flops = least_share * f->flops};
+  return !d->solver && is_too_large(d, csc, &least, memory);
+}
+
+/* The given ordering, or the one of fewest operations. */
+static corot_status order_nodes(const corot_csc *csc, node_graph *g,
+                                const corot_memory_limit *memory, corot_linear_def *d, int *order,
+                                graph_fill *fill) {
+  int *trial = malloc(g->n * sizeof *trial);
+  if (!trial) return corot_fail(COROT_ENOMEM, "no memory to order %d nodes", g->n);
+  corot_status status = COROT_OK;
+  const char *given = d->ordering;
+  for (int k = 0; k < (given ? 1 : NORDERING) && !status; k++) {
+    const char *ordering = given ? given : orderings.name[k];
+    status = corot_graph_order(g, ordering, trial);
+    if (status) break;
+    graph_fill f = corot_graph_fill(g, trial);
+    if (k > 0 && f.flops >= fill->flops) continue;
+    memcpy(order, trial, g->n * sizeof *order);
+    d->ordering = ordering, *fill = f;
+    if (is_hopeless(d, csc, fill, memory)) break;
+  }
+  free(trial);
+  return status;
 }
 
 /* Whether conjugate gradients are the faster, by a margin: a factor does not depend on how well
@@ -162,7 +215,6 @@ static bool takes_amg(const corot_csc *csc, corot_role role) {
 static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill *f,
                            corot_role role) {
   const double margin = 1.15;
-  if (f->nnz > most_entries) return true;
   if (role == COROT_ROLE_STATIC && HAVE_CHOLMOD)
     return false; /* pcg cannot tell a stable equilibrium */
   double factor = factor_ns(f), solution = solved_ns * f->nnz;
@@ -179,7 +231,6 @@ static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill
    direct solver that was not chosen are kept, and one system may cost three factors and solutions
    (see corot_pencil_solve). */
 static void limit_iterations(const corot_csc *csc, const graph_fill *f, linsol_plan *plan) {
-  if (f->nnz > most_entries) return; /* there is no other */
   const char *preconditioner = plan->def.preconditioner;
   bool amg = preconditioner && strcmp(preconditioner, corot_amg.name) == 0;
   double iteration = (amg ? amg_iteration : 1) * iterated_ns * csc->nnz;
@@ -188,7 +239,26 @@ static void limit_iterations(const corot_csc *csc, const graph_fill *f, linsol_p
   plan->most_iterations = 100 + lround(fmin(1e9, 3 * (plan->rival.factor + plan->rival.solution)));
 }
 
-static corot_status analyze(const corot_csc *csc, node_graph *g, linsol_plan *plan) {
+static corot_status decide(const corot_csc *csc, node_graph *g, const graph_fill *f,
+                           const corot_memory_limit *memory, linsol_plan *plan) {
+  corot_linear_def *d = &plan->def;
+  bool too_large = is_too_large(d, csc, f, memory), fits = bytes_of(d, csc, f) <= memory->process;
+  if (!d->solver && (too_large || iteration_pays(csc, g, f, d->role))) {
+    d->solver = corot_linsol_pcg.name;
+    /* a large factor is made where iterations fail, not where they are slow; one that does not fit
+       is never made */
+    plan->by_cost = fits;
+    if (!too_large) limit_iterations(csc, f, plan);
+  } else {
+    if (!d->solver) d->solver = corot_linsol_direct;
+    COROT_TRY(check_room(d, csc, f, memory));
+  }
+  if (!d->factor) d->factor = pays_in_blocks(f) ? "supernodal" : "simplicial";
+  return COROT_OK;
+}
+
+static corot_status analyze(const corot_csc *csc, node_graph *g, const corot_memory_limit *memory,
+                            linsol_plan *plan) {
   corot_linear_def *d = &plan->def;
   graph_fill fill = {0};
   int *nodes = malloc(csc->n * sizeof *nodes);
@@ -196,22 +266,16 @@ static corot_status analyze(const corot_csc *csc, node_graph *g, linsol_plan *pl
   corot_status status = COROT_OK;
   if (!nodes || !plan->order)
     status = corot_fail(COROT_ENOMEM, "no memory to order %d unknowns", csc->n);
-  if (!status) status = order_nodes(g, &d->ordering, nodes, &fill);
+  if (!status) status = order_nodes(csc, g, memory, d, nodes, &fill);
   for (int k = 0, i = 0; k < g->n && !status; k++)
     for (int j = g->first[nodes[k]]; j < g->first[nodes[k] + 1]; j++) plan->order[i++] = j;
   free(nodes);
-  if (status) return status;
-  if (!d->solver && iteration_pays(csc, g, &fill, d->role)) {
-    d->solver = corot_linsol_pcg.name;
-    limit_iterations(csc, &fill, plan);
-  }
-  if (!d->solver) d->solver = corot_linsol_direct;
-  if (!d->factor) d->factor = fill.flops > dense * fill.nnz ? "supernodal" : "simplicial";
-  return COROT_OK;
+  return status ? status : decide(csc, g, &fill, memory, plan);
 }
 
-corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
-                                 linsol_plan *plan) {
+corot_status corot_linsol_choose_within(const corot_memory_limit *memory,
+                                        const corot_linear_def *def, const corot_csc *lower,
+                                        linsol_plan *plan) {
   linsol_plan p = {.def = *def};
   node_graph g = {0};
   COROT_TRY(look_up_all(&p.def));
@@ -222,7 +286,7 @@ corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *l
     p.def.preconditioner = takes_amg(lower, def->role) ? corot_amg.name : "incomplete-cholesky";
   if (!asked || !asked->iterative) {
     status = corot_graph_create(lower, &g);
-    if (!status) status = analyze(lower, &g, &p);
+    if (!status) status = analyze(lower, &g, memory, &p);
   }
   corot_graph_clear(&g);
   if (!status) status = check_refinement(&p.def);
@@ -233,6 +297,12 @@ corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *l
   }
   *plan = p;
   return COROT_OK;
+}
+
+corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *lower,
+                                 linsol_plan *plan) {
+  const corot_memory_limit memory = corot_memory_limits();
+  return corot_linsol_choose_within(&memory, def, lower, plan);
 }
 
 void corot_linsol_plan_clear(linsol_plan *plan) {
