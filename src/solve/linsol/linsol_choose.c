@@ -94,6 +94,7 @@ static corot_status find(linsol_plan *plan) {
                       "linear solver %s is not in this build (configure with COROT_CHOLMOD=ON)",
                       plan->def.solver);
   plan->name = full_name(plan->ops, &plan->def);
+  plan->by_place = plan->ops->iterative && corot_multilevel_find(plan->def.preconditioner);
   return COROT_OK;
 }
 
