@@ -4,6 +4,7 @@
 
 #include "alloc.h"
 #include "solid.h"
+#include "solve/linsol/iterative/linsol_coarse.h"
 #include "solve/linsol/iterative/linsol_multilevel.h"
 #include "solve/pencil/pencil.h"
 #include "solver.h"

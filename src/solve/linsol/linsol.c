@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "core/base/sized.h"
-#include "solve/linsol/iterative/linsol_multilevel.h"
 
 /* The solver of a definition whose size is not ours, which has no first member to say so. */
 static const char other_version[] = "of another version";
@@ -39,7 +38,7 @@ static corot_status check_refinement(const corot_model *model, const corot_refin
 
 /* Where the nodes are, for solvers that ask. */
 static corot_status place(const corot_model *model, linsol_plan *plan, linsol *s) {
-  if (!plan->ops->iterative || !corot_multilevel_find(plan->def.preconditioner)) return COROT_OK;
+  if (!plan->by_place) return COROT_OK;
   const corot_mesh *mesh = corot_model_mesh(model);
   s->x = malloc(mesh->nnode * sizeof *s->x);
   if (!s->x) return corot_fail(COROT_ENOMEM, "no memory for %d nodes", mesh->nnode);

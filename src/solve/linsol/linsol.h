@@ -68,6 +68,7 @@ struct linsol_plan {
   const char *name; /* static: "cholmod supernodal, amd", "klu, metis", "pcg, block-jacobi" */
   bool by_cost;     /* the solver was chosen by its cost, not asked for by name, nor because nothing
                        else fits into memory: another may take its place */
+  bool by_place;    /* it asks where the nodes are */
   linsol_rival rival;
   long most_iterations; /* of an iterative solver, for one system; 0: its own limit */
   int most_direct;      /* unknowns of a coarsest level that a direct solver is left with; 0: the

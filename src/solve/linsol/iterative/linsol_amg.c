@@ -17,6 +17,7 @@
 
 #include "core/lanes/simd.h"
 #include "linsol_aggregate.h"
+#include "linsol_bottom.h"
 #include "linsol_multilevel.h"
 #include "linsol_project.h"
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/lanes/simd.h"
+#include "linsol_coarse.h"
 #include "linsol_multilevel.h"
 
 typedef struct basis {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "linsol_blocks.h"
+#include "linsol_coarse.h"
 #include "linsol_multilevel.h"
 
 /* A_l x = b on one level, with fourth components that are zero. */

@@ -4,7 +4,8 @@
 #ifndef COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_MULTILEVEL_H
 #define COROT_SOLVE_LINSOL_ITERATIVE_LINSOL_MULTILEVEL_H
 
-#include "linsol_coarse.h"
+#include "linsol_nodes.h"
+#include "solve/linsol/linsol.h"
 
 typedef struct multilevel_ops {
   const char *name;
