@@ -84,7 +84,7 @@ static corot_status parse_tetgen(const uint8_t *data, size_t size, corot_mesh **
   char *text[] = {copy(data, nnode), copy(ele, nele), copy(face, nface)};
   const corot_mesh_text n = {"fuzz.node", text[0], nnode}, e = {"fuzz.ele", text[1], nele},
                         f = {"fuzz.face", text[2], nface};
-  corot_status status = corot_tetgen_parse(&n, &e, face ? &f : NULL, m);
+  corot_status status = corot_tetgen_parse(&n, &e, face ? &f : NULL, NULL, m);
   for (int i = 0; i < 3; i++) free(text[i]);
   return status;
 }
@@ -93,7 +93,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   corot_mesh *m = NULL;
   corot_status status;
   char *text = copy(data, size);
-  status = corot_mesh_parse("fuzz", text, size, &m);
+  status = corot_mesh_parse("fuzz", text, size, NULL, &m);
   free(text);
   if (status && (strstr(corot_error(), "not a mesh file") || strstr(corot_error(), "is empty")))
     status = parse_tetgen(data, size, &m);
