@@ -160,6 +160,9 @@ void corot_draft_check_middles(corot_draft *d);
    puts them into ours. COROT_EFORMAT: it is not one order. */
 corot_status corot_draft_order_middles(corot_draft *d);
 
+/* Turns all tets round if all are left-handed: of formats that do not say how a tet is wound. */
+void corot_draft_turn_all(corot_draft *d);
+
 /* Turns left-handed tets round, if that is asked for. */
 corot_status corot_draft_turn(corot_draft *d);
 

@@ -187,6 +187,17 @@ static void turn_round(corot_draft *d, corot_draft_element *e) {
   swap(&middle[3], &middle[4]);
 }
 
+void corot_draft_turn_all(corot_draft *d) {
+  const double(*x)[3] = (const double(*)[3])d->x;
+  for (size_t i = 0; i < d->nelement; i++) {
+    const corot_draft_element *e = &d->element[i];
+    if (e->dim != 3 || e->kind) continue;
+    if (corot_draft_is_broken(d, e) || !(corot_tet_volume(x, e->node) < 0)) return;
+  }
+  for (size_t i = 0; i < d->nelement; i++)
+    if (d->element[i].dim == 3 && !d->element[i].kind) turn_round(d, &d->element[i]);
+}
+
 corot_status corot_draft_turn(corot_draft *d) {
   const double(*x)[3] = (const double(*)[3])d->x;
   corot_draft_list list = {0};

@@ -118,19 +118,6 @@ static corot_status read_tets(corot_reader *r, corot_draft *d, double **region) 
   return COROT_OK;
 }
 
-/* The format does not say how a tet is wound: if all are left-handed, they are turned round. */
-static void turn_left_handed(corot_draft *d) {
-  for (size_t e = 0; e < d->nelement; e++)
-    if (corot_draft_is_broken(d, &d->element[e]) ||
-        !(corot_tet_volume((const double(*)[3])d->x, d->element[e].node) < 0))
-      return;
-  for (size_t e = 0; e < d->nelement; e++) {
-    int *v = d->element[e].node, swap = v[0];
-    v[0] = v[1];
-    v[1] = swap;
-  }
-}
-
 /* "INDEX NODE NODE NODE [three nodes on edges] [MARKER] [two tets]"; those in brackets are there or
    not as -o2, the first line of the file and -nn say. A face without a marker is left out. */
 static corot_status read_face(corot_reader *r, int nmarker, corot_draft *d, double *marker) {
@@ -235,8 +222,8 @@ static corot_status parse(corot_reader *node, corot_reader *ele, corot_reader *f
   COROT_TRY(read_nodes(node, d, &m->node));
   COROT_TRY(read_tets(ele, d, &m->region));
   int ntet = (int)d->nelement;
-  turn_left_handed(d);
   if (d->order == 2) COROT_TRY(corot_draft_order_middles(d));
+  corot_draft_turn_all(d);
   if (face) {
     d->face_file = face;
     COROT_TRY(read_faces(face, d, &m->face));
