@@ -85,7 +85,9 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
      is there;
      MEDIT (.mesh), ASCII;
      Abaqus and CalculiX (.inp), with the files that it includes;
-     VTK (.vtk), legacy files of unstructured grids, ASCII and binary.
+     VTK, legacy files (.vtk) of unstructured grids, ASCII and binary, and XML files (.vtu), ASCII,
+     base64 or appended, compressed by zlib or not;
+     Netgen (.vol).
 
    gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
    1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
@@ -95,7 +97,7 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
    A group's triangles must be faces of tets; those inside the mesh keep the file's winding
    (reversed by a negative physical number in format 4.1). Other lines and surfaces are ignored
    outside physical groups and refused inside; other solids, and tets of both orders in one file, are
-   refused. A partitioned mesh of format 4.1 is put together: what is between partitions makes no
+   refused (but see corot_mesh_read_mended, here and below). A partitioned mesh of format 4.1 is put together: what is between partitions makes no
    group. Refused, too,
    are tets that list the nodes on their edges in another order than gmsh, which shows in where these
    are. Sections that are not needed are skipped.
@@ -120,7 +122,12 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
 
    VTK: cells of types 10 and 24, tets of 4 and 10 nodes; positive numbers in an array of cells that
    is called CellEntityIds (gmsh), gmsh:physical or medit:ref (meshio) become groups, called as gmsh's
-   nameless ones, of the triangles (types 5 and 22), too. Other solids are refused, other cells skipped.
+   nameless ones, of the triangles (types 5 and 22), too; whole numbers other than 0 in an array of cells
+   or points that is called group:NAME, the group NAME, where %41 is A. Other solids, and XML files of
+   several pieces, are refused, other cells skipped.
+
+   Netgen: volumeelements and surfaceelements; materials and boundary conditions become groups, by
+   their names, or called as gmsh's nameless ones. Its tets are left-handed, and turned round.
 
    Text may begin with a byte order mark of UTF-8, end its lines with LF, CR LF or CR, and have
    Fortran's exponents, 1D-3; numbers of nodes are not negative.
