@@ -87,7 +87,8 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
      Abaqus and CalculiX (.inp), with the files that it includes;
      VTK, legacy files (.vtk) of unstructured grids, ASCII and binary, and XML files (.vtu), ASCII,
      base64 or appended, compressed by zlib or not;
-     Netgen (.vol).
+     Netgen (.vol);
+     MFEM (.mesh, "MFEM mesh v1.0" to v1.3) with straight edges; VegaFEM (.veg).
 
    gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
    1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
@@ -128,6 +129,11 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
 
    Netgen: volumeelements and surfaceelements; materials and boundary conditions become groups, by
    their names, or called as gmsh's nameless ones. Its tets are left-handed, and turned round.
+
+   MFEM: elements and boundary; attributes become groups, called as gmsh's nameless ones. Meshes with
+   curved nodes are refused.
+
+   VegaFEM: *VERTICES, *ELEMENTS, and each *SET as a group; other keywords are skipped, but *INCLUDE.
 
    Text may begin with a byte order mark of UTF-8, end its lines with LF, CR LF or CR, and have
    Fortran's exponents, 1D-3; numbers of nodes are not negative.

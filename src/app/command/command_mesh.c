@@ -147,7 +147,7 @@ static const char info_help[] =
     "2.2,\n"
     "4.0 and 4.1 (.msh), TetGen (.node, .ele, .face), MEDIT (.mesh), Abaqus and CalculiX (.inp), "
     "VTK\n"
-    "(.vtk, .vtu), Netgen (.vol).\n"
+    "(.vtk, .vtu), Netgen (.vol), MFEM (.mesh), VegaFEM (.veg).\n"
     "\n"
     "      --cut            hexahedra, prisms and pyramids of first order are cut into tets\n"
     "      --json           the same as JSON\n"

@@ -95,6 +95,17 @@ static bool is_vol(const char *path, const char *text) {
          (has_suffix(path, ".vol") && *text == '#' && strstr(text, "mesh3d"));
 }
 
+static bool is_mfem(const char *path, const char *text) {
+  (void)path;
+  return strncmp(text, "MFEM mesh v1.", 13) == 0;
+}
+
+/* Comments may come first, and VegaFEM's other keywords. */
+static bool is_veg(const char *path, const char *text) {
+  return strncmp(text, "*VERTICES", 9) == 0 ||
+         (has_suffix(path, ".veg") && (*text == '#' || *text == '*') && strstr(text, "*VERTICES"));
+}
+
 static bool is_tetgen(const char *path, const char *text) {
   (void)text;
   return has_suffix(path, ".node") || has_suffix(path, ".ele");
@@ -106,9 +117,9 @@ static const struct {
   corot_status (*parse)(const char *path, const char *data, size_t size, const corot_reading *how,
                         corot_mesh **mesh);
 } formats[] = {
-    {is_gmsh, corot_gmsh_parse}, {is_vtk, corot_vtk_parse}, {is_medit, corot_medit_parse},
-    {is_inp, corot_inp_parse},   {is_vtu, corot_vtu_parse}, {is_vol, corot_vol_parse},
-    {is_tetgen, read_tetgen},
+    {is_gmsh, corot_gmsh_parse}, {is_vtk, corot_vtk_parse},   {is_medit, corot_medit_parse},
+    {is_veg, corot_veg_parse},   {is_inp, corot_inp_parse},   {is_vtu, corot_vtu_parse},
+    {is_vol, corot_vol_parse},   {is_mfem, corot_mfem_parse}, {is_tetgen, read_tetgen},
 };
 
 corot_status corot_mesh_parse(const char *path, const char *data, size_t size,
@@ -117,13 +128,13 @@ corot_status corot_mesh_parse(const char *path, const char *data, size_t size,
   if (text == data + size) return corot_fail(COROT_EFORMAT, "%s: the file is empty", path);
   for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
     if (formats[i].recognize(path, text)) return formats[i].parse(path, data, size, how, mesh);
-  return corot_fail(
-      COROT_EFORMAT,
-      "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, MEDIT files "
-      "with MeshVersionFormatted, Abaqus files with *, VTK files with # vtk "
-      "DataFile or have a tag VTKFile, Netgen files with mesh3d, TetGen files are called "
-      "NAME.node and NAME.ele",
-      path);
+  return corot_fail(COROT_EFORMAT,
+                    "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, MEDIT files "
+                    "with MeshVersionFormatted, Abaqus files with *, VTK files with # vtk "
+                    "DataFile or have a tag VTKFile, Netgen files with mesh3d, MFEM files with "
+                    "MFEM mesh v1, VegaFEM files with *VERTICES, TetGen files are called "
+                    "NAME.node and NAME.ele",
+                    path);
 }
 
 static corot_status read_file(const char *path, const corot_reading *how, corot_mesh **mesh) {

@@ -24,6 +24,10 @@ corot_status corot_medit_parse(const char *path, const char *data, size_t size,
                                const corot_reading *how, corot_mesh **mesh);
 corot_status corot_vtu_parse(const char *path, const char *data, size_t size,
                              const corot_reading *how, corot_mesh **mesh);
+corot_status corot_mfem_parse(const char *path, const char *data, size_t size,
+                              const corot_reading *how, corot_mesh **mesh);
+corot_status corot_veg_parse(const char *path, const char *data, size_t size,
+                             const corot_reading *how, corot_mesh **mesh);
 corot_status corot_vol_parse(const char *path, const char *data, size_t size,
                              const corot_reading *how, corot_mesh **mesh);
 corot_status corot_vtk_parse(const char *path, const char *data, size_t size,
