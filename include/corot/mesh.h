@@ -188,7 +188,7 @@ typedef struct corot_mesh_report {
 
    `mending` may be NULL. What cannot be mended is refused: flat tets, coordinates that are no numbers,
    nodes that do not exist, three tets at a face or two on one side of it, solids that are not
-   to be cut, or are folded. COROT_EFORMAT, COROT_EIO, COROT_ENOMEM as of corot_mesh_read; COROT_EINVAL:
+   to be cut, are folded, or have tets at a quad that do not match its diagonal. COROT_EFORMAT, COROT_EIO, COROT_ENOMEM as of corot_mesh_read; COROT_EINVAL:
    `merge` is negative, or no number. */
 COROT_API corot_status corot_mesh_read_mended(const char *path, const corot_mending *mending,
                                               corot_mesh **mesh, corot_mesh_report **report);

@@ -402,6 +402,10 @@ static void faces_match_however_nodes_are_numbered(void **state) {
 #define CUBE \
   "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n"
 
+#define CUBE_AND_TIP                                                                               \
+  "$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 .5 .4 2\n" \
+  "$EndNodes\n"
+
 /* Left-handed as VTK has prisms, and with corners that are one. */
 static void the_hand_of_a_cell_does_not_matter(void **state) {
   (void)state;
@@ -436,6 +440,22 @@ static void cells_that_are_none_are_refused(void **state) {
           "m.msh:17: element 1 is a hexahedron that is folded: ");
   refused(ONE("1 5 2 1 1 1 2 2 1 1 2 2 1"), true,
           "m.msh:17: element 1 is a hexahedron of too few different corners");
+  /* tets stand on the top of a cube, on halves by either diagonal */
+  refused(
+      HEAD CUBE_AND_TIP
+      "$Elements\n3\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 4 2 1 1 5 6 8 9\n3 4 2 1 1 6 7 8 9\n"
+      "$EndElements\n",
+      true,
+      "m.msh:18: element 1: tets at its face 5 6 7 8 have the other diagonal: they do not match "
+      "without pyramids between");
+  static const char *const remark[] = {
+      "1 hexahedron of the mesh file is cut into 6 tets, each face by the diagonal from its corner "
+      "of "
+      "the lowest number"};
+  corot_mesh_destroy(mended(HEAD CUBE_AND_TIP
+                            "$Elements\n3\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 4 2 1 1 5 6 7 9\n"
+                            "3 4 2 1 1 5 7 8 9\n$EndElements\n",
+                            true, 0, 1, remark));
   refused(ONE("1 6 2 1 1 1 2 3 5 6 9"), true, "m.msh:17: element 1: node 9 does not exist");
   refused(
       ONE("1 12 2 1 1 1"), true,

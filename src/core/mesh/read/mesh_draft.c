@@ -10,6 +10,7 @@ void corot_draft_clear(corot_draft *d) {
   free(d->by_tag);
   free(d->element);
   free(d->middle);
+  free(d->quad);
   free(d->member);
   free(d->name);
   memset(d, 0, sizeof *d);
@@ -278,7 +279,7 @@ static corot_status tell(corot_draft *d) {
 
 /* Fills a zeroed mesh with nodes, tets and groups; `tet` [nelement] is scratch. */
 static corot_status build(corot_draft *d, int *tet, corot_mesh *mesh) {
-  corot_face *face;
+  corot_face *face = NULL;
   corot_draft_check_orders(d);
   if (d->order == 2) corot_draft_check_middles(d);
   COROT_TRY(corot_draft_turn(d));
@@ -288,6 +289,8 @@ static corot_status build(corot_draft *d, int *tet, corot_mesh *mesh) {
   if (mesh->ntet > 0 || d->faults.n == 0) {
     COROT_TRY(check(d, tet, mesh, &face));
   }
+  if (d->faults.n == 0) corot_draft_match_quads(d, 4 * mesh->ntet, face);
+  if (d->faults.n > 0) free(face);
   COROT_TRY(tell(d));
   corot_status status = corot_draft_groups(d, tet, face, mesh);
   free(face);

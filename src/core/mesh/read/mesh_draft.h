@@ -64,6 +64,13 @@ typedef struct corot_reading {
   corot_mesh_report *report; /* what has been done; given if anything may be */
 } corot_reading;
 
+/* A face of a solid that has been cut. */
+typedef struct corot_draft_quad {
+  int v[4];    /* in turn, the lowest first: it is cut from v[0] to v[2] */
+  int64_t tag; /* of the solid */
+  size_t at;
+} corot_draft_quad;
+
 /* Zero is an empty draft. */
 typedef struct corot_draft {
   const corot_reading *how; /* NULL: nothing is mended */
@@ -89,6 +96,9 @@ typedef struct corot_draft {
   int *middle; /* [nmiddle] indices or -1: of a tet on the edges 01 12 02 03 13 23, of a triangle 01
                 * 12 20
                 */
+
+  size_t nquad, quad_room;
+  corot_draft_quad *quad;
 
   size_t nmember, member_room;
   corot_draft_member *member; /* elements ascending */
@@ -149,6 +159,9 @@ corot_status corot_draft_add_name(corot_draft *d, int dim, int physical, const c
    other than tets. Adds to the report. */
 corot_status corot_draft_merge(corot_draft *d);
 corot_status corot_draft_cut(corot_draft *d);
+
+/* Notes quads at which the tets on the other side have the other diagonal. */
+void corot_draft_match_quads(corot_draft *d, int nface, const corot_face *face);
 
 /* Notes lines and triangles in groups that are not of the order of the tets. */
 void corot_draft_check_orders(corot_draft *d);

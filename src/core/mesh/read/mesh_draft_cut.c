@@ -99,14 +99,48 @@ static void turn_parts(corot_draft *d, const corot_draft_element *e, parts *p) {
   p->n = 0;
 }
 
-static void cut_element(corot_draft *d, const corot_draft_element *e, parts *p) {
+/* Remembers the quads of a solid, but those that have a corner twice. */
+static corot_status add_quads(corot_draft *d, const corot_draft_element *e, const int *corner) {
+  for (int f = 0; f < shapes[e->kind].nface; f++) {
+    const int *local = shapes[e->kind].face[f];
+    corot_draft_quad q = {.tag = e->tag, .at = e->at};
+    void *items = d->quad;
+    parts halves = {0};
+    if (local[3] < 0) continue;
+    const int face[4] = {corner[local[0]], corner[local[1]], corner[local[2]], corner[local[3]]};
+    cut_quad(face, &halves);
+    if (halves.n < 2) continue;
+    begin_at_lowest(face, q.v);
+    COROT_TRY(corot_make_room(&items, d->nquad, &d->quad_room, sizeof q));
+    d->quad = items;
+    d->quad[d->nquad++] = q;
+  }
+  return COROT_OK;
+}
+
+void corot_draft_match_quads(corot_draft *d, int nface, const corot_face *face) {
+  for (size_t i = 0; i < d->nquad; i++) {
+    const corot_draft_quad *q = &d->quad[i];
+    const int *v = q->v;
+    if (corot_face_find(nface, face, (int[]){v[1], v[2], v[3]}) < 0 &&
+        corot_face_find(nface, face, (int[]){v[3], v[0], v[1]}) < 0)
+      continue;
+    corot_draft_note(d, d->element_file, q->at,
+                     "element %lld: tets at its face %lld %lld %lld %lld have the other diagonal: "
+                     "they do not match without pyramids between",
+                     (long long)q->tag, (long long)d->node[v[0]].tag, (long long)d->node[v[1]].tag,
+                     (long long)d->node[v[2]].tag, (long long)d->node[v[3]].tag);
+  }
+}
+
+static corot_status cut_element(corot_draft *d, const corot_draft_element *e, parts *p) {
   int corner[8] = {0}, n = corot_draft_ncorner(e);
   p->n = 0;
-  if (corot_draft_is_broken(d, e)) return;
+  if (corot_draft_is_broken(d, e)) return COROT_OK;
   for (int k = 0; k < n; k++) corner[k] = k < 4 ? e->node[k] : d->middle[e->middle - 1 + k - 4];
   if (e->kind == DRAFT_QUAD) {
     cut_quad(corner, p);
-    return;
+    return COROT_OK;
   }
   cut_solid(e->kind, corner, n, p);
   if (p->n > 0)
@@ -114,6 +148,7 @@ static void cut_element(corot_draft *d, const corot_draft_element *e, parts *p) 
   else
     corot_draft_note(d, d->element_file, e->at, "element %lld is a %s of too few different corners",
                      (long long)e->tag, words[e->kind][0]);
+  return p->n > 0 ? add_quads(d, e, corner) : COROT_OK;
 }
 
 /* --- Counts --- */
@@ -210,7 +245,7 @@ static corot_status cut_elements(corot_draft *d, cutting *c) {
       COROT_TRY(append(c, e));
       continue;
     }
-    cut_element(d, e, &p);
+    COROT_TRY(cut_element(d, e, &p));
     for (int k = 0; k < p.n; k++) {
       memcpy(part.node, p.node[k], sizeof part.node);
       COROT_TRY(append(c, &part));

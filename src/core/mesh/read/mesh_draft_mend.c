@@ -45,6 +45,8 @@ static void renumber(corot_draft *d, const int *to) {
     int corners = p->kind ? 4 : p->dim + 1;
     for (int k = 0; k < corners; k++) p->node[k] = renumbered(to, p->node[k]);
   }
+  for (size_t i = 0; i < d->nquad; i++)
+    for (int k = 0; k < 4; k++) d->quad[i].v[k] = to[d->quad[i].v[k]];
   for (size_t k = 0; k < d->nmiddle; k++) d->middle[k] = renumbered(to, d->middle[k]);
 }
 
