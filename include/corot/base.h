@@ -54,7 +54,7 @@ typedef enum corot_status {
    A later success does not clear it: read it only after a call that returned non-zero. */
 COROT_API const char *corot_error(void);
 
-/* Sets this thread's message (printf rules, cut at 1023 characters) and returns `status`, so that
+/* Sets this thread's message (printf rules, cut at 4095 characters) and returns `status`, so that
    a failure is one statement: `return corot_fail(COROT_EINVAL, "tet %d: ...", e);`
    The old message may be among the arguments: `corot_fail(s, "%s: %s", path, corot_error())`. */
 COROT_API corot_status corot_fail(corot_status status, const char *format, ...)

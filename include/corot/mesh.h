@@ -50,7 +50,8 @@ typedef struct corot_mesh {
 /* Copies `x` [nnode] and `tet` [ntet] into a new mesh without groups. The mesh owns the copies until
    corot_mesh_destroy; a model copies what it needs of a mesh in its turn, and so does each function
    that adds a group: the caller's arrays may go at once.
-   COROT_EINVAL names the first node or tet that is not sound. COROT_ENOMEM. */
+   COROT_EINVAL names what is not sound, a line for each of the first ten nodes and tets: nothing is
+   mended (corot_mesh_read_mended does so with files). COROT_ENOMEM. */
 COROT_API corot_status corot_mesh_create(int nnode, const double (*x)[3], int ntet,
                                          const int (*tet)[4], corot_mesh **mesh);
 
@@ -84,7 +85,10 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
      is there;
      MEDIT (.mesh), ASCII;
      Abaqus and CalculiX (.inp), with the files that it includes;
-     VTK (.vtk), legacy files of unstructured grids, ASCII and binary.
+     VTK, legacy files (.vtk) of unstructured grids, ASCII and binary, and XML files (.vtu), ASCII,
+     base64 or appended, compressed by zlib or not;
+     Netgen (.vol);
+     MFEM (.mesh, "MFEM mesh v1.0" to v1.3) with straight edges; VegaFEM (.veg).
 
    gmsh: 4-node tets become a mesh of order 1, 10-node tets one of order 2; an element that formats
    1 and 2.2 repeat for each of its physical groups becomes one. Physical groups of points, lines of
@@ -94,7 +98,7 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
    A group's triangles must be faces of tets; those inside the mesh keep the file's winding
    (reversed by a negative physical number in format 4.1). Other lines and surfaces are ignored
    outside physical groups and refused inside; other solids, and tets of both orders in one file, are
-   refused. A partitioned mesh of format 4.1 is put together: what is between partitions makes no
+   refused (but see corot_mesh_read_mended, here and below). A partitioned mesh of format 4.1 is put together: what is between partitions makes no
    group. Refused, too,
    are tets that list the nodes on their edges in another order than gmsh, which shows in where these
    are. Sections that are not needed are skipped.
@@ -119,15 +123,78 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
 
    VTK: cells of types 10 and 24, tets of 4 and 10 nodes; positive numbers in an array of cells that
    is called CellEntityIds (gmsh), gmsh:physical or medit:ref (meshio) become groups, called as gmsh's
-   nameless ones, of the triangles (types 5 and 22), too. Other solids are refused, other cells skipped.
+   nameless ones, of the triangles (types 5 and 22), too; whole numbers other than 0 in an array of cells
+   or points that is called group:NAME, the group NAME, where %41 is A. Other solids, and XML files of
+   several pieces, are refused, other cells skipped.
+
+   Netgen: volumeelements and surfaceelements; materials and boundary conditions become groups, by
+   their names, or called as gmsh's nameless ones. Its tets are left-handed, and turned round.
+
+   MFEM: elements and boundary; attributes become groups, called as gmsh's nameless ones. Meshes with
+   curved nodes are refused.
+
+   VegaFEM: *VERTICES, *ELEMENTS, and each *SET as a group; other keywords are skipped, but *INCLUDE.
 
    Text may begin with a byte order mark of UTF-8, end its lines with LF, CR LF or CR, and have
    Fortran's exponents, 1D-3; numbers of nodes are not negative.
 
    Fails with COROT_EIO (cannot be read), COROT_EFORMAT with "FILE:LINE: ..." (text) or
-   "FILE: byte N: ..." (binary); an unsound element is named by its number in the file.
-   COROT_ENOMEM. */
+   "FILE: byte N: ..." (binary). What cannot be read at all ends with the first such place; of what
+   can be, but is not sound, up to ten faults are told, a line each, by the file's numbers of nodes and
+   elements, and how many more there are. COROT_ENOMEM. */
 COROT_API corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
+
+/* How a mesh file is read that is not sound as it is. All zero: with what corot_mesh_read_mended does
+   in any case. */
+typedef struct corot_mending {
+  int cut;      /* not 0: hexahedra, prisms and pyramids of first order are cut into tets */
+  double merge; /* nodes no further apart become one, the first of them [m]; 0: none do */
+} corot_mending;
+
+/* Kinds of what has been done. */
+typedef enum corot_mended {
+  COROT_MENDED_UNUSED,   /* nodes in no tet, left out */
+  COROT_MENDED_TURNED,   /* left-handed tets, turned round */
+  COROT_MENDED_REPEATED, /* tets that are there before, left out */
+  COROT_MENDED_MERGED,   /* nodes that became others */
+  COROT_MENDED_CUT,      /* tets that other solids have become */
+  COROT_MENDED_LOST,     /* groups that a file format cannot hold (corot_mesh_write_as) */
+} corot_mended;
+
+/* One thing that has been done, however often. */
+typedef struct corot_remark {
+  corot_mended what;
+  int count;  /* of nodes, tets or groups; 0: it is told of a group beside these */
+  char *text; /* in words, with the first of the numbers in the file */
+} corot_remark;
+
+typedef struct corot_mesh_report {
+  int nremark;
+  corot_remark *remark; /* [nremark] */
+} corot_mesh_report;
+
+/* As corot_mesh_read, but what is only written down wrongly is mended, and told in *report, which is
+   the caller's to destroy and has no remarks where nothing was to be mended:
+
+     nodes in no tet, as the centres of arcs that gmsh writes, are left out, and the others numbered
+     without them; groups lose them, and a group that has no others is left out, too;
+     left-handed tets are turned round: corners 0 and 1 change places, and the nodes on edges with them;
+     of tets with the same corners the first stays, in the groups of all of them; at order 2 only
+     if the nodes on their edges are the same as well;
+     if `mending` asks for it, other solids are cut into tets, so that neighbours match (each
+     quad by the diagonal from its corner of the lowest number: Dompierre, Labbe, Vallet and Camarero
+     1999), quads in groups into triangles, corners that a solid has twice being one; and nodes are
+     merged. The tets of a solid are in its place and in its groups.
+
+   `mending` may be NULL. What cannot be mended is refused: flat tets, coordinates that are no numbers,
+   nodes that do not exist, three tets at a face or two on one side of it, solids that are not
+   to be cut, are folded, or have tets at a quad that do not match its diagonal. COROT_EFORMAT, COROT_EIO, COROT_ENOMEM as of corot_mesh_read; COROT_EINVAL:
+   `merge` is negative, or no number. */
+COROT_API corot_status corot_mesh_read_mended(const char *path, const corot_mending *mending,
+                                              corot_mesh **mesh, corot_mesh_report **report);
+
+/* Takes NULL. */
+COROT_API void corot_mesh_report_destroy(corot_mesh_report *report);
 
 /* How the cells of a box are cut into tets. A bent box of KUHN's cells, whose diagonals all point the
    same way, drifts sideways by up to a third of its deflection. */
@@ -168,6 +235,26 @@ COROT_API corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
    it gives the same mesh to the last bit. Written beside `path` first, so that a failed write
    (COROT_EIO, COROT_ENOMEM) leaves what was there. */
 COROT_API corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
+
+/* The same in another format: "gmsh" (4.1), "gmsh-2.2", "vtu", "vtk" (legacy), "tetgen", "medit" or
+   "abaqus"; NULL: by the suffix of `path`, .msh being gmsh 4.1, .vtu, .vtk, .node or .ele, .mesh and .inp.
+   Text, all numbers with every bit. TetGen's three files have the name without its suffix, and
+   .node, .ele, .face.
+
+   Read again, nodes and tets are the same, in the same order, and so are groups, but for: TetGen and
+   MEDIT have one number for each tet and triangle, so that names become numbers ("face-2",
+   "surface-2"; a name that is such a number keeps it), and of groups that share some the first has
+   these; MEDIT has no groups of nodes. Abaqus does not tell the case of names, and has no commas in
+   them. In VTK's files a group is an array of 0 and 1 called group:NAME, of cells and of points.
+   *report, unless it is NULL, has what was lost so, and is the caller's to destroy.
+
+   COROT_EINVAL: there is no such format, or the suffix is of none; two groups would be one. COROT_EIO,
+   COROT_ENOMEM. */
+COROT_API corot_status corot_mesh_write_as(const corot_mesh *mesh, const char *path,
+                                           const char *format, corot_mesh_report **report);
+
+/* The name of the format that it would be written in; NULL, with a message, where it fails. */
+COROT_API const char *corot_mesh_format(const char *format, const char *path);
 
 /* NULL where there is none of that name. */
 COROT_API const corot_group *corot_mesh_find_group(const corot_mesh *mesh, const char *name);

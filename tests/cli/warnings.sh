@@ -289,6 +289,19 @@ echo " $(codes stdout) " | grep -q " quantity " || complain "no quantity but: $(
 echo quantity >>fired
 lacks quantity $(run swing.yaml) --set 'quantities.T=period(corner.uz)'
 
+# Mesh files that are mended, or whose cells are cut; and one whose names cannot be written.
+data=$(cd "$(dirname "$0")/../unit/data" && pwd)
+"$corot" mesh box --size 1,1,1 --cells 1,1,1 -o sound.msh 2>stderr
+awk '/^\$Nodes/ {print; getline; print $1 + 1; next} /^\$EndNodes/ {print "999 9 9 9"} {print}' sound.msh >unsound.msh
+has mesh-mended mesh info unsound.msh
+lacks mesh-mended mesh info sound.msh
+has mesh-cut mesh info "$data/cells.msh" --cut
+lacks mesh-cut mesh info sound.msh --cut
+expect 0 mesh convert sound.msh sound.mesh; err " [mesh-lost]"
+expect 0 mesh convert sound.msh again.msh; no_out
+if grep -q mesh-lost stderr; then complain "$what: mesh-lost"; fi
+echo mesh-lost >>fired
+
 # No code without its case, and no case of another code.
 expect 0 check --warnings; no_err
 cut -d ' ' -f 1 stdout | sort >table

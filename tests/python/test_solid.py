@@ -25,6 +25,23 @@ class Meshes(Folder):
         self.assertAlmostEqual(again.measure().volume, 6, 12)
         self.assertEqual(again.change_order(1).nnode, box.nnode)
 
+    def test_files_are_mended_and_written_in_other_formats(self):
+        path = self.folder / "bad.msh"
+        path.write_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+                        "9 5 5 5\n$EndNodes\n$Elements\n1\n7 4 2 1 1 1 3 2 4\n$EndElements\n")
+        with self.assertRaisesRegex(corot.FormatError, "element 7 is inverted.*\n.*node 9 is in no tet"):
+            corot.Mesh.read(path)
+        mesh, told = corot.Mesh.read_mended(path)
+        self.assertEqual((mesh.nnode, len(told)), (4, 2))
+        self.assertIn("element 7", told[0])
+        with self.assertRaisesRegex(corot.InvalidError, "merge is -1"):
+            corot.Mesh.read_mended(path, merge=-1)
+        self.assertEqual(mesh.write_as(self.folder / "m.vtu"), [])
+        self.assertEqual(mesh.write_as(self.folder / "m", "medit"), [])
+        np.testing.assert_array_equal(corot.Mesh.read(self.folder / "m.vtu").tet, mesh.tet)
+        with self.assertRaisesRegex(corot.InvalidError, "no mesh format 'stl'"):
+            mesh.write_as(path, "stl")
+
     def test_what_is_converted(self):
         expected = corot.Mesh(TET, [[0, 1, 2, 3]]).x
         wide = np.zeros((4, 6))

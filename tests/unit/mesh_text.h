@@ -18,7 +18,7 @@ static inline corot_mesh *read_mesh(const char *path) {
 /* A text of whatever format. */
 static inline corot_mesh *parse_text(const char *text) {
   corot_mesh *m = NULL;
-  assert_ok(corot_mesh_parse("text", text, strlen(text), &m));
+  assert_ok(corot_mesh_parse("text", text, strlen(text), NULL, &m));
   return m;
 }
 
@@ -53,7 +53,7 @@ static inline void assert_prefixes_fail_cleanly(const char *path, const char *te
     assert_non_null(prefix);
     memcpy(prefix, text, n);
     prefix[n] = 0;
-    corot_status status = corot_mesh_parse(path, prefix, n, &m);
+    corot_status status = corot_mesh_parse(path, prefix, n, NULL, &m);
     if (status && status != COROT_EFORMAT) fail_msg("status %d: %s", (int)status, corot_error());
     assert_true(!status == !!m);
     corot_mesh_destroy(m);
@@ -71,7 +71,7 @@ static inline void assert_damage_fails_cleanly(const char *path, const char *tex
     for (size_t k = 0; k < sizeof other; k++) {
       corot_mesh *m = NULL;
       copy[at] = other[k];
-      corot_status status = corot_mesh_parse(path, copy, size, &m);
+      corot_status status = corot_mesh_parse(path, copy, size, NULL, &m);
       copy[at] = text[at];
       if (status && status != COROT_EFORMAT) fail_msg("status %d: %s", (int)status, corot_error());
       assert_true(!status == !!m);
@@ -88,12 +88,13 @@ typedef struct text_fault {
 static inline void assert_text_faults(const char *path, const char *sound, size_t n,
                                       const text_fault *fault) {
   corot_mesh *m = NULL;
-  assert_ok(corot_mesh_parse(path, sound, strlen(sound), &m));
+  assert_ok(corot_mesh_parse(path, sound, strlen(sound), NULL, &m));
   corot_mesh_destroy(m);
   m = NULL;
   for (size_t i = 0; i < n; i++) {
     char *text = edit_text(sound, fault[i].from, fault[i].to);
-    assert_fails(corot_mesh_parse(path, text, strlen(text), &m), COROT_EFORMAT, fault[i].message);
+    assert_fails(corot_mesh_parse(path, text, strlen(text), NULL, &m), COROT_EFORMAT,
+                 fault[i].message);
     assert_null(m);
     free(text);
   }

@@ -11,12 +11,12 @@ typedef struct fault {
 
 static void assert_faults(const char *sound, size_t n, const fault *faults) {
   corot_mesh *m = NULL;
-  assert_ok(corot_gmsh_parse("bad.msh", sound, strlen(sound), &m));
+  assert_ok(corot_gmsh_parse("bad.msh", sound, strlen(sound), NULL, &m));
   corot_mesh_destroy(m);
   m = NULL;
   for (size_t i = 0; i < n; i++) {
     char *text = edit_text(sound, faults[i].from, faults[i].to);
-    assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
+    assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), NULL, &m), COROT_EFORMAT,
                  faults[i].message);
     assert_null(m);
     free(text);
@@ -32,7 +32,13 @@ static void faults_of_format_1(void **state) {
   static const fault faults[] = {
       {"7 4 1 1 4 1", "7 4 1 1 3 1", "bad.msh:10: element 7 has 3 nodes, but is a 4-node tet"},
       {"7 4 1 1 4 1", "7 5 1 1 8 1 1 1 1 1",
-       "element 7 is an 8-node hexahedron: only tets of 4 or 10"},
+       "bad.msh: the file has 1 hexahedron beside 0 tets: only tets are supported; mesh.cut: true "
+       "of "
+       "a scenario, or --cut of corot mesh convert, cuts them into tets"},
+      {"7 4 1 1 4 1", "7 17 1 1 20 1",
+       "bad.msh:10: element 7 is a 20-node hexahedron: only tets of 4 or 10 nodes are supported, "
+       "and "
+       "other solids of first order, to be cut into tets"},
       {"$ENDELM", "$NOD", "bad.msh:11: expected $ENDELM, found '$NOD'"},
       {"$ENDELM\n", "$ENDELM\n$ELM\n0\n$ENDELM\n", "bad.msh:13: elements are listed twice"},
       {"$ENDELM\n", "$ENDELM\n$NOD\n0\n$ENDNOD\n", "bad.msh:13: nodes are listed twice"},
@@ -49,7 +55,7 @@ static void a_node_in_no_tet_may_be_the_centre_of_an_arc(void **state) {
       "$NOD\n5\n9 5 5 5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n"
       "$ELM\n2\n7 4 0 1 4 1 2 3 4\n8 15 0 1 1 9\n$ENDELM\n";
   corot_mesh *m;
-  assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
+  assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), NULL, &m), COROT_EFORMAT,
                "bad.msh:3: node 9 is in no tet; with a physical group for the volume, gmsh");
 }
 
@@ -150,7 +156,7 @@ static void tets_of_several_groups_are_one(void **state) {
   (void)state;
   corot_mesh *m;
   char *text = edit_text(sound_2, "$Elements\n3\n", "$Elements\n4\n14 4 2 6 1 2 3 4 50\n");
-  assert_ok(corot_gmsh_parse("good.msh", text, strlen(text), &m));
+  assert_ok(corot_gmsh_parse("good.msh", text, strlen(text), NULL, &m));
   assert_int_equal(m->ntet, 2);
   assert_int_equal(m->tet[0][0], 1); /* where it is first */
   assert_int_equal(corot_mesh_find_group(m, "6")->ntet, 1);
@@ -214,7 +220,7 @@ static void one_entity_in_too_many_groups(void **state) {
   corot_mesh *m = NULL;
   for (int i = 0; i < 300; i++) strcat(many, " 3");
   char *text = edit_text(sound_4, "5 0 0 0 1 3", many);
-  assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
+  assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), NULL, &m), COROT_EFORMAT,
                "bad.msh:6: entity 5 is in 300 physical groups, more than 256");
   free(text);
 }
@@ -247,19 +253,19 @@ static void faults_of_tetgen(void **state) {
       {"0 1 2 3 2", "0 1 2 3 nan", "m.ele:2: the region is nan"},
   };
   corot_mesh *m = NULL;
-  assert_ok(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), NULL, &m));
+  assert_ok(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), NULL, NULL, &m));
   assert_int_equal(m->ngroup, 2);
   corot_mesh_destroy(m);
   m = NULL;
   for (size_t i = 0; i < sizeof in_node / sizeof *in_node; i++) {
     char *text = edit_text(node, in_node[i].from, in_node[i].to);
-    assert_fails(corot_tetgen_parse(TEXT("m.node", text), TEXT("m.ele", ele), NULL, &m),
+    assert_fails(corot_tetgen_parse(TEXT("m.node", text), TEXT("m.ele", ele), NULL, NULL, &m),
                  COROT_EFORMAT, in_node[i].message);
     free(text);
   }
   for (size_t i = 0; i < sizeof in_ele / sizeof *in_ele; i++) {
     char *text = edit_text(ele, in_ele[i].from, in_ele[i].to);
-    assert_fails(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", text), NULL, &m),
+    assert_fails(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", text), NULL, NULL, &m),
                  COROT_EFORMAT, in_ele[i].message);
     free(text);
   }
@@ -287,7 +293,7 @@ static void files_that_are_no_meshes(void **state) {
   put_file(in(dir, "a.node"), "4 3 0 0\n");
   assert_fails(corot_mesh_read(in(dir, "a.node"), &m), COROT_EIO, "a.ele: No such file");
   assert_fails(corot_mesh_read(DATA "hexahedron.msh", &m), COROT_EFORMAT,
-               "element 1 is an 8-node hexahedron");
+               "hexahedron.msh: the file has 1 hexahedron beside 0 tets");
   assert_null(m);
   remove_folder(dir);
 }
@@ -325,7 +331,7 @@ static void every_prefix_fails_cleanly(void **state) {
     for (size_t n = 0; n < size; n++) {
       char *p = prefix(data, n);
       corot_mesh *m = NULL;
-      corot_status status = corot_gmsh_parse("prefix", p, n, &m);
+      corot_status status = corot_gmsh_parse("prefix", p, n, NULL, &m);
       if (n + 2 < size) assert_int_equal(status, COROT_EFORMAT);
       assert_clean(status, m);
       free(p);
@@ -341,8 +347,8 @@ static void every_tetgen_prefix_fails_cleanly(void **state) {
   for (size_t n = 0; n < node_size; n++) {
     corot_mesh *m = NULL;
     char *p = prefix(node, n);
-    corot_status status = corot_tetgen_parse(&(corot_mesh_text){"n", p, n},
-                                             &(corot_mesh_text){"e", ele, ele_size}, NULL, &m);
+    corot_status status = corot_tetgen_parse(
+        &(corot_mesh_text){"n", p, n}, &(corot_mesh_text){"e", ele, ele_size}, NULL, NULL, &m);
     assert_clean(status, m);
     free(p);
   }
@@ -350,7 +356,7 @@ static void every_tetgen_prefix_fails_cleanly(void **state) {
     corot_mesh *m = NULL;
     char *p = prefix(ele, n);
     corot_status status = corot_tetgen_parse(&(corot_mesh_text){"n", node, node_size},
-                                             &(corot_mesh_text){"e", p, n}, NULL, &m);
+                                             &(corot_mesh_text){"e", p, n}, NULL, NULL, &m);
     assert_clean(status, m);
     free(p);
   }
@@ -371,7 +377,7 @@ static void every_damaged_word_fails_cleanly(void **state) {
         char *p = prefix(data, size);
         corot_mesh *m = NULL;
         memset(p + at, value[v], 4);
-        corot_status status = corot_gmsh_parse("damaged", p, size, &m);
+        corot_status status = corot_gmsh_parse("damaged", p, size, NULL, &m);
         assert_clean(status, m);
         free(p);
       }

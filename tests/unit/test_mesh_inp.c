@@ -148,7 +148,10 @@ static void faults(void **state) {
       {"5, 1, 1, 1\n", "4, 1, 1, 1\n", "m.inp:10: node 4 is defined a second time"},
       {"5, 1, 1, 1\n", "-5, 1, 1, 1\n", "m.inp:10: node -5: the number of a node may not"},
       {"*Element, type=C3D4,", "*Element,", "m.inp:11: *ELEMENT has no TYPE"},
-      {"type=C3D4,", "type=C3D8R,", "m.inp:11: elements of type C3D8R: only C3D4 and C3D10 are"},
+      {"type=C3D4,", "type=C3D20R,",
+       "m.inp:11: elements of type C3D20R: only C3D4 and C3D10 are supported, and C3D5, C3D6 and "
+       "C3D8, "
+       "to be cut into tets"},
       {"type=C3D4,", "type=T3D2,", "m.inp: the file has no *ELEMENT of type C3D4 or C3D10"},
       {"12, 2, 3, 4, 5", "12, 2, 3, 4, 6", "m.inp:14: element 12: node 6 does not exist"},
       {"12, 2, 3, 4, 5", "12, 3, 2, 4, 5", "m.inp:14: element 12 is inverted"},
@@ -161,7 +164,8 @@ static void faults(void **state) {
       {"nset=low", "elset=low", "m.inp:15: *NSET has no name: NSET=NAME"},
       {"1, 5, 4", "1, 5, 0", "m.inp:19: from 1 to 5 by 0 is no range"},
       {"BODY, S1", "BODY", "is in surface skin, which does not say with which face, S1 to S4"},
-      {"BODY, S1", "BODY, S5", "m.inp:25: expected a face, S1 to S4, found 'S5'"},
+      {"BODY, S1", "BODY, S7", "m.inp:25: expected a face, S1 to S6, found 'S7'"},
+      {"BODY, S1", "BODY, S5", "is in surface skin, which does not say with which face, S1 to S4"},
       {"NAME=skin", "NAME=skin, COMBINE=UNION", "m.inp:24: surface skin: only surfaces of faces"},
       {"*Step", "*NGEN\n1,2\n*Step", "*NGEN makes nodes or elements: let them be written out"},
       {"*Step", "*PART, NAME=a\n*PART, NAME=b\n*Step", "a second part: only one is supported"},
@@ -169,7 +173,7 @@ static void faults(void **state) {
   };
   corot_mesh *m = NULL;
   assert_text_faults("m.inp", sound, sizeof table / sizeof *table, table);
-  assert_fails(corot_mesh_parse("m.inp", "** only\n1", 9, &m), COROT_EFORMAT,
+  assert_fails(corot_mesh_parse("m.inp", "** only\n1", 9, NULL, &m), COROT_EFORMAT,
                "m.inp:2: expected a keyword");
 }
 

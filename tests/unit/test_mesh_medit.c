@@ -95,13 +95,17 @@ static void faults(void **state) {
       {"2 3 4 5 0", "2 3 4 0 0", "m.mesh:21: element 2: node 0 does not exist"},
       {"2 3 4 5 0", "2 3 4 5", "m.mesh:22: expected a reference, found 'RequiredVertices'"},
       {"Tetrahedra\n2\n", "Hexahedra 1 1 1 1 1 1 1 1 1 0 Tetrahedra\n2\n",
-       "m.mesh:18: the file has Hexahedra: only tets of 4 or 10 nodes are supported"},
+       "m.mesh: the file has 1 hexahedron beside 2 tets: only tets are supported"},
+      {"Tetrahedra\n2\n", "HexahedraQ2 1 1 Tetrahedra\n2\n",
+       "m.mesh:18: the file has HexahedraQ2: only tets of 4 or 10 nodes are supported, and other "
+       "solids "
+       "of first order, to be cut into tets"},
       {"Tetrahedra", "Tetra", "m.mesh: the file has no Tetrahedra"},
   };
   corot_mesh *m = NULL;
   assert_text_faults("m.mesh", sound, sizeof table / sizeof *table, table);
-  assert_fails(corot_mesh_parse("m.mesh", "MeshVersionFormatted 2 End", 26, &m), COROT_EFORMAT,
-               "m.mesh: the file has no Vertices");
+  assert_fails(corot_mesh_parse("m.mesh", "MeshVersionFormatted 2 End", 26, NULL, &m),
+               COROT_EFORMAT, "m.mesh: the file has no Vertices");
 }
 
 static void damage(void **state) {

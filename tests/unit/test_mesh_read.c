@@ -9,7 +9,7 @@
 
 static corot_mesh *parse(const char *text) {
   corot_mesh *m = NULL;
-  assert_ok(corot_gmsh_parse("text", text, strlen(text), &m));
+  assert_ok(corot_gmsh_parse("text", text, strlen(text), NULL, &m));
   return m;
 }
 
@@ -290,7 +290,7 @@ static void binary_of_either_byte_order(void **state) {
       bytes b = {.swap = swap};
       corot_mesh *m;
       version == 2 ? put_mesh_2(&b) : put_mesh_4(&b);
-      assert_ok(corot_gmsh_parse("bytes", b.data, b.n, &m));
+      assert_ok(corot_gmsh_parse("bytes", b.data, b.n, NULL, &m));
       assert_int_equal(m->ntet, 1);
       assert_close(m->x[2][1], 1, 0, 0);
       assert_int_equal(m->tet[0][3], 3);
@@ -319,7 +319,7 @@ static void tetgen_by_either_path(void **state) {
 }
 
 static corot_status parse_tetgen(const char *node, const char *ele, corot_mesh **m) {
-  return corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), NULL, m);
+  return corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), NULL, NULL, m);
 }
 
 static void tetgen_numbers_from_1_and_either_hand(void **state) {

@@ -177,7 +177,7 @@ static const struct {
 static void faults_are_told_with_their_place(void **state) {
   (void)state;
   corot_mesh *m = NULL;
-  assert_ok(corot_gmsh_parse("good.msh", sound, strlen(sound), &m));
+  assert_ok(corot_gmsh_parse("good.msh", sound, strlen(sound), NULL, &m));
   assert_int_equal(corot_mesh_find_group(m, "4")->nnode, 6);
   assert_int_equal(corot_mesh_find_group(m, "4")->ntri, 1);
   assert_int_equal(corot_mesh_find_group(m, "5")->nnode, 3);
@@ -185,7 +185,7 @@ static void faults_are_told_with_their_place(void **state) {
   m = NULL;
   for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
     char *text = edit_text(sound, faults[i].from, faults[i].to);
-    assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), &m), COROT_EFORMAT,
+    assert_fails(corot_gmsh_parse("bad.msh", text, strlen(text), NULL, &m), COROT_EFORMAT,
                  faults[i].message);
     assert_null(m);
     free(text);
@@ -200,7 +200,7 @@ static void repeated_tets_are_one(void **state) {
                          "$Elements\n7\n1 11 2 6 1 1 2 3 4 5 6 7 8 9 10\n2 2 2 0 1 1 2 3\n"
                          "3 9 2 0 1 1 2 3 5 6 4\n");
   corot_mesh *m = NULL;
-  assert_ok(corot_gmsh_parse("good.msh", text, strlen(text), &m));
+  assert_ok(corot_gmsh_parse("good.msh", text, strlen(text), NULL, &m));
   assert_int_equal(m->ntet, 2);
   assert_int_equal(corot_mesh_find_group(m, "6")->nnode, 10);
   assert_int_equal(corot_mesh_find_group(m, "1")->nnode, 14);
@@ -219,7 +219,7 @@ static void tetgen_files_in_any_order(void **state) {
       "1 10 0\n0 0 1 2 3 9 7 4 5 8 6\n", "1 10 0\n0 1 0 2 3 9 7 4 5 8 6\n"};
   for (int i = 0; i < 4; i++) { /* the last is left-handed */
     corot_mesh *m = NULL;
-    assert_ok(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", good[i]), NULL, &m));
+    assert_ok(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", good[i]), NULL, NULL, &m));
     assert_straight(m);
     assert_int_equal(corot_mesh_find_group(m, "marker-3")->nnode, 6); /* three with the marker */
     corot_mesh_destroy(m);
@@ -240,7 +240,7 @@ static void faults_of_tetgen(void **state) {
   };
   corot_mesh *m = NULL;
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-    assert_fails(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", bad[i][0]), NULL, &m),
+    assert_fails(corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", bad[i][0]), NULL, NULL, &m),
                  COROT_EFORMAT, bad[i][1]);
   assert_null(m);
 }

@@ -44,7 +44,8 @@ static const char node[] = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
 static const char ele[] = "1 4 0\n1 1 2 3 4\n";
 
 static corot_status parse(const char *face, corot_mesh **m) {
-  return corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), TEXT("m.face", face), m);
+  return corot_tetgen_parse(TEXT("m.node", node), TEXT("m.ele", ele), TEXT("m.face", face), NULL,
+                            m);
 }
 
 /* Faces without a marker, and files without markers, make no groups; two tets may follow. */

@@ -64,7 +64,7 @@ static const char sound[] =
 static void values_stand_on_any_line(void **state) {
   (void)state;
   corot_mesh *m = NULL;
-  assert_ok(corot_mesh_parse("text", sound, strlen(sound), &m));
+  assert_ok(corot_mesh_parse("text", sound, strlen(sound), NULL, &m));
   assert_int_equal(m->ntet, 2);
   assert_close(corot_mesh_measure(m).volume, 0.5, 1e-15, 0);
   assert_int_equal(m->ngroup, 2);
@@ -89,7 +89,8 @@ static void faults(void **state) {
       {"4 1 2 3 4", "4 1 2 3 5", "m.vtk:10: element 1: node 5 does not exist"},
       {"4 1 2 3 4", "4 2 1 3 4", "m.vtk:10: element 1 is inverted"},
       {"CELL_TYPES 4", "CELL_TYPES 3", "m.vtk:15: 3 types of 4 cells"},
-      {"10 5", "12 5", "m.vtk:10: cell 1 is a solid of type 12: only tets of 4 or 10 nodes"},
+      {"10 5", "25 5", "m.vtk:10: cell 1 is a solid of type 25: only tets of 4 or 10 nodes"},
+      {"10 5", "12 5", "m.vtk:10: cell 1 has 4 nodes, but is of type 12"},
       {"10 5", "24 5", "m.vtk:10: cell 1 has 4 nodes, but is of type 24"},
       {"CELL_TYPES 4\n10\n10 5\n3\n", "POINT_DATA 5\n", "m.vtk: the file lacks CELL_TYPES"},
   };

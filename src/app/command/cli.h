@@ -2,7 +2,7 @@
 #ifndef COROT_APP_COMMAND_CLI_H
 #define COROT_APP_COMMAND_CLI_H
 
-#include <corot/base.h>
+#include <corot/mesh.h>
 #include <getopt.h>
 #include <stdbool.h>
 
@@ -19,6 +19,8 @@ int command_mesh(int argc, char **argv);
 int command_mesh_box(int argc, char **argv);
 int command_mesh_info(int argc, char **argv);
 int command_mesh_refine(int argc, char **argv);
+int command_mesh_repair(int argc, char **argv);
+int command_mesh_convert(int argc, char **argv);
 
 typedef struct command {
   const char *name;
@@ -41,6 +43,9 @@ int failure(corot_status status);
 /* What reading a scenario, a study or a mesh comes to: a file that is not there, or is a folder, is
    a bad one (COROT_EFORMAT); one that the system would not read stays COROT_EIO. */
 corot_status read_failure(corot_status status, const char *path);
+
+/* A mesh file, mended; what was mended is said on stderr, a warning a line. */
+corot_status read_mended(const char *path, const corot_mending *mending, corot_mesh **mesh);
 
 /* Three numbers separated by commas. */
 bool parse_three(const char *text, double number[3]);

@@ -17,12 +17,16 @@ static const char help[] =
     "usage: corot mesh box ...\n"
     "       corot mesh info FILE\n"
     "       corot mesh refine FILE ...\n"
+    "       corot mesh repair FILE ...\n"
+    "       corot mesh convert FROM TO ...\n"
     "\n"
     "example: corot mesh box --size 0.1,0.1,0.6 --cells 2,2,12 -o bar.msh\n";
 
 int command_mesh(int argc, char **argv) {
   static const command table[] = {
-      {"box", command_mesh_box}, {"info", command_mesh_info}, {"refine", command_mesh_refine}, {0}};
+      {"box", command_mesh_box},         {"info", command_mesh_info},
+      {"refine", command_mesh_refine},   {"repair", command_mesh_repair},
+      {"convert", command_mesh_convert}, {0}};
   return dispatch("corot mesh", help, table, argc, argv);
 }
 
@@ -135,16 +139,23 @@ int command_mesh_box(int argc, char **argv) {
 /* --- mesh info --- */
 
 static const char info_help[] =
-    "usage: corot mesh info FILE [--json]\n"
+    "usage: corot mesh info FILE [--cut] [--json]\n"
     "\n"
-    "Size, shape, parts and groups of a mesh. Read are gmsh 1, 2.2, 4.0 and 4.1 (.msh), TetGen\n"
-    "(.node, .ele, .face), MEDIT (.mesh), Abaqus and CalculiX (.inp), VTK (.vtk).\n"
+    "Size, shape, parts and groups of a mesh, as a scenario would have it, and what of the file "
+    "is\n"
+    "mended for it: nodes in no tet are left out, left-handed tets turned round. Read are gmsh 1, "
+    "2.2,\n"
+    "4.0 and 4.1 (.msh), TetGen (.node, .ele, .face), MEDIT (.mesh), Abaqus and CalculiX (.inp), "
+    "VTK\n"
+    "(.vtk, .vtu), Netgen (.vol), MFEM (.mesh), VegaFEM (.veg).\n"
     "\n"
+    "      --cut            hexahedra, prisms and pyramids of first order are cut into tets\n"
     "      --json           the same as JSON\n"
     "\n"
     "example: corot mesh info bar.msh\n";
 
 static const struct option info_options[] = {
+    {"cut", no_argument, NULL, 'c'},
     {"json", no_argument, NULL, 'j'},
     {"help", no_argument, NULL, 'h'},
     {0},
@@ -241,27 +252,34 @@ static int print_info_json(const char *path, const corot_mesh *mesh, const mesh_
 }
 
 int command_mesh_info(int argc, char **argv) {
-  bool json = false;
+  bool json = false, cut = false;
   opterr = 0;
   for (int answer; (answer = getopt_long(argc, argv, ":h", info_options, NULL)) != -1;) {
     if (answer == 'h') {
       fputs(info_help, stdout);
       return EXIT_OK;
     }
-    if (answer != 'j') return option_error("corot mesh info", answer, argv, info_options);
-    json = true;
+    if (answer != 'j' && answer != 'c')
+      return option_error("corot mesh info", answer, argv, info_options);
+    json = json || answer == 'j';
+    cut = cut || answer == 'c';
   }
   /* one file */
   if (argc - optind != 1)
     return usage_error("corot mesh info", "expected one mesh file, found %d", argc - optind);
   const char *path = argv[optind];
   corot_mesh *mesh = NULL;
-  corot_status status = corot_mesh_read(path, &mesh);
+  corot_mesh_report *report = NULL;
+  const corot_mending mending = {.cut = cut};
+  corot_status status = corot_mesh_read_mended(path, &mending, &mesh, &report);
   if (status != COROT_OK) return failure(read_failure(status, path));
   /* what is known of it */
   mesh_facts f = {0};
   int code = EXIT_OK;
-  if ((status = find_mesh_facts(mesh, &f)) != COROT_OK)
+  status = warnings_of_report(report, &f.warnings);
+  corot_mesh_report_destroy(report);
+  if (status == COROT_OK) status = find_mesh_facts(mesh, &f);
+  if (status != COROT_OK)
     code = failure(status);
   else if (json)
     code = print_info_json(path, mesh, &f);

@@ -123,7 +123,7 @@ static corot_status cut(const arguments *a, corot_mesh **mesh) {
 
 static int refine(const arguments *a) {
   corot_mesh *mesh = NULL;
-  corot_status status = corot_mesh_read(a->from, &mesh);
+  corot_status status = read_mended(a->from, NULL, &mesh);
   if (status != COROT_OK) return failure(read_failure(status, a->from));
   report(a->from, mesh);
   if (a->order == 1) status = change_order(1, &mesh, NULL);

@@ -257,7 +257,7 @@ static corot_status fail_at(const config_source *source, size_t at, const char *
 }
 
 corot_status config_fail_at(const config_source *source, size_t at, const char *format, ...) {
-  char message[700];
+  char message[3600];
   va_list args;
   va_start(args, format);
   vsnprintf(message, sizeof message, format, args);
@@ -267,7 +267,7 @@ corot_status config_fail_at(const config_source *source, size_t at, const char *
 
 /* A node that no source has, a default, is shown where the map that lacks it stands. */
 static corot_status fail_node(const config_node *node, bool key, const char *format, va_list args) {
-  char path[128], message[700];
+  char path[128], message[3600];
   config_path(node, sizeof path, path);
   int used = snprintf(message, sizeof message, "%s%s", path, *path ? ": " : "");
   vsnprintf(message + used, sizeof message - (size_t)used, format, args);

@@ -79,7 +79,7 @@ static corot_status prepare(modal_run *r) {
   const scenario *s = r->scenario;
   modes_about what = r->options->about;
   COROT_TRY(scenario_refuse_inputs(s, "corot modes"));
-  COROT_TRY(scenario_build(s, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(scenario_build_warned(s, &r->mesh, &r->refinement, &r->model, &r->warnings));
   COROT_TRY(run_warn_before(s, r->model, true, r->options, &r->warnings));
   r->rest = what == MODES_ABOUT_REST || (what == MODES_ABOUT_START && !s->start_at_equilibrium);
   r->t = what == MODES_ABOUT_EQUILIBRIUM ? s->t_end : 0;

@@ -61,7 +61,7 @@ static corot_status start_integrator(run *r) {
 }
 
 static corot_status build(run *r) {
-  COROT_TRY(scenario_build(r->scenario, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(scenario_build_warned(r->scenario, &r->mesh, &r->refinement, &r->model, &r->warnings));
   COROT_TRY(quantities_check(r->scenario, r->model, false));
   return run_warn_before(r->scenario, r->model, false, r->options, &r->warnings);
 }

@@ -67,7 +67,7 @@ static corot_status prepare(equilibrium_run *r) {
   const scenario *s = r->scenario;
   corot_statics_def def = s->statics;
   def.stop = is_stopped;
-  COROT_TRY(scenario_build(s, &r->mesh, &r->refinement, &r->model));
+  COROT_TRY(scenario_build_warned(s, &r->mesh, &r->refinement, &r->model, &r->warnings));
   COROT_TRY(quantities_check(s, r->model, true));
   COROT_TRY(run_warn_before(s, r->model, true, r->options, &r->warnings));
   def.linear.refinement = r->refinement;

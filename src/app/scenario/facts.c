@@ -61,7 +61,7 @@ static corot_status locate_probes(const scenario *s, facts *f) {
 
 corot_status facts_find(const scenario *s, facts *f) {
   corot_state *state = NULL;
-  COROT_TRY(scenario_build(s, &f->mesh, &f->refinement, &f->model));
+  COROT_TRY(scenario_build_warned(s, &f->mesh, &f->refinement, &f->model, &f->warnings));
   f->quality = corot_mesh_measure(f->mesh);
   COROT_TRY(warnings_before(s, f->model, false, &f->warnings));
   COROT_TRY(locate_probes(s, f));

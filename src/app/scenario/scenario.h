@@ -75,6 +75,7 @@ typedef struct scenario {
   const char *title;
 
   const char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
+  bool cut;              /* its solids that are no tets, into tets */
   corot_box box;
   int refine;        /* times */
   const char *marks; /* file of the tets that are cut then, as mesh_file; NULL: none */
@@ -161,5 +162,16 @@ corot_status scenario_refuse_inputs(const scenario *s, const char *what);
    a message as above; a mesh that cannot be read is one, too. */
 corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_refinement **refinement,
                             corot_model **model);
+
+struct warnings;
+
+/* The same, with what was mended in the mesh file as warnings: see warnings.h. */
+corot_status scenario_build_warned(const scenario *s, corot_mesh **mesh,
+                                   corot_refinement **refinement, corot_model **model,
+                                   struct warnings *w);
+
+/* The mesh of mesh.file or mesh.box alone, without what the scenario makes of it, and what was
+   mended in the file, or NULL; both the caller's to destroy. */
+corot_status scenario_read_mesh(const scenario *s, corot_mesh **mesh, corot_mesh_report **report);
 
 #endif

@@ -3,6 +3,7 @@
 #include "refine.h"
 #include "scenario_fault.h"
 #include "scenario_parts.h"
+#include "warnings.h"
 
 static config_node *place(const scenario *s, const char *path) {
   return config_find(s->source->root, path);
@@ -10,11 +11,23 @@ static config_node *place(const scenario *s, const char *path) {
 
 /* --- Mesh --- */
 
-static corot_status load_mesh(const scenario *s, corot_mesh **mesh) {
-  corot_status status =
-      s->mesh_file ? corot_mesh_read(s->mesh_file, mesh) : corot_mesh_box(&s->box, mesh);
+corot_status scenario_read_mesh(const scenario *s, corot_mesh **mesh, corot_mesh_report **report) {
+  const corot_mending mending = {.cut = s->cut};
+  *report = NULL;
+  corot_status status = s->mesh_file ? corot_mesh_read_mended(s->mesh_file, &mending, mesh, report)
+                                     : corot_mesh_box(&s->box, mesh);
   if (status == COROT_OK || status == COROT_ENOMEM) return status;
   return config_fail(place(s, s->mesh_file ? "mesh.file" : "mesh.box"), "%s", corot_error());
+}
+
+/* What was mended goes to the warnings, unless these are NULL. */
+static corot_status load_mesh(const scenario *s, corot_mesh **mesh, warnings *w) {
+  corot_mesh_report *report;
+  COROT_TRY(scenario_read_mesh(s, mesh, &report));
+  corot_status status = w && report ? warnings_of_report(report, w) : COROT_OK;
+  corot_mesh_report_destroy(report);
+  if (status) corot_mesh_destroy(*mesh);
+  return status;
 }
 
 static corot_status add_group(const group_def *g, corot_mesh *mesh) {
@@ -96,9 +109,10 @@ static corot_status refine(const scenario *s, corot_mesh **mesh, corot_refinemen
 
 /* Numbers of nodes are those of the unrefined mesh, and the refined one inherits their groups.
  *refinement is set where it is needed, even on failure. */
-static corot_status build_mesh(const scenario *s, corot_mesh **out, corot_refinement **refinement) {
+static corot_status build_mesh(const scenario *s, corot_mesh **out, corot_refinement **refinement,
+                               warnings *w) {
   corot_mesh *mesh = NULL;
-  COROT_TRY(load_mesh(s, &mesh));
+  COROT_TRY(load_mesh(s, &mesh, w));
   corot_status status = check_memory(s, mesh);
   if (status == COROT_OK) status = add_groups(s, true, mesh);
   if (status == COROT_OK) status = check_hierarchy(s, mesh);
@@ -145,11 +159,17 @@ static corot_status build_model(const scenario *s, const corot_mesh *mesh,
   return scenario_told(s, mesh, corot_model_create(&def, model));
 }
 
-corot_status scenario_build(const scenario *s, corot_mesh **out, corot_refinement **refinement,
+corot_status scenario_build(const scenario *s, corot_mesh **mesh, corot_refinement **refinement,
                             corot_model **model) {
+  return scenario_build_warned(s, mesh, refinement, model, NULL);
+}
+
+corot_status scenario_build_warned(const scenario *s, corot_mesh **out,
+                                   corot_refinement **refinement, corot_model **model,
+                                   warnings *w) {
   corot_mesh *mesh = NULL;
   corot_refinement *r = NULL;
-  corot_status status = build_mesh(s, &mesh, &r);
+  corot_status status = build_mesh(s, &mesh, &r, w);
   if (status == COROT_OK) status = build_model(s, mesh, r, model);
   if (status != COROT_OK || !refinement || !scenario_solves_by_levels(s)) {
     corot_refinement_destroy(r);

@@ -29,6 +29,8 @@ static corot_status read_path(scenario *s, const config_node *file, const char *
 static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root, *marks = config_find(root, "mesh.marks");
   COROT_TRY(read_order(s));
+  const config_node *cut = config_find(root, "mesh.cut");
+  s->cut = cut && strcmp(cut->text, "true") == 0;
   if (marks) COROT_TRY(read_path(s, marks, &s->marks));
   config_node *box = config_find(root, "mesh.box");
   s->refine = (int)number_at(root, "mesh.refine");

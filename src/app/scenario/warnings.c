@@ -9,6 +9,12 @@
 #include "app/text/json_text.h"
 
 const warning_kind warning_kinds[WARNING_CODES] = {
+    [WARNING_MENDED] = {"mesh-mended",
+                        "nodes or tets of the mesh file are left out or turned round"},
+    [WARNING_CUT] = {"mesh-cut",
+                     "hexahedra, prisms or pyramids of the mesh file are cut into tets"},
+    [WARNING_LOST] = {"mesh-lost",
+                      "corot mesh convert: groups that the format cannot hold as they are"},
     [WARNING_LOCKING] = {"locking", "nearly incompressible, and each tet has its own dilatation"},
     [WARNING_PARTS] = {"parts", "the body is in several parts that share no node"},
     [WARNING_UNHELD] = {"unheld", "a part has no support while another has"},

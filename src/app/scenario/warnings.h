@@ -13,6 +13,9 @@ typedef struct observed observed;
 
 typedef enum warning_code {
   /* Before a run. */
+  WARNING_MENDED,
+  WARNING_CUT,
+  WARNING_LOST,
   WARNING_LOCKING,
   WARNING_PARTS,
   WARNING_UNHELD,
@@ -62,6 +65,9 @@ corot_status warnings_add(warnings *w, warning_code code, const char *format, ..
 
 /* The list is empty and can be used again. */
 void warnings_free(warnings *w);
+
+/* What was mended in a mesh file, or lost in one that was written: MENDED, CUT, LOST. */
+corot_status warnings_of_report(const corot_mesh_report *report, warnings *w);
 
 /* What a mesh alone gives rise to: PARTS. */
 corot_status warnings_of_mesh(const corot_mesh *mesh, warnings *w);

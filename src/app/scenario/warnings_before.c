@@ -84,6 +84,17 @@ static corot_status add_unheld(int npart, const corot_part *part, warnings *w) {
   return COROT_OK;
 }
 
+corot_status warnings_of_report(const corot_mesh_report *report, warnings *w) {
+  for (int i = 0; i < report->nremark; i++) {
+    const corot_remark *r = &report->remark[i];
+    warning_code code = r->what == COROT_MENDED_CUT    ? WARNING_CUT
+                        : r->what == COROT_MENDED_LOST ? WARNING_LOST
+                                                       : WARNING_MENDED;
+    COROT_TRY(warnings_add(w, code, "%s", r->text));
+  }
+  return COROT_OK;
+}
+
 corot_status warnings_of_mesh(const corot_mesh *mesh, warnings *w) {
   int npart;
   corot_part *part;

@@ -7,7 +7,7 @@
 
 #include "fault.h"
 
-static _Thread_local char message[1024];
+static _Thread_local char message[4096]; /* holds ten faults of a mesh with their places */
 static _Thread_local corot_fault fault;
 static _Thread_local long count;
 

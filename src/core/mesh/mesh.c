@@ -17,9 +17,10 @@ static corot_status copy_arrays(corot_mesh *mesh, int nnode, const double (*x)[3
 /* Hands out `m` if `status` is COROT_OK and it is sound, and destroys it otherwise. */
 static corot_status finish(corot_status status, corot_mesh *m, corot_mesh **mesh) {
   const corot_mesh_names names = {.tet = "tet"};
-  corot_mesh_place place;
+  corot_mesh_faults faults = {0};
   corot_face *face = NULL;
-  if (!status) status = corot_mesh_check(m, &names, &place, &face);
+  if (!status) status = corot_mesh_check(m, &names, &faults, &face);
+  if (!status) status = corot_faults_fail(&faults, COROT_EINVAL);
   free(face);
   if (status)
     corot_mesh_destroy(m);

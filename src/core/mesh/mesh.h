@@ -47,6 +47,10 @@ void corot_face_orient(const corot_mesh *mesh, const corot_face *face, int f, bo
 /* Sorts `a` [*n] and drops what occurs again. */
 void corot_ints_unique(int *n, int *a);
 
+/* Adds a remark, of which it keeps a copy. COROT_ENOMEM. */
+corot_status corot_report_add(corot_mesh_report *report, corot_mended what, int count,
+                              const char *text);
+
 /* Of the mesh and all it holds. */
 size_t corot_mesh_bytes(const corot_mesh *mesh);
 
@@ -60,27 +64,49 @@ corot_status corot_faces_boundary(int nface, const corot_face *face, const int (
 
 #define COROT_GROUP_NAME_MAX 127 /* bytes; gmsh's limit */
 
+/* What is found wrong with a mesh: how much, and the first few in words, a line each. */
+typedef struct corot_mesh_faults {
+  int n;
+  size_t length;
+  char text[3000];
+} corot_mesh_faults;
+
+/* Whether one more would still be told, in words. */
+bool corot_faults_tell(const corot_mesh_faults *faults);
+
+/* Takes corot_error() as one more fault, where it is still told; counts it in any case. */
+void corot_faults_add(corot_mesh_faults *faults);
+
+/* COROT_OK if there is none; else `status`, all of them being the message. */
+corot_status corot_faults_fail(const corot_mesh_faults *faults, corot_status status);
+
+/* What is in a file, by place: a node, a tet, or the mesh as a whole. */
+typedef enum corot_mesh_place { PLACE_MESH, PLACE_NODE, PLACE_TET } corot_mesh_place;
+
 /* How messages call the nodes and tets of a mesh: by index, or by their numbers in a file. */
 typedef struct corot_mesh_names {
   const char *tet;         /* "tet" or "element" */
   const int64_t *node_tag; /* [nnode] NULL: the index */
   const int64_t *tet_tag;  /* [ntet] NULL: the index */
   const char *unused_hint; /* what to say about a node in no tet; NULL: nothing more */
-} corot_mesh_names;
+  const char *known;       /* [nnode] not 0: the node is in what has been refused; NULL: none is */
 
-/* What a check found wrong. */
-typedef struct corot_mesh_place {
-  enum { PLACE_MESH, PLACE_NODE, PLACE_TET } kind;
-  int index;
-} corot_mesh_place;
+  /* Makes `text` the message, with the place in the file before it; NULL: there is no file. */
+  void (*locate)(const void *file, corot_mesh_place place, int index, const char *text);
+  const void *file;
+} corot_mesh_names;
 
 /* Whether there are tets, and 3 * nnode and 4 * ntet fit an int. */
 corot_status corot_mesh_check_counts(int nnode, int ntet);
 
 /* Whether nodes and tets are sound, as <corot/mesh.h> promises; groups are not looked at.
-   On success the sorted faces are the caller's to free; COROT_EINVAL: see `place`. */
+   COROT_OK: what is wrong has been added to `faults`; if there are none of them, the sorted faces
+   are the caller's to free, otherwise *face is NULL. COROT_ENOMEM. */
 corot_status corot_mesh_check(const corot_mesh *mesh, const corot_mesh_names *names,
-                              corot_mesh_place *place, corot_face **face);
+                              corot_mesh_faults *faults, corot_face **face);
+
+/* Whether a tet with these corners has no volume to speak of. */
+bool corot_tet_is_flat(const double (*x)[3], const int v[4]);
 
 /* Whether all tets have a positive volume and are not flat, nor turned inside out. */
 corot_status corot_mesh_check_volumes(const corot_mesh *mesh);

@@ -112,7 +112,7 @@ static corot_status add_sides(const int n[3], const corot_face *face, corot_mesh
 
 static corot_status fill(const corot_box *box, corot_mesh *mesh) {
   const corot_mesh_names names = {.tet = "tet"};
-  corot_mesh_place place;
+  corot_mesh_faults faults = {0};
   corot_face *face;
   int n[3];
   for (int k = 0; k < 3; k++) n[k] = (int)count_along(box, k);
@@ -122,7 +122,8 @@ static corot_status fill(const corot_box *box, corot_mesh *mesh) {
   COROT_TRY(COROT_ALLOC(mesh->tet, mesh->ntet));
   place_nodes(box, n, mesh->x);
   place_tets(box, n, mesh->tet);
-  COROT_TRY(corot_mesh_check(mesh, &names, &place, &face)); /* cells may be flat in rounding */
+  COROT_TRY(corot_mesh_check(mesh, &names, &faults, &face)); /* cells may be flat in rounding */
+  COROT_TRY(corot_faults_fail(&faults, COROT_EINVAL));
   corot_status status = add_sides(n, face, mesh);
   free(face);
   return status;

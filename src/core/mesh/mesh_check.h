@@ -9,7 +9,10 @@
 typedef struct check {
   const corot_mesh *mesh;
   const corot_mesh_names *names;
-  corot_mesh_place *place;
+  corot_mesh_faults *faults;
+  char *bad_node; /* [nnode] its coordinates are no numbers, or too large */
+  char *bad_tet;  /* [ntet] 1: its corners are not four nodes, nothing more is asked of it; 2: its
+                     volume is wrong, it is not asked on which side of a face it is */
 } check;
 
 static inline long long node_name(const check *c, int i) {
@@ -20,21 +23,18 @@ static inline long long tet_name(const check *c, int e) {
   return c->names->tet_tag ? c->names->tet_tag[e] : e;
 }
 
-/* Remembers where the fault is; the value is what is being checked, for messages. */
-static inline const char *at_node(const check *c, int i) {
-  *c->place = (corot_mesh_place){PLACE_NODE, i};
-  return "node";
-}
+/* Notes that something is wrong with node or tet `index`. */
+void corot_check_found(const check *c, corot_mesh_place place, int index, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 4, 5)))
+#endif
+    ;
 
-static inline const char *at_tet(const check *c, int e) {
-  *c->place = (corot_mesh_place){PLACE_TET, e};
-  return c->names->tet;
-}
-
-/* Whether the nodes on the edges of a mesh of order 2 are there, and on one edge each. */
-corot_status corot_check_middles(const check *c);
+/* Whether the nodes on the edges of a mesh of order 2 are there, and on one edge each. *sound: a
+   tet's map can be asked for. COROT_ENOMEM. */
+corot_status corot_check_middles(const check *c, bool *sound);
 
 /* Whether tet e of order 2, whose longest edge is `edge`, is not turned inside out. */
-corot_status corot_check_map(const check *c, int e, double edge);
+void corot_check_map(const check *c, int e, double edge);
 
 #endif

@@ -51,6 +51,12 @@ def _take(pointer: Any, shape: tuple[int, ...]) -> np.ndarray:
         _free(_stdlib.cast("void *", int(ffi.cast("uintptr_t", pointer))))
 
 
+def _take_report(report: Any) -> list[str]:
+    """What a report says; it is freed."""
+    try:
+        return [text(report.remark[i].text) for i in range(report.nremark)]
+    finally:
+        lib.corot_mesh_report_destroy(report)
 
 
 class Mesh(Handle):
@@ -92,12 +98,24 @@ class Mesh(Handle):
 
     @classmethod
     def read(cls, path: Any) -> Mesh:
-        """Reads gmsh (1, 2.2, 4.1; ASCII or binary) or TetGen (.node + .ele), found from the content.
+        """Reads gmsh (1, 2.2, 4.1; ASCII or binary), TetGen (.node + .ele) and the other formats of
+        corot/mesh.h, found from the content.
 
-        SystemRefusedError: it cannot be read; FormatError: with file, and line or byte."""
+        SystemRefusedError: it cannot be read; FormatError: with file, and line or byte, a line for each
+        fault."""
         out = ffi.new("corot_mesh **")
         check(lib.corot_mesh_read(cv.encode(path, "path"), out))
         return cls._make(out[0])
+
+    @classmethod
+    def read_mended(cls, path: Any, cut: bool = False, merge: float = 0.0) -> tuple[Mesh, list[str]]:
+        """The same; what is only written down wrongly is mended, and told in sentences: nodes in no tet
+        are left out, left-handed tets turned round, tets that are there twice left out. `cut`: hexahedra,
+        prisms and pyramids are cut into tets. `merge`: nodes no further apart become one [m]."""
+        how = ffi.new("corot_mending *", {"cut": bool(cut), "merge": float(merge)})
+        out, report = ffi.new("corot_mesh **"), ffi.new("corot_mesh_report **")
+        check(lib.corot_mesh_read_mended(cv.encode(path, "path"), how, out, report))
+        return cls._make(out[0]), _take_report(report[0])
 
     @classmethod
     def box(cls, size: ArrayLike, cells: ArrayLike, origin: ArrayLike = (0, 0, 0),
@@ -279,6 +297,16 @@ class Mesh(Handle):
         is left."""
         with self._guard:
             check(lib.corot_mesh_write(self._pointer, cv.encode(path, "path")))
+
+    def write_as(self, path: Any, format: str | None = None) -> list[str]:
+        """The same as "gmsh" (4.1), "gmsh-2.2", "vtu", "vtk", "tetgen", "medit" or "abaqus"; None: by
+        the suffix. What of the groups the format cannot hold, in sentences. InvalidError: there is no
+        such format."""
+        report = ffi.new("corot_mesh_report **")
+        name = ffi.NULL if format is None else cv.encode(format, "format")
+        with self._guard:
+            check(lib.corot_mesh_write_as(self._pointer, cv.encode(path, "path"), name, report))
+        return _take_report(report[0])
 
     # Where things are
 

@@ -341,9 +341,11 @@ static void release(budgeting *b) {
 /* Of the tets of a scenario's mesh; what is wrong with a file its runs will say. */
 static int order_of(const scenario *s) {
   corot_mesh *mesh = NULL;
+  corot_mesh_report *report = NULL;
   int order = s->order > 0 ? s->order : 1;
   if (s->order > 0 || !s->mesh_file) return order;
-  if (corot_mesh_read(s->mesh_file, &mesh) == COROT_OK) order = corot_mesh_order(mesh);
+  if (scenario_read_mesh(s, &mesh, &report) == COROT_OK) order = corot_mesh_order(mesh);
+  corot_mesh_report_destroy(report);
   corot_mesh_destroy(mesh);
   return order;
 }

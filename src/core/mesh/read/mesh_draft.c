@@ -10,9 +10,22 @@ void corot_draft_clear(corot_draft *d) {
   free(d->by_tag);
   free(d->element);
   free(d->middle);
+  free(d->quad);
   free(d->member);
   free(d->name);
   memset(d, 0, sizeof *d);
+}
+
+int corot_draft_ncorner(const corot_draft_element *e) {
+  static const int n[DRAFT_KINDS] = {
+      [DRAFT_QUAD] = 4, [DRAFT_PYRAMID] = 5, [DRAFT_PRISM] = 6, [DRAFT_HEX] = 8};
+  return e->kind ? n[e->kind] : e->dim + 1;
+}
+
+/* How many of its nodes are not in `node`. */
+static int nmore(const corot_draft_element *e) {
+  if (e->kind) return corot_draft_ncorner(e) - 4;
+  return e->middle ? corot_draft_nedge(e->dim) : 0;
 }
 
 corot_status corot_draft_alloc_nodes(corot_draft *d, int n) {
@@ -37,17 +50,17 @@ static bool consecutive(const corot_draft *d) {
 corot_status corot_draft_index_nodes(corot_draft *d) {
   for (int i = 0; i < d->nnode; i++)
     if (d->node[i].tag < 0)
-      return corot_reader_fail(d->node_file, d->node[i].at,
-                               "node %lld: the number of a node may not be negative",
-                               (long long)d->node[i].tag);
+      corot_draft_note(d, d->node_file, d->node[i].at,
+                       "node %lld: the number of a node may not be negative",
+                       (long long)d->node[i].tag);
   if (consecutive(d)) return COROT_OK;
   COROT_TRY(COROT_ALLOC(d->by_tag, d->nnode));
   for (int i = 0; i < d->nnode; i++) d->by_tag[i] = (corot_draft_node){d->node[i].tag, (size_t)i};
   qsort(d->by_tag, (size_t)d->nnode, sizeof *d->by_tag, compare_tags);
   for (int i = 1; i < d->nnode; i++)
     if (d->by_tag[i].tag == d->by_tag[i - 1].tag)
-      return corot_reader_fail(d->node_file, d->node[d->by_tag[i].at].at,
-                               "node %lld is defined a second time", (long long)d->by_tag[i].tag);
+      corot_draft_note(d, d->node_file, d->node[d->by_tag[i].at].at,
+                       "node %lld is defined a second time", (long long)d->by_tag[i].tag);
   return COROT_OK;
 }
 
@@ -68,14 +81,22 @@ static int index_of(const corot_draft *d, int64_t tag) {
   return (int)(tag - d->node[0].tag);
 }
 
-corot_status corot_draft_find_node(const corot_draft *d, const corot_draft_element *element,
-                                   int64_t tag, int *index) {
-  int i = index_of(d, tag);
-  if (i < 0)
-    return corot_draft_fail(d, element, "%s %lld: node %lld does not exist",
-                            corot_draft_word(d, element), (long long)element->tag, (long long)tag);
-  *index = i;
-  return COROT_OK;
+void corot_draft_find_node(corot_draft *d, const corot_draft_element *element, int64_t tag,
+                           int *index) {
+  *index = index_of(d, tag);
+  if (*index < 0)
+    corot_draft_note(d, corot_draft_file(d, element), element->at,
+                     "%s %lld: node %lld does not exist", corot_draft_word(d, element),
+                     (long long)element->tag, (long long)tag);
+}
+
+bool corot_draft_is_broken(const corot_draft *d, const corot_draft_element *e) {
+  int n = e->kind ? 4 : e->dim + 1, more = nmore(e);
+  for (int k = 0; k < n; k++)
+    if (e->node[k] < 0) return true;
+  for (int k = 0; k < more; k++)
+    if (d->middle[e->middle - 1 + k] < 0) return true;
+  return false;
 }
 
 corot_status corot_make_room(void **items, size_t n, size_t *room, size_t size) {
@@ -108,23 +129,34 @@ static corot_status add_middle(corot_draft *d, int node) {
   return COROT_OK;
 }
 
+/* Whether a solid is of the order of those before it. */
+static corot_status check_order(corot_draft *d, const corot_draft_element *element, int order) {
+  if (d->order && d->order != order)
+    return corot_reader_fail(
+        d->element_file, element->at,
+        "element %lld is a %s of %d nodes, the tets before it have %d: orders do not mix",
+        (long long)element->tag, element->kind ? "solid" : "tet",
+        element->kind ? corot_draft_ncorner(element)
+        : order == 2  ? 10
+                      : 4,
+        order == 2 ? 4 : 10);
+  d->order = order;
+  return COROT_OK;
+}
+
 corot_status corot_draft_add_element(corot_draft *d, const corot_draft_element *element,
                                      const int *middle) {
   void *items = d->element;
-  int order = middle ? 2 : 1, nedge = corot_draft_nedge(element->dim);
-  if (element->dim == 3 && d->order && d->order != order)
-    return corot_reader_fail(
-        d->element_file, element->at,
-        "element %lld is a tet of %d nodes, the tets before it have %d: orders do not mix",
-        (long long)element->tag, middle ? 10 : 4, middle ? 4 : 10);
-  if (element->dim == 3) d->order = order;
+  if (element->dim == 3) COROT_TRY(check_order(d, element, middle && !element->kind ? 2 : 1));
   if (d->nmiddle > INT_MAX - NMIDDLE_MAX)
     return corot_fail(COROT_ENOMEM, "too many elements: %zu", d->nelement);
   COROT_TRY(corot_make_room(&items, d->nelement, &d->element_room, sizeof *element));
   d->element = items;
-  d->element[d->nelement] = *element;
-  d->element[d->nelement].middle = middle ? (int)d->nmiddle + 1 : 0;
-  for (int k = 0; middle && k < nedge; k++) COROT_TRY(add_middle(d, middle[k]));
+  corot_draft_element *e = &d->element[d->nelement];
+  *e = *element;
+  e->middle = middle ? (int)d->nmiddle + 1 : 0;
+  int n = middle ? nmore(e) : 0;
+  for (int k = 0; k < n; k++) COROT_TRY(add_middle(d, middle[k]));
   d->nelement++;
   return COROT_OK;
 }
@@ -151,100 +183,36 @@ corot_status corot_draft_add_name(corot_draft *d, int dim, int physical, const c
   return COROT_OK;
 }
 
-/* A tet of the list and the group it is listed for. */
-typedef struct listed {
-  int v[4]; /* nodes, ascending */
-  int physical, element;
-} listed;
-
-static int compare_listed(const void *a, const void *b) {
-  const listed *p = a, *q = b;
-  for (int i = 0; i < 4; i++)
-    if (p->v[i] != q->v[i]) return p->v[i] < q->v[i] ? -1 : 1;
-  if (p->physical != q->physical) return p->physical < q->physical ? -1 : 1;
-  return (p->element > q->element) - (p->element < q->element);
-}
-
-static listed list(const corot_draft_element *t, int element) {
-  listed l = {.element = element};
-  memcpy(l.v, t->node, sizeof l.v);
-  for (int i = 1; i < 4; i++)
-    for (int j = i; j > 0 && l.v[j] < l.v[j - 1]; j--) {
-      int swap = l.v[j];
-      l.v[j] = l.v[j - 1];
-      l.v[j - 1] = swap;
-    }
-  return l;
-}
-
-/* Whether both are the same tet in two groups; otherwise a tet is there twice. */
-static bool same_tet(const corot_draft *d, const listed *a, const listed *b) {
-  const corot_draft_element *p = &d->element[a->element], *q = &d->element[b->element];
-  return a->physical != 0 && a->physical != b->physical &&
-         memcmp(p->node, q->node, sizeof a->v) == 0 &&
-         (!p->middle || memcmp(d->middle + p->middle - 1, d->middle + q->middle - 1,
-                               NMIDDLE_MAX * sizeof *d->middle) == 0);
-}
-
-/* first[e] = the first element that is the same tet as element e; on entry it is e. */
-static corot_status find_repeats(const corot_draft *d, int *first) {
-  listed *l;
-  size_t n = 0, m = 0;
-  COROT_TRY(COROT_ALLOC(l, d->nelement));
-  for (size_t e = 0; e < d->nelement; e++) {
-    while (m < d->nmember && (size_t)d->member[m].element < e) m++;
-    if (d->element[e].dim != 3) continue;
-    l[n] = list(&d->element[e], (int)e);
-    if (m < d->nmember && (size_t)d->member[m].element == e) l[n].physical = d->member[m].physical;
-    n++;
-  }
-  qsort(l, n, sizeof *l, compare_listed);
-  for (size_t start = 0, end; start < n; start = end) {
-    int least = l[start].element;
-    for (end = start + 1; end < n && same_tet(d, &l[end - 1], &l[end]); end++)
-      if (l[end].element < least) least = l[end].element;
-    for (size_t i = start; i < end; i++) first[l[i].element] = least;
-  }
-  free(l);
-  return COROT_OK;
-}
-
-/* Which elements become tets: tet[e] is the tet's number, or -1 for elements of lower dimension. */
-static corot_status number_tets(const corot_draft *d, int *tet, int *ntet) {
-  int n = 0;
-  for (size_t e = 0; e < d->nelement; e++) tet[e] = (int)e;
-  if (d->repeats) COROT_TRY(find_repeats(d, tet));
-  for (size_t e = 0; e < d->nelement; e++)
-    if (d->element[e].dim != 3)
-      tet[e] = -1;
-    else
-      tet[e] = tet[e] == (int)e ? n++ : tet[tet[e]];
-  *ntet = n;
-  return COROT_OK;
-}
+/* What messages need to know of a mesh that is made of a draft. */
+typedef struct origin {
+  const corot_draft *d;
+  const int *element; /* [ntet] that a tet was */
+} origin;
 
 /* Puts the place in the file before the message of a failed check. */
-static corot_status locate(const corot_draft *d, const corot_mesh_place *place,
-                           const int *element_of) {
-  if (place->kind == PLACE_NODE)
-    return corot_reader_fail(d->node_file, d->node[place->index].at, "%s", corot_error());
-  if (place->kind == PLACE_TET) {
-    size_t at = d->element[element_of[place->index]].at;
-    return corot_reader_fail(d->element_file, at, "%s", corot_error());
-  }
-  return corot_fail(COROT_EFORMAT, "%s: %s", d->element_file->path, corot_error());
+static void locate(const void *file, corot_mesh_place place, int index, const char *text) {
+  const origin *o = file;
+  const corot_draft *d = o->d;
+  if (place == PLACE_NODE)
+    corot_reader_fail(d->node_file, d->node[index].at, "%s", text);
+  else if (place == PLACE_TET)
+    corot_reader_fail(d->element_file, d->element[o->element[index]].at, "%s", text);
+  else
+    corot_fail(COROT_EFORMAT, "%s: %s", d->element_file->path, text);
 }
 
 /* The numbers of nodes and tets in the file, for messages. */
 typedef struct tags {
   int64_t *node, *tet;
   int *element; /* that a tet was */
+  char *known;
 } tags;
 
 static corot_status list_tags(const corot_draft *d, const int *tet, int ntet, tags *t) {
   COROT_TRY(COROT_ALLOC(t->node, d->nnode));
   COROT_TRY(COROT_ALLOC(t->tet, ntet));
   COROT_TRY(COROT_ALLOC(t->element, ntet));
+  COROT_TRY(COROT_ALLOC(t->known, d->nnode));
   for (int i = 0; i < d->nnode; i++) t->node[i] = d->node[i].tag;
   for (size_t e = d->nelement; e-- > 0;) /* downwards: the first of repeated elements stays */
     if (tet[e] >= 0) {
@@ -254,28 +222,40 @@ static corot_status list_tags(const corot_draft *d, const int *tet, int ntet, ta
   return COROT_OK;
 }
 
-static corot_status check(const corot_draft *d, const int *tet, const corot_mesh *mesh,
+static void know(const corot_draft *d, int node, char *known) {
+  if (node >= 0 && node < d->nnode) known[node] = 1;
+}
+
+/* Marks the nodes of solids that do not become tets: these have been told, and not their nodes. */
+static void mark_known(const corot_draft *d, const int *tet, char *known) {
+  for (size_t i = 0; i < d->nelement; i++) {
+    const corot_draft_element *e = &d->element[i];
+    if (e->dim != 3 || tet[i] >= 0) continue;
+    for (int k = 0; k < 4; k++) know(d, e->node[k], known);
+    for (int k = 0; k < nmore(e); k++) know(d, d->middle[e->middle - 1 + k], known);
+  }
+}
+
+static corot_status check(corot_draft *d, const int *tet, const corot_mesh *mesh,
                           corot_face **face) {
-  corot_mesh_place place = {PLACE_MESH, 0};
   tags t = {0};
   corot_status status = list_tags(d, tet, mesh->ntet, &t);
   if (!status) {
-    const corot_mesh_names names = {"element", t.node, t.tet, d->nmember ? NULL : d->unused_hint};
-    status = corot_mesh_check(mesh, &names, &place, face);
+    mark_known(d, tet, t.known);
+    const origin o = {d, t.element};
+    const corot_mesh_names names = {"element", t.node, t.tet, d->nmember ? NULL : d->unused_hint,
+                                    t.known,   locate, &o};
+    status = corot_mesh_check(mesh, &names, &d->faults, face);
   }
-  if (status == COROT_EINVAL) status = locate(d, &place, t.element);
   free(t.node);
   free(t.tet);
   free(t.element);
+  free(t.known);
   return status;
 }
 
-/* Fills a zeroed mesh with nodes, tets and groups; `tet` [nelement] is scratch. */
-static corot_status build(corot_draft *d, int *tet, corot_mesh *mesh) {
-  corot_face *face;
-  COROT_TRY(corot_draft_check_orders(d));
-  if (d->order == 2) COROT_TRY(corot_draft_check_middles(d));
-  COROT_TRY(number_tets(d, tet, &mesh->ntet));
+/* Fills a zeroed mesh with nodes and tets. */
+static corot_status fill(corot_draft *d, const int *tet, corot_mesh *mesh) {
   COROT_TRY(COROT_ALLOC(mesh->tet, mesh->ntet));
   if (d->order == 2) COROT_TRY(COROT_ALLOC(mesh->mid, mesh->ntet));
   for (size_t e = d->nelement; e-- > 0;) {
@@ -287,15 +267,47 @@ static corot_status build(corot_draft *d, int *tet, corot_mesh *mesh) {
   mesh->nnode = d->nnode;
   mesh->x = d->x;
   d->x = NULL;
-  COROT_TRY(check(d, tet, mesh, &face));
+  return COROT_OK;
+}
+
+/* Fails with all faults, which are forgotten then. */
+static corot_status tell(corot_draft *d) {
+  corot_status status = corot_faults_fail(&d->faults, COROT_EFORMAT);
+  d->faults.n = 0;
+  return status;
+}
+
+/* Fills a zeroed mesh with nodes, tets and groups; `tet` [nelement] is scratch. */
+static corot_status build(corot_draft *d, int *tet, corot_mesh *mesh) {
+  corot_face *face = NULL;
+  corot_draft_check_orders(d);
+  if (d->order == 2) corot_draft_check_middles(d);
+  COROT_TRY(corot_draft_turn(d));
+  COROT_TRY(corot_draft_number_tets(d, tet, &mesh->ntet));
+  COROT_TRY(corot_draft_drop_unused(d));
+  COROT_TRY(fill(d, tet, mesh));
+  if (mesh->ntet > 0 || d->faults.n == 0) {
+    COROT_TRY(check(d, tet, mesh, &face));
+  }
+  if (d->faults.n == 0) corot_draft_match_quads(d, 4 * mesh->ntet, face);
+  if (d->faults.n > 0) free(face);
+  COROT_TRY(tell(d));
   corot_status status = corot_draft_groups(d, tet, face, mesh);
   free(face);
-  return status;
+  return status ? status : tell(d);
+}
+
+corot_status corot_draft_end(corot_draft *d, corot_status status) {
+  if (status != COROT_EFORMAT || d->faults.n == 0) return status;
+  corot_faults_add(&d->faults);
+  return corot_faults_fail(&d->faults, status);
 }
 
 corot_status corot_draft_finish(corot_draft *d, corot_mesh **mesh) {
   corot_mesh *m;
   int *tet = NULL;
+  COROT_TRY(corot_draft_merge(d));
+  COROT_TRY(corot_draft_cut(d));
   COROT_TRY(COROT_ALLOC(m, 1));
   corot_status status = COROT_ALLOC(tet, d->nelement);
   if (!status) status = build(d, tet, m);

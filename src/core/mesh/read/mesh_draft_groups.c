@@ -164,7 +164,7 @@ static int take_nodes(gather *g, const part *p, size_t npart, int *node) {
       int nnode = e->dim + 1 + (e->middle ? corot_draft_nedge(e->dim) : 0);
       for (int j = 0; j < nnode; j++) {
         int v = j <= e->dim ? e->node[j] : g->d->middle[e->middle - 1 + j - e->dim - 1];
-        if (g->node_seen[v] == g->pass) continue;
+        if (v < 0 || g->node_seen[v] == g->pass) continue; /* -1: it has been left out */
         g->node_seen[v] = g->pass;
         if (node) node[n] = v;
         n++;
@@ -184,17 +184,16 @@ static int tet_middle(const corot_mesh *mesh, int e, int a, int b) {
   return mesh->mid[e][k];
 }
 
-/* Whether a six-node triangle has the nodes on edges of the tet at face f. */
-static corot_status check_middles(const gather *g, const corot_draft_element *t, int f) {
+/* Notes a six-node triangle that has not the nodes on edges of the tet at face f. */
+static void check_middles(const gather *g, const corot_draft_element *t, int f) {
   for (int k = 0; k < 3; k++) {
     int a = t->node[k], b = t->node[(k + 1) % 3], m = g->d->middle[t->middle - 1 + k];
     if (m != tet_middle(g->mesh, g->face[f].side / 4, a, b))
-      return corot_draft_fail(
-          g->d, t, "element %lld has node %lld on the edge %lld %lld, the tets have another",
-          (long long)t->tag, (long long)g->d->node[m].tag, (long long)g->d->node[a].tag,
-          (long long)g->d->node[b].tag);
+      corot_draft_note(g->d, corot_draft_file(g->d, t), t->at,
+                       "element %lld has node %lld on the edge %lld %lld, the tets have another",
+                       (long long)t->tag, (long long)g->d->node[m].tag,
+                       (long long)g->d->node[a].tag, (long long)g->d->node[b].tag);
   }
-  return COROT_OK;
 }
 
 /* Adds the nodes on the edges of a triangle that is face f of a ten-node tet. */
@@ -204,14 +203,17 @@ static void take_middles(const gather *g, const int tri[3], int f, corot_group *
         tet_middle(g->mesh, g->face[f].side / 4, tri[k], tri[(k + 1) % 3]);
 }
 
-static corot_status take_triangles(gather *g, const part *p, corot_group *group) {
+static void take_triangles(gather *g, const part *p, corot_group *group) {
   for (size_t i = 0; i < p->count; i++) {
     const corot_draft_element *e = element(g, p, i);
     int f = corot_face_find(4 * g->mesh->ntet, g->face, e->node), *tri = group->tri[group->ntri];
-    if (f < 0)
-      return corot_draft_fail(g->d, e, "%s %lld: the triangle is no face of a tet",
-                              corot_draft_word(g->d, e), (long long)e->tag);
-    if (e->middle) COROT_TRY(check_middles(g, e, f));
+    if (f < 0) {
+      corot_draft_note(g->d, corot_draft_file(g->d, e), e->at,
+                       "%s %lld: the triangle is no face of a tet", corot_draft_word(g->d, e),
+                       (long long)e->tag);
+      continue;
+    }
+    if (e->middle) check_middles(g, e, f);
     if (g->face_seen[f] == g->pass) continue;
     if (g->mesh->mid && !e->middle) take_middles(g, e->node, f, group);
     g->face_seen[f] = g->pass;
@@ -220,7 +222,6 @@ static corot_status take_triangles(gather *g, const part *p, corot_group *group)
     corot_face_orient(g->mesh, g->face, f, reversed, tri);
     group->ntri++;
   }
-  return COROT_OK;
 }
 
 static void take_tets(const gather *g, const part *p, corot_group *group) {
@@ -243,12 +244,23 @@ static corot_status fill_group(gather *g, const part *p, size_t npart, corot_gro
   strcpy(group->name, p->name);
   take_nodes(g, p, npart, group->node);
   for (size_t k = 0; k < npart; k++) {
-    if (p[k].dim == 2) COROT_TRY(take_triangles(g, &p[k], group));
+    if (p[k].dim == 2) take_triangles(g, &p[k], group);
     if (p[k].dim == 3) take_tets(g, &p[k], group);
   }
   corot_ints_unique(&group->nnode, group->node);
   corot_ints_unique(&group->ntet, group->tet);
   return COROT_OK;
+}
+
+/* The last group, all of whose nodes have been left out. */
+static corot_status drop_group(gather *g, corot_group *group) {
+  corot_status status = corot_draft_remark(g->d, COROT_MENDED_UNUSED, 0,
+                                           "group %s of the mesh file has none but nodes that are "
+                                           "in no tet, and is left out",
+                                           group->name);
+  corot_group_clear(group);
+  g->mesh->ngroup--;
+  return status;
 }
 
 static corot_status gather_groups(gather *g) {
@@ -261,7 +273,9 @@ static corot_status gather_groups(gather *g) {
   COROT_TRY(COROT_ALLOC(g->face_seen, 4 * g->mesh->ntet));
   for (size_t i = 0, end; i < g->npart; i = end) {
     for (end = i + 1; end < g->npart && g->part[end].order == g->part[i].order;) end++;
-    COROT_TRY(fill_group(g, &g->part[i], end - i, &g->mesh->group[g->mesh->ngroup++]));
+    corot_group *group = &g->mesh->group[g->mesh->ngroup++];
+    COROT_TRY(fill_group(g, &g->part[i], end - i, group));
+    if (group->nnode == 0) COROT_TRY(drop_group(g, group));
   }
   return COROT_OK;
 }

@@ -53,6 +53,22 @@ static int order_of(const corot_gmsh_type *t) {
   return t->nnode == t->dim + 1 + corot_draft_nedge(t->dim) ? 2 : 0;
 }
 
+/* What is cut into tets or triangles; DRAFT_SIMPLEX: nothing that is. */
+static corot_draft_kind kind_of(const corot_gmsh_type *t) {
+  switch (t->number) {
+    case 3:
+      return DRAFT_QUAD;
+    case 5:
+      return DRAFT_HEX;
+    case 6:
+      return DRAFT_PRISM;
+    case 7:
+      return DRAFT_PYRAMID;
+    default:
+      return DRAFT_SIMPLEX;
+  }
+}
+
 corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element *element,
                                   int number, const corot_gmsh_type **type) {
   const corot_gmsh_type *t = NULL;
@@ -61,9 +77,10 @@ corot_status corot_gmsh_find_type(const corot_gmsh *g, const corot_draft_element
   if (!t)
     return corot_reader_fail(&g->r, element->at, "element %lld is of type %d, which is unknown",
                              (long long)element->tag, number);
-  if (t->dim == 3 && order_of(t) == 0)
+  if (t->dim == 3 && order_of(t) == 0 && !kind_of(t))
     return corot_reader_fail(&g->r, element->at,
-                             "element %lld is %s %s: only tets of 4 or 10 nodes are supported",
+                             "element %lld is %s %s: only tets of 4 or 10 nodes are supported, and "
+                             "other solids of first order, to be cut into tets",
                              (long long)element->tag, article(t), t->name);
   *type = t;
   return COROT_OK;
@@ -87,7 +104,10 @@ static void swap_last_two(int middle[6]) {
 corot_status corot_gmsh_add_element(corot_gmsh *g, corot_draft_element *element,
                                     const corot_gmsh_type *type, int n, const int *physical) {
   bool in_group = false;
-  int order = order_of(type), middle[NMIDDLE_MAX];
+  corot_draft_kind kind = kind_of(type);
+  int order = kind ? 1 : order_of(type), middle[NMIDDLE_MAX];
+  element->dim = type->dim;
+  element->kind = kind;
   for (int i = 0; i < n; i++) in_group = in_group || physical[i] != 0;
   if (in_group && order == 0)
     return corot_reader_fail(
@@ -97,17 +117,16 @@ corot_status corot_gmsh_add_element(corot_gmsh *g, corot_draft_element *element,
         (long long)element->tag, article(type), type->name);
   for (int i = 0; i < type->nnode; i++) {
     int64_t tag;
-    int ignored, *to = &ignored;
-    if (order && i <= type->dim) to = &element->node[i];
-    if (order && i > type->dim) to = &middle[i - type->dim - 1];
+    int ignored;
     COROT_TRY(corot_gmsh_tag(g, "a node", &tag));
-    COROT_TRY(corot_draft_find_node(&g->d, element, tag, to));
+    corot_draft_find_node(&g->d, element, tag,
+                          order ? corot_draft_slot(element, middle, i) : &ignored);
   }
   COROT_TRY(corot_reader_end_line(&g->r));
-  if (order == 0 || (order == 2 && type->dim < 3 && !in_group)) return COROT_OK;
-  element->dim = type->dim;
+  if (order == 0 || ((order == 2 || kind) && type->dim < 3 && !in_group)) return COROT_OK;
   if (type->dim == 3 && order == 2) swap_last_two(middle);
-  COROT_TRY(corot_draft_add_element(&g->d, element, order == 2 ? middle : NULL));
+  COROT_TRY(
+      corot_draft_add_element(&g->d, element, order == 2 || kind > DRAFT_QUAD ? middle : NULL));
   for (int i = 0; i < n; i++)
     COROT_TRY(corot_draft_add_member(&g->d, (int)g->d.nelement - 1, physical[i]));
   return COROT_OK;
@@ -259,11 +278,13 @@ static corot_status parse(corot_gmsh *g, corot_mesh **mesh) {
   return corot_draft_finish(&g->d, mesh);
 }
 
-corot_status corot_gmsh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
+corot_status corot_gmsh_parse(const char *path, const char *data, size_t size,
+                              const corot_reading *how, corot_mesh **mesh) {
   corot_gmsh g = {.r = {.path = path, .data = data, .size = size}};
+  g.d.how = how;
   g.d.node_file = g.d.element_file = &g.r;
   g.d.unused_hint = "with a physical group for the volume, gmsh writes no others (centres of arcs)";
-  corot_status status = parse(&g, mesh);
+  corot_status status = corot_draft_end(&g.d, parse(&g, mesh));
   corot_draft_clear(&g.d);
   free(g.entity);
   free(g.physical);

@@ -126,32 +126,53 @@ static corot_status read_nodes(corot_inp *f) {
   return set && *set ? corot_inp_add(f, set, item) : COROT_OK;
 }
 
-/* Types of elements that are no tets but triangles. */
+/* Types of elements that are no solids: triangles, quads. */
 static const struct {
   const char *name;
   int nnode;
-} triangles[] = {
-    {"S3", 3},   {"S3R", 3},  {"STRI3", 3},  {"DS3", 3},   {"CPS3", 3},   {"CPE3", 3}, {"CAX3", 3},
-    {"M3D3", 3}, {"R3D3", 3}, {"SFM3D3", 3}, {"CPS6", 6},  {"CPE6", 6},   {"CAX6", 6}, {"S6", 6},
-    {"DS6", 6},  {"M3D6", 6}, {"STRI65", 6}, {"CPS6M", 6}, {"SFM3D6", 6},
+} surfaces[] = {
+    {"S4", 4},     {"S4R", 4},    {"S4RS", 4},   {"S4R5", 4},   {"DS4", 4},   {"CPS4", 4},
+    {"CPE4", 4},   {"CAX4", 4},   {"CPS4R", 4},  {"CPE4R", 4},  {"CAX4R", 4}, {"M3D4", 4},
+    {"M3D4R", 4},  {"R3D4", 4},   {"SFM3D4", 4}, {"S3", 3},     {"S3R", 3},   {"STRI3", 3},
+    {"DS3", 3},    {"CPS3", 3},   {"CPE3", 3},   {"CAX3", 3},   {"M3D3", 3},  {"R3D3", 3},
+    {"SFM3D3", 3}, {"CPS6", 6},   {"CPE6", 6},   {"CAX6", 6},   {"S6", 6},    {"DS6", 6},
+    {"M3D6", 6},   {"STRI65", 6}, {"CPS6M", 6},  {"SFM3D6", 6},
 };
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/* The dimension and number of nodes of a type; 0: it is left out. */
-static corot_status find_type(const corot_inp *f, const char *type, int *dim, int *nnode) {
+/* Solids. */
+static const struct {
+  const char *name;
+  int nnode;
+  corot_draft_kind kind;
+} solids[] = {
+    {"C3D4", 4, DRAFT_SIMPLEX}, {"C3D10", 10, DRAFT_SIMPLEX}, {"C3D5", 5, DRAFT_PYRAMID},
+    {"C3D6", 6, DRAFT_PRISM},   {"C3D8", 8, DRAFT_HEX},
+};
+
+/* Dimension, kind and number of nodes of a type, which go into `e`; dimension 0: it is left out. */
+static corot_status find_type(const corot_inp *f, const char *type, corot_inp_element *e) {
   char name[16];
   copy_word(type, type + strlen(type), name, sizeof name);
   const char *solid = strncmp(name, "DC3D", 4) == 0 ? name + 1 : name;
-  *dim = *nnode = 0;
-  if (strncmp(solid, "C3D4", 4) == 0 && !is_digit(solid[4])) *nnode = 4;
-  if (strncmp(solid, "C3D10", 5) == 0 && !is_digit(solid[5])) *nnode = 10;
-  if (*nnode) *dim = 3;
-  for (size_t i = 0; i < sizeof triangles / sizeof *triangles && !*dim; i++)
-    if (strcmp(triangles[i].name, name) == 0) *dim = 2, *nnode = triangles[i].nnode;
-  if (!*dim && (strncmp(solid, "C3D", 3) == 0 || strncmp(name, "SC", 2) == 0))
-    return corot_reader_fail(&f->r, f->k.at,
-                             "elements of type %s: only C3D4 and C3D10 are supported", name);
+  *e = (corot_inp_element){0};
+  for (size_t i = 0; i < sizeof solids / sizeof *solids; i++) {
+    size_t n = strlen(solids[i].name);
+    if (strncmp(solid, solids[i].name, n) == 0 && !is_digit(solid[n]))
+      *e = (corot_inp_element){.dim = 3, .nnode = solids[i].nnode, .kind = solids[i].kind};
+  }
+  for (size_t i = 0; i < sizeof surfaces / sizeof *surfaces && !e->dim; i++)
+    if (strcmp(surfaces[i].name, name) == 0)
+      *e = (corot_inp_element){.dim = 2,
+                               .nnode = surfaces[i].nnode,
+                               .kind = surfaces[i].nnode == 4 ? DRAFT_QUAD : DRAFT_SIMPLEX};
+  if (!e->dim && (strncmp(solid, "C3D", 3) == 0 || strncmp(name, "SC", 2) == 0))
+    return corot_reader_fail(
+        &f->r, f->k.at,
+        "elements of type %s: only C3D4 and C3D10 are supported, and C3D5, C3D6 "
+        "and C3D8, to be cut into tets",
+        name);
   return COROT_OK;
 }
 
@@ -167,10 +188,10 @@ static corot_status read_elements(corot_inp *f) {
   corot_inp_item item = {
       .kind = INP_ELEMENTS, .other = -1, .by_index = true, .step = 1, .at = f->k.at};
   const char *type = corot_inp_param(f, "TYPE"), *set = corot_inp_param(f, "ELSET");
-  corot_inp_element e = {0};
+  corot_inp_element e;
   if (!type || !*type)
     return corot_reader_fail(&f->r, f->k.at, "*ELEMENT has no TYPE, as in TYPE=C3D10");
-  COROT_TRY(find_type(f, type, &e.dim, &e.nnode));
+  COROT_TRY(find_type(f, type, &e));
   item.first = (int64_t)f->nelement;
   while (corot_inp_next_line(f)) {
     if (!e.dim) continue;
@@ -248,12 +269,12 @@ static corot_status read_block(corot_inp *f) {
 static corot_status add_tets(corot_inp *f) {
   for (size_t i = 0; i < f->nelement; i++) {
     corot_inp_element *e = &f->element[i];
-    corot_draft_element t = {.tag = e->tag, .at = e->at, .dim = 3};
+    corot_draft_element t = {.tag = e->tag, .at = e->at, .dim = 3, .kind = e->kind};
     int middle[NMIDDLE_MAX];
     if (e->dim != 3) continue;
     for (int k = 0; k < e->nnode; k++)
-      COROT_TRY(corot_draft_find_node(&f->d, &t, e->node[k], k < 4 ? &t.node[k] : &middle[k - 4]));
-    COROT_TRY(corot_draft_add_element(&f->d, &t, e->nnode == 10 ? middle : NULL));
+      corot_draft_find_node(&f->d, &t, e->node[k], corot_draft_slot(&t, middle, k));
+    COROT_TRY(corot_draft_add_element(&f->d, &t, e->nnode > 4 ? middle : NULL));
     e->index = (int)f->d.nelement - 1;
   }
   return COROT_OK;
@@ -275,15 +296,17 @@ static corot_status parse(corot_inp *f, corot_mesh **mesh) {
   return corot_draft_finish(&f->d, mesh);
 }
 
-corot_status corot_inp_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
+corot_status corot_inp_parse(const char *path, const char *data, size_t size,
+                             const corot_reading *how, corot_mesh **mesh) {
   corot_inp_text text = {0};
   corot_inp f = {0};
   corot_status status = corot_inp_expand(path, data, size, &text);
   f.r = (corot_reader){.path = path, .data = text.data, .size = text.size, .separator = ','};
   f.r.npiece = text.npiece, f.r.piece = text.piece;
+  f.d.how = how;
   f.d.node_file = f.d.element_file = &f.r;
   f.d.raises = true;
-  if (!status) status = parse(&f, mesh);
+  if (!status) status = corot_draft_end(&f.d, parse(&f, mesh));
   corot_draft_clear(&f.d);
   free(f.element);
   free(f.name);

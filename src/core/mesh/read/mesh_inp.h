@@ -35,6 +35,7 @@ typedef struct corot_inp_element {
   int64_t tag;
   size_t at;
   int dim; /* 2 or 3 */
+  corot_draft_kind kind;
   int nnode;
   int64_t node[10]; /* [nnode] their numbers */
   int index;        /* of a tet in the draft */

@@ -119,17 +119,17 @@ corot_status corot_inp_read_set(corot_inp *f, corot_inp_kind kind) {
   return COROT_OK;
 }
 
-/* "S1" to "S4"; SPOS, SNEG and nothing are no face of a tet. */
+/* "S1" to "S6"; SPOS, SNEG and nothing are no face of a tet. */
 static corot_status read_face(corot_inp *f, int *face) {
   char word[COROT_GROUP_NAME_MAX + 1];
   size_t at = f->r.at;
   *face = 0;
   if (!corot_reader_more(&f->r)) return COROT_OK;
   COROT_TRY(read_word(f, word));
-  if ((word[0] == 'S' || word[0] == 's') && word[1] >= '1' && word[1] <= '4' && !word[2])
+  if ((word[0] == 'S' || word[0] == 's') && word[1] >= '1' && word[1] <= '6' && !word[2])
     *face = word[1] - '0';
   else if (!corot_inp_same(word, "SPOS") && !corot_inp_same(word, "SNEG"))
-    return corot_reader_fail(&f->r, at, "expected a face, S1 to S4, found '%.20s'", word);
+    return corot_reader_fail(&f->r, at, "expected a face, S1 to S6, found '%.20s'", word);
   return COROT_OK;
 }
 
@@ -193,19 +193,32 @@ static corot_status add_to_group(corot_inp *f, const corot_draft_element *e, int
   return corot_draft_add_member(&f->d, (int)f->d.nelement - 1, name + 1);
 }
 
-/* A triangle that is an element, or a face of a tet; their corners. */
+/* The faces of solids, S1 to S6; -1 ends a triangle, and a face that there is not. */
+static const int faces[DRAFT_KINDS][6][4] = {
+    [DRAFT_SIMPLEX] = {{0, 1, 2, -1}, {0, 3, 1, -1}, {1, 3, 2, -1}, {2, 3, 0, -1}, {-1}, {-1}},
+    [DRAFT_PYRAMID] =
+        {{0, 1, 2, 3}, {0, 4, 1, -1}, {1, 4, 2, -1}, {2, 4, 3, -1}, {3, 4, 0, -1}, {-1}},
+    [DRAFT_PRISM] = {{0, 1, 2, -1}, {3, 5, 4, -1}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}, {-1}},
+    [DRAFT_HEX] =
+        {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}},
+};
+
+/* A triangle or quad that is an element, or a face of a solid; their corners. */
 static corot_status add_face(corot_inp *f, const corot_inp_element *e, int face, int name) {
-  static const int local[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
   corot_draft_element t = {.tag = e->tag, .at = e->at, .dim = 2};
-  if (e->dim == 3 && face == 0)
+  const int *local = e->dim == 3 && face > 0 ? faces[e->kind][face - 1] : NULL;
+  if (e->dim == 3 && (!local || local[0] < 0))
     return corot_reader_fail(&f->r, e->at,
                              "element %lld is in surface %s, which does not say with which face, "
-                             "S1 to S4",
-                             (long long)e->tag, f->name[name].text);
-  for (int k = 0; k < 3; k++) {
-    int from = e->dim == 3 ? local[face - 1][k] : k;
-    COROT_TRY(corot_draft_find_node(&f->d, &t, e->node[from], &t.node[k]));
-  }
+                             "S1 to S%d",
+                             (long long)e->tag, f->name[name].text,
+                             e->kind == DRAFT_HEX ? 6
+                             : e->kind            ? 5
+                                                  : 4);
+  int n = local ? (local[3] >= 0 ? 4 : 3) : e->kind ? 4 : 3;
+  if (n == 4) t.kind = DRAFT_QUAD;
+  for (int k = 0; k < n; k++)
+    corot_draft_find_node(&f->d, &t, e->node[local ? local[k] : k], &t.node[k]);
   return add_to_group(f, &t, name);
 }
 

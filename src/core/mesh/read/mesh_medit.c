@@ -14,13 +14,18 @@ typedef struct medit {
 typedef struct list {
   const char *name;
   int dim, nnode; /* nnode 0: solids that are not supported */
+  corot_draft_kind kind;
 } list;
 
 static const list lists[] = {
-    {"Triangles", 2, 3},    {"TrianglesP2", 2, 6},  {"Tetrahedra", 3, 4}, {"TetrahedraP2", 3, 10},
-    {"TetrahedraP3", 3, 0}, {"TetrahedraP4", 3, 0}, {"Hexahedra", 3, 0},  {"HexahedraQ2", 3, 0},
-    {"Prisms", 3, 0},       {"PrismsP2", 3, 0},     {"Pentahedra", 3, 0}, {"PentahedraP2", 3, 0},
-    {"Pyramids", 3, 0},     {"PyramidsP2", 3, 0},
+    {"Triangles", 2, 3, DRAFT_SIMPLEX},     {"TrianglesP2", 2, 6, DRAFT_SIMPLEX},
+    {"Quadrilaterals", 2, 4, DRAFT_QUAD},   {"Tetrahedra", 3, 4, DRAFT_SIMPLEX},
+    {"TetrahedraP2", 3, 10, DRAFT_SIMPLEX}, {"TetrahedraP3", 3, 0, DRAFT_SIMPLEX},
+    {"TetrahedraP4", 3, 0, DRAFT_SIMPLEX},  {"Hexahedra", 3, 8, DRAFT_HEX},
+    {"HexahedraQ2", 3, 0, DRAFT_HEX},       {"Prisms", 3, 6, DRAFT_PRISM},
+    {"PrismsP2", 3, 0, DRAFT_PRISM},        {"Pentahedra", 3, 6, DRAFT_PRISM},
+    {"PentahedraP2", 3, 0, DRAFT_PRISM},    {"Pyramids", 3, 5, DRAFT_PYRAMID},
+    {"PyramidsP2", 3, 0, DRAFT_PYRAMID},
 };
 
 static corot_status read_dimension(medit *m) {
@@ -56,18 +61,17 @@ static corot_status read_element(medit *m, const list *l, int number) {
   int middle[NMIDDLE_MAX], reference;
   int64_t tag;
   corot_reader_skip_lines(r);
-  corot_draft_element element = {.tag = number, .at = r->at, .dim = l->dim};
+  corot_draft_element element = {.tag = number, .at = r->at, .dim = l->dim, .kind = l->kind};
   for (int i = 0; i < l->nnode; i++) {
     COROT_TRY(corot_reader_long(r, "a vertex", &tag));
-    int *to = i <= l->dim ? &element.node[i] : &middle[i - l->dim - 1];
-    COROT_TRY(corot_draft_find_node(&m->d, &element, tag, to));
+    corot_draft_find_node(&m->d, &element, tag, corot_draft_slot(&element, middle, i));
   }
   COROT_TRY(corot_reader_int(r, "a reference", &reference));
   if (reference < 0)
     return corot_reader_fail(
         r, element.at, "the reference is %d: groups have positive ones, 0 is none", reference);
   if (l->dim == 2 && reference == 0) return COROT_OK;
-  COROT_TRY(corot_draft_add_element(&m->d, &element, l->nnode > l->dim + 1 ? middle : NULL));
+  COROT_TRY(corot_draft_add_element(&m->d, &element, l->nnode > 4 ? middle : NULL));
   return corot_draft_add_member(&m->d, (int)m->d.nelement - 1, reference);
 }
 
@@ -79,8 +83,11 @@ static corot_status read_elements(medit *m, const list *l) {
   COROT_TRY(
       corot_reader_count(r, "the number of elements", l->nnode ? 2 * (size_t)l->nnode + 1 : 1, &n));
   if (n > 0 && l->nnode == 0)
-    return corot_reader_fail(r, at, "the file has %s: only tets of 4 or 10 nodes are supported",
-                             l->name);
+    return corot_reader_fail(
+        r, at,
+        "the file has %s: only tets of 4 or 10 nodes are supported, and other solids "
+        "of first order, to be cut into tets",
+        l->name);
   if (!m->has_nodes) return corot_reader_fail(r, at, "%s are listed before Vertices", l->name);
   for (int i = 0; i < n; i++) COROT_TRY(read_element(m, l, i + 1));
   m->has_tets = m->has_tets || (l->dim == 3 && n > 0);
@@ -124,11 +131,13 @@ static corot_status parse(medit *m, corot_mesh **mesh) {
   return corot_draft_finish(&m->d, mesh);
 }
 
-corot_status corot_medit_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
+corot_status corot_medit_parse(const char *path, const char *data, size_t size,
+                               const corot_reading *how, corot_mesh **mesh) {
   medit m = {.r = {.path = path, .data = data, .size = size, .comment = '#', .flows = true}};
+  m.d.how = how;
   m.d.node_file = m.d.element_file = m.d.face_file = &m.r;
   m.d.raises = true;
-  corot_status status = parse(&m, mesh);
+  corot_status status = corot_draft_end(&m.d, parse(&m, mesh));
   corot_draft_clear(&m.d);
   return status;
 }

@@ -42,7 +42,7 @@ static corot_status load_if_there(const char *path, size_t cut, const char *suff
 
 /* A TetGen mesh, of which one of the files has been loaded: NAME.node or NAME.ele. */
 static corot_status read_tetgen(const char *path, const char *data, size_t size,
-                                corot_mesh **mesh) {
+                                const corot_reading *how, corot_mesh **mesh) {
   bool is_node = has_suffix(path, ".node");
   size_t cut = is_node ? 5 : 4;
   companion other = {0}, face = {0};
@@ -52,7 +52,7 @@ static corot_status read_tetgen(const char *path, const char *data, size_t size,
     const corot_mesh_text given = {path, data, size}, found = {other.path, other.data, other.size},
                           faces = {face.path, face.data, face.size};
     status = corot_tetgen_parse(is_node ? &given : &found, is_node ? &found : &given,
-                                face.data ? &faces : NULL, mesh);
+                                face.data ? &faces : NULL, how, mesh);
   }
   free(other.path);
   free(other.data);
@@ -84,6 +84,28 @@ static bool is_vtk(const char *path, const char *text) {
   return strncmp(text, "# vtk DataFile", 14) == 0;
 }
 
+static bool is_vtu(const char *path, const char *text) {
+  (void)path;
+  return *text == '<' && strstr(text, "<VTKFile");
+}
+
+/* Comments may come first. */
+static bool is_vol(const char *path, const char *text) {
+  return strncmp(text, "mesh3d", 6) == 0 ||
+         (has_suffix(path, ".vol") && *text == '#' && strstr(text, "mesh3d"));
+}
+
+static bool is_mfem(const char *path, const char *text) {
+  (void)path;
+  return strncmp(text, "MFEM mesh v1.", 13) == 0;
+}
+
+/* Comments may come first, and VegaFEM's other keywords. */
+static bool is_veg(const char *path, const char *text) {
+  return strncmp(text, "*VERTICES", 9) == 0 ||
+         (has_suffix(path, ".veg") && (*text == '#' || *text == '*') && strstr(text, "*VERTICES"));
+}
+
 static bool is_tetgen(const char *path, const char *text) {
   (void)text;
   return has_suffix(path, ".node") || has_suffix(path, ".ele");
@@ -92,34 +114,66 @@ static bool is_tetgen(const char *path, const char *text) {
 /* The formats; what is first recognized decides. */
 static const struct {
   bool (*recognize)(const char *path, const char *text);
-  corot_status (*parse)(const char *path, const char *data, size_t size, corot_mesh **mesh);
+  corot_status (*parse)(const char *path, const char *data, size_t size, const corot_reading *how,
+                        corot_mesh **mesh);
 } formats[] = {
-    {is_gmsh, corot_gmsh_parse}, {is_vtk, corot_vtk_parse}, {is_medit, corot_medit_parse},
-    {is_inp, corot_inp_parse},   {is_tetgen, read_tetgen},
+    {is_gmsh, corot_gmsh_parse}, {is_vtk, corot_vtk_parse},   {is_medit, corot_medit_parse},
+    {is_veg, corot_veg_parse},   {is_inp, corot_inp_parse},   {is_vtu, corot_vtu_parse},
+    {is_vol, corot_vol_parse},   {is_mfem, corot_mfem_parse}, {is_tetgen, read_tetgen},
 };
 
-corot_status corot_mesh_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
+corot_status corot_mesh_parse(const char *path, const char *data, size_t size,
+                              const corot_reading *how, corot_mesh **mesh) {
   const char *text = data + strspn(data, " \t\r\n");
   if (text == data + size) return corot_fail(COROT_EFORMAT, "%s: the file is empty", path);
   for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-    if (formats[i].recognize(path, text)) return formats[i].parse(path, data, size, mesh);
+    if (formats[i].recognize(path, text)) return formats[i].parse(path, data, size, how, mesh);
   return corot_fail(COROT_EFORMAT,
                     "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, MEDIT files "
                     "with MeshVersionFormatted, Abaqus files with *, VTK files with # vtk "
-                    "DataFile, TetGen files are called "
+                    "DataFile or have a tag VTKFile, Netgen files with mesh3d, MFEM files with "
+                    "MFEM mesh v1, VegaFEM files with *VERTICES, TetGen files are called "
                     "NAME.node and NAME.ele",
                     path);
 }
 
-corot_status corot_mesh_read(const char *path, corot_mesh **mesh) {
+static corot_status read_file(const char *path, const corot_reading *how, corot_mesh **mesh) {
   char *data;
   size_t size;
-  COROT_TRY(COROT_GIVEN(path));
-  COROT_TRY(COROT_GIVEN(mesh));
   COROT_TRY(corot_reader_load(path, &data, &size));
   corot_c_locale locale = corot_c_locale_enter();
-  corot_status status = corot_mesh_parse(path, data, size, mesh);
+  corot_status status = corot_mesh_parse(path, data, size, how, mesh);
   corot_c_locale_leave(locale);
   free(data);
   return status;
+}
+
+corot_status corot_mesh_read(const char *path, corot_mesh **mesh) {
+  COROT_TRY(COROT_GIVEN(path));
+  COROT_TRY(COROT_GIVEN(mesh));
+  return read_file(path, NULL, mesh);
+}
+
+corot_status corot_mesh_read_mended(const char *path, const corot_mending *mending,
+                                    corot_mesh **mesh, corot_mesh_report **report) {
+  corot_mesh_report *r;
+  corot_mesh *m;
+  COROT_TRY(COROT_GIVEN(path));
+  COROT_TRY(COROT_GIVEN(mesh));
+  COROT_TRY(COROT_GIVEN(report));
+  if (mending && !(mending->merge >= 0 && mending->merge <= 1e100))
+    return corot_fail(COROT_EINVAL, "merge is %g, not >= 0", mending->merge);
+  COROT_TRY(COROT_ALLOC(r, 1));
+  const corot_reading how = {.mends = true,
+                             .cuts = mending && mending->cut,
+                             .merge = mending ? mending->merge : 0,
+                             .report = r};
+  corot_status status = read_file(path, &how, &m);
+  if (status) {
+    corot_mesh_report_destroy(r);
+    return status;
+  }
+  *mesh = m;
+  *report = r;
+  return COROT_OK;
 }

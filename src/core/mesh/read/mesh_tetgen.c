@@ -92,7 +92,7 @@ static corot_status read_tet(corot_reader *r, int nnode, int nattribute, corot_d
   for (int k = 0; k < nnode; k++) {
     int64_t tag;
     COROT_TRY(corot_reader_long(r, "a node", &tag));
-    COROT_TRY(corot_draft_find_node(d, &element, tag, k < 4 ? &element.node[k] : &middle[k - 4]));
+    corot_draft_find_node(d, &element, tag, k < 4 ? &element.node[k] : &middle[k - 4]);
   }
   for (int k = 0; k < nattribute; k++) COROT_TRY(corot_reader_real(r, "an attribute", region));
   if (*region - *region != 0) return corot_reader_fail(r, element.at, "the region is %g", *region);
@@ -118,17 +118,6 @@ static corot_status read_tets(corot_reader *r, corot_draft *d, double **region) 
   return COROT_OK;
 }
 
-/* The format does not say how a tet is wound: if all are left-handed, they are turned round. */
-static void turn_left_handed(corot_draft *d) {
-  for (size_t e = 0; e < d->nelement; e++)
-    if (!(corot_tet_volume((const double(*)[3])d->x, d->element[e].node) < 0)) return;
-  for (size_t e = 0; e < d->nelement; e++) {
-    int *v = d->element[e].node, swap = v[0];
-    v[0] = v[1];
-    v[1] = swap;
-  }
-}
-
 /* "INDEX NODE NODE NODE [three nodes on edges] [MARKER] [two tets]"; those in brackets are there or
    not as -o2, the first line of the file and -nn say. A face without a marker is left out. */
 static corot_status read_face(corot_reader *r, int nmarker, corot_draft *d, double *marker) {
@@ -138,7 +127,7 @@ static corot_status read_face(corot_reader *r, int nmarker, corot_draft *d, doub
   COROT_TRY(corot_reader_long(r, "a face", &element.tag));
   for (int k = 0; k < 3; k++) {
     COROT_TRY(corot_reader_long(r, "a node", &tag));
-    COROT_TRY(corot_draft_find_node(d, &element, tag, &element.node[k]));
+    corot_draft_find_node(d, &element, tag, &element.node[k]);
   }
   for (; n < 6 && corot_reader_more(r); n++) COROT_TRY(corot_reader_long(r, "a number", &rest[n]));
   if (n < nmarker) return corot_reader_fail(r, r->at, "expected a marker, found the end");
@@ -233,8 +222,8 @@ static corot_status parse(corot_reader *node, corot_reader *ele, corot_reader *f
   COROT_TRY(read_nodes(node, d, &m->node));
   COROT_TRY(read_tets(ele, d, &m->region));
   int ntet = (int)d->nelement;
-  turn_left_handed(d);
   if (d->order == 2) COROT_TRY(corot_draft_order_middles(d));
+  corot_draft_turn_all(d);
   if (face) {
     d->face_file = face;
     COROT_TRY(read_faces(face, d, &m->face));
@@ -248,11 +237,12 @@ static corot_reader over(const corot_mesh_text *text) {
 }
 
 corot_status corot_tetgen_parse(const corot_mesh_text *node, const corot_mesh_text *ele,
-                                const corot_mesh_text *face, corot_mesh **mesh) {
+                                const corot_mesh_text *face, const corot_reading *how,
+                                corot_mesh **mesh) {
   corot_reader n = over(node), e = over(ele), f = face ? over(face) : e;
-  corot_draft d = {.node_file = &n, .element_file = &e};
+  corot_draft d = {.how = how, .node_file = &n, .element_file = &e};
   marks m = {0};
-  corot_status status = parse(&n, &e, face ? &f : NULL, &d, &m, mesh);
+  corot_status status = corot_draft_end(&d, parse(&n, &e, face ? &f : NULL, &d, &m, mesh));
   free(m.region);
   free(m.face);
   free(m.node);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "mesh_read.h"
+#include "mesh_vtk.h"
 
 /* A type of numbers, and its bytes in a binary file. */
 typedef struct number_type {
@@ -29,7 +30,9 @@ typedef struct vtk {
   int64_t *first; /* [ncell + 1] where the nodes of a cell begin in `list` */
   int64_t *list;  /* [nlist] */
   int *type;      /* [ncell] */
-  int *value;     /* [ncell] of the array that becomes groups; NULL: there is none */
+  int nitem;      /* of the data that are read: of cells, or points */
+  bool of_points;
+  corot_vtk_groups groups;
 } vtk;
 
 static corot_status read_type(vtk *v, const number_type **type) {
@@ -174,40 +177,65 @@ static corot_status read_cell_types(vtk *v) {
 
 /* --- groups --- */
 
-/* The names of arrays that gmsh and meshio give the numbers of groups. */
-static bool is_group_array(const char *name) {
-  return strcmp(name, "CellEntityIds") == 0 || strcmp(name, "gmsh:physical") == 0 ||
-         strcmp(name, "medit:ref") == 0;
-}
-
 /* A word of the line; cut if it is long. */
-static void read_word(corot_reader *r, char word[32]) {
+static void read_word(corot_reader *r, char word[VTK_NAME_MAX + 1]) {
   size_t n = 0;
   corot_reader_more(r);
   for (; !strchr(" \t\r\n", r->data[r->at]); r->at++)
-    if (n < 31) word[n++] = r->data[r->at];
+    if (n < VTK_NAME_MAX) word[n++] = r->data[r->at];
   word[n] = 0;
 }
 
-/* Numbers of cells, or of anything else to go past. */
-static corot_status read_array(vtk *v, const char *name, const number_type *type, int64_t n) {
+/* A whole number of any size, in binary one of 1, 4 or 8 bytes. */
+static corot_status read_member(vtk *v, const number_type *type, int64_t *value) {
   corot_reader *r = &v->r;
-  bool keep = !v->value && n == v->ncell && is_group_array(name) && !type->real && type->bytes >= 4;
-  int64_t whole;
+  if (!v->binary || type->bytes != 1) return read_whole(v, type, "a number of a group", value);
+  if (r->at == r->size)
+    return corot_reader_fail(r, r->at, "expected a number of a group, found the end of the file");
+  *value = r->data[r->at++];
+  return COROT_OK;
+}
+
+static corot_status skip_numbers(vtk *v, const char *name, const number_type *type, int64_t n) {
+  corot_reader *r = &v->r;
   double ignored;
-  COROT_TRY(start_data(v));
-  if (v->binary && !keep) {
+  if (v->binary) {
     if ((uint64_t)n > (r->size - r->at) / type->bytes)
       return corot_reader_fail(r, r->at, "the array %s is longer than the file", name);
     r->at += (size_t)n * type->bytes;
-  } else if (keep) {
-    COROT_TRY(COROT_ALLOC(v->value, n));
-    for (int64_t i = 0; i < n; i++) {
-      COROT_TRY(read_whole(v, type, "a number of a group", &whole));
-      v->value[i] = whole > 0 && whole <= 1000000000 ? (int)whole : 0;
-    }
-  } else {
-    for (int64_t i = 0; i < n; i++) COROT_TRY(corot_reader_real(r, "a number", &ignored));
+    return COROT_OK;
+  }
+  for (int64_t i = 0; i < n; i++) COROT_TRY(corot_reader_real(r, "a number", &ignored));
+  return COROT_OK;
+}
+
+/* Numbers of cells or points, or of anything else to go past. */
+static corot_status read_array(vtk *v, const char *name, const number_type *type, int64_t n) {
+  corot_reader *r = &v->r;
+  char group[COROT_GROUP_NAME_MAX + 1];
+  bool whole = !type->real && type->bytes != 2, fits = n == v->nitem && n > 0;
+  bool numbers = whole && fits && !v->of_points && !v->groups.number && type->bytes >= 4 &&
+                 corot_vtk_has_numbers(name);
+  bool members = whole && fits && corot_vtk_is_group(name, group);
+  int64_t value;
+  COROT_TRY(start_data(v));
+  if (!numbers && !members) {
+    COROT_TRY(skip_numbers(v, name, type, n));
+    end_data(v);
+    return COROT_OK;
+  }
+  if ((uint64_t)n > r->size - r->at)
+    return corot_reader_fail(r, r->at, "the array %s is longer than the file", name);
+  if (numbers)
+    COROT_TRY(COROT_ALLOC(v->groups.number, n));
+  else
+    COROT_TRY(corot_vtk_add_group(&v->groups, group, v->of_points, (int)n));
+  for (int64_t i = 0; i < n; i++) {
+    COROT_TRY(read_member(v, type, &value));
+    if (numbers)
+      v->groups.number[i] = value > 0 && value <= 1000000000 ? (int)value : 0;
+    else
+      v->groups.group[v->groups.n - 1].member[i] = value != 0;
   }
   end_data(v);
   return COROT_OK;
@@ -226,7 +254,7 @@ static bool skip_metadata(corot_reader *r) {
 static corot_status read_field(vtk *v) {
   corot_reader *r = &v->r;
   const number_type *type;
-  char name[32];
+  char name[VTK_NAME_MAX + 1];
   int n, ncomponent, ntuple;
   read_word(r, name);
   COROT_TRY(corot_reader_count(r, "the number of arrays", 6, &n));
@@ -246,7 +274,7 @@ static corot_status read_field(vtk *v) {
 static corot_status read_scalars(vtk *v) {
   corot_reader *r = &v->r;
   const number_type *type;
-  char name[32], ignored[32];
+  char name[VTK_NAME_MAX + 1], ignored[VTK_NAME_MAX + 1];
   int ncomponent = 1;
   read_word(r, name);
   COROT_TRY(read_type(v, &type));
@@ -256,59 +284,40 @@ static corot_status read_scalars(vtk *v) {
   read_word(r, ignored);
   if (ncomponent < 1 || ncomponent > 4)
     return corot_reader_fail(r, r->at, "an array of %d components", ncomponent);
-  return read_array(v, name, type, (int64_t)ncomponent * v->ncell);
+  return read_array(v, name, type, (int64_t)ncomponent * v->nitem);
 }
 
-/* Data of cells, as far as it is scalars and fields; what is behind it is not looked at. */
-static corot_status read_cell_data(vtk *v) {
+/* Data of cells or points, as far as it is scalars and fields; what is behind other data is not
+   looked at. */
+static corot_status read_data(vtk *v, bool of_points) {
   corot_reader *r = &v->r;
   int n;
-  COROT_TRY(corot_reader_count(r, "the number of cells", 1, &n));
+  COROT_TRY(
+      corot_reader_count(r, of_points ? "the number of points" : "the number of cells", 1, &n));
+  v->of_points = of_points;
+  v->nitem = of_points ? v->d.nnode : v->ncell;
   for (;;) {
+    size_t at;
     corot_reader_skip_lines(r);
+    at = r->at;
     if (skip_metadata(r)) continue;
-    if (corot_reader_word(r, "FIELD"))
+    if (corot_reader_word(r, "FIELD")) {
       COROT_TRY(read_field(v));
-    else if (corot_reader_word(r, "SCALARS"))
+    } else if (corot_reader_word(r, "SCALARS")) {
       COROT_TRY(read_scalars(v));
-    else
-      break;
+    } else {
+      if (!corot_reader_word(r, "CELL_DATA") && !corot_reader_word(r, "POINT_DATA")) at = r->size;
+      r->at = at;
+      return COROT_OK;
+    }
   }
-  r->at = r->size;
-  return COROT_OK;
 }
 
 /* --- the mesh --- */
 
-/* What a type of cell is here: its dimension and nodes; 0: it is left out, -1: a solid. */
-static int kind_of(int type, int *nnode) {
-  *nnode = type == 5 ? 3 : type == 22 ? 6 : type == 10 ? 4 : type == 24 ? 10 : 0;
-  if (*nnode) return type == 5 || type == 22 ? 2 : 3;
-  bool solid = (type >= 11 && type <= 16) || (type >= 25 && type <= 27) || type == 29 ||
-               (type >= 31 && type <= 33) || type == 37 || type == 42 || (type >= 71 && type <= 74);
-  return solid ? -1 : 0;
-}
-
 static corot_status add_cell(vtk *v, int i) {
-  corot_draft_element e = {.tag = i, .at = v->cells_at};
-  int middle[NMIDDLE_MAX], nnode, group = v->value ? v->value[i] : 0, has;
-  int dim = kind_of(v->type[i], &nnode);
-  has = (int)(v->first[i + 1] - v->first[i]);
-  if (dim < 0)
-    return corot_reader_fail(&v->r, v->cells_at,
-                             "cell %d is a solid of type %d: only tets of 4 or 10 nodes (types 10 "
-                             "and 24) are supported",
-                             i, v->type[i]);
-  if (dim == 0 || (dim == 2 && group == 0)) return COROT_OK;
-  if (has != nnode)
-    return corot_reader_fail(&v->r, v->cells_at, "cell %d has %d nodes, but is of type %d", i, has,
-                             v->type[i]);
-  e.dim = dim;
-  for (int k = 0; k < nnode; k++)
-    COROT_TRY(corot_draft_find_node(&v->d, &e, v->list[v->first[i] + k],
-                                    k <= dim ? &e.node[k] : &middle[k - dim - 1]));
-  COROT_TRY(corot_draft_add_element(&v->d, &e, nnode > dim + 1 ? middle : NULL));
-  return corot_draft_add_member(&v->d, (int)v->d.nelement - 1, group);
+  return corot_vtk_add_cell(&v->d, i, v->cells_at, v->type[i], v->first[i + 1] - v->first[i],
+                            v->list + v->first[i], &v->groups);
 }
 
 /* The first lines: the version, a title, the kind of numbers, the kind of data. */
@@ -336,13 +345,10 @@ static corot_status read_section(vtk *v) {
   if (corot_reader_word(r, "POINTS")) return read_points(v);
   if (corot_reader_word(r, "CELLS")) return read_cells(v);
   if (corot_reader_word(r, "CELL_TYPES")) return read_cell_types(v);
-  if (corot_reader_word(r, "CELL_DATA")) return read_cell_data(v);
+  if (corot_reader_word(r, "CELL_DATA")) return read_data(v, false);
+  if (corot_reader_word(r, "POINT_DATA")) return read_data(v, true);
   if (corot_reader_word(r, "FIELD")) return read_field(v);
   if (skip_metadata(r)) return COROT_OK;
-  if (corot_reader_word(r, "POINT_DATA")) {
-    r->at = r->size; /* data of cells stands before */
-    return COROT_OK;
-  }
   return corot_reader_fail(r, r->at, "expected POINTS, CELLS, CELL_TYPES or data");
 }
 
@@ -356,19 +362,22 @@ static corot_status parse(vtk *v, corot_mesh **mesh) {
                       !v->has_points ? "POINTS"
                       : !v->first    ? "CELLS"
                                      : "CELL_TYPES");
+  COROT_TRY(corot_vtk_begin_groups(&v->groups, &v->d));
   for (int i = 0; i < v->ncell; i++) COROT_TRY(add_cell(v, i));
   return corot_draft_finish(&v->d, mesh);
 }
 
-corot_status corot_vtk_parse(const char *path, const char *data, size_t size, corot_mesh **mesh) {
+corot_status corot_vtk_parse(const char *path, const char *data, size_t size,
+                             const corot_reading *how, corot_mesh **mesh) {
   vtk v = {.r = {.path = path, .data = data, .size = size, .flows = true}};
+  v.d.how = how;
   v.d.node_file = v.d.element_file = &v.r;
   v.d.raises = v.d.repeats = true; /* meshio repeats what gmsh 2.2 repeats for each group */
-  corot_status status = parse(&v, mesh);
+  corot_status status = corot_draft_end(&v.d, parse(&v, mesh));
   corot_draft_clear(&v.d);
   free(v.first);
   free(v.list);
   free(v.type);
-  free(v.value);
+  corot_vtk_groups_clear(&v.groups);
   return status;
 }
