@@ -96,6 +96,9 @@ lacks locking check pull.yaml --set 'mesh={file: ten.msh}' --set 'boundary=[]' -
 expect 0 check pull.yaml $ten --set material.lambda=5.1e6
 out "nu = 0.4904: ten-node tets"; out "dilatation: element is the remedy [locking]"
 
+has threads check pull.yaml --set threads=$(($(nproc) + 1))
+lacks threads check pull.yaml --set threads=$(nproc)
+
 has parts check blocks.yaml; has unheld check blocks.yaml
 has parts mesh info two.msh; json '[p["nodes"] for p in d["parts"]] == [8, 8] and d["parts"][1]["first"] == 8'
 lacks parts mesh info one.msh; json 'd["parts"] == [{"first": 0, "nodes": 8}]'

@@ -159,7 +159,7 @@ static void make_pair(holding how, const double abc[3], pair *p) {
   corot_rows_load(&p->rows);
   double *work[3];
   for (int k = 0; k < 3; k++) work[k] = corot_rows_vector(p->A.n, 3);
-  p->largest = 1.1 * corot_rows_largest(&p->rows, 10, work);
+  p->largest = 1.1 * corot_rows_largest(&p->rows, NULL, 10, work);
   for (int k = 0; k < 3; k++) free(work[k]);
   int *aggregate = malloc(p->A.n * sizeof *aggregate);
   graph_rows g = {p->A.n, p->rows.rowptr, p->rows.col};
@@ -190,7 +190,7 @@ static void rows_are_the_matrix(void **state) {
     uint64_t seed = 2;
     for (int i = 0; i < n; i++) x[i] = noise(&seed);
     corot_nodes_multiply(&p.A, x, z);
-    corot_rows_subtract(&p.rows, x, y);
+    corot_rows_subtract(&p.rows, 0, p.rows.n, x, y);
     /* single precision rounds each of some 15 or 40 blocks by 6e-8 at the most */
     for (int i = 0; i < n; i++) assert_close(-y[i], z[i], 0, 3e-7 * norm_max(n, z));
     free(x), free(y), drop_pair(&p);
@@ -210,7 +210,7 @@ static void the_largest_eigenvalue_is_found(void **state) {
     for (int i = 0; i < n; i++) x[i] = noise(&seed);
     for (int t = 0; t < 400; t++) {
       memset(y, 0, n * sizeof *y);
-      corot_rows_subtract(&p.rows, x, y);
+      corot_rows_subtract(&p.rows, 0, p.rows.n, x, y);
       found = sqrt(inner(n, y, y) / inner(n, x, x));
       for (int i = 0; i < n; i++) x[i] = -y[i] / norm_max(1, &found);
     }
@@ -226,7 +226,7 @@ static void the_largest_eigenvalue_is_found(void **state) {
 /* y = P x, or x = P' y. */
 static void prolong(const pair *p, const double *x, double *y) {
   memset(y, 0, 3 * p->A.n * sizeof *y);
-  corot_prolong_add(&p->P, x, y);
+  corot_prolong_add(&p->P, 0, p->P.n, x, y);
 }
 
 /* P R = B - omega A B. Of a stiffness that nothing holds, A B is zero: the rigid motions are what
@@ -286,7 +286,7 @@ static void restriction_is_transposed_prolongation(void **state) {
     for (int i = 0; i < n; i++) y[i] = noise(&seed);
     for (int i = 0; i < ncoarse; i++) x[i] = noise(&seed);
     prolong(&p, x, Px);
-    corot_prolong_restrict(&p.P, y, Py);
+    corot_prolong_restrict(&p.P, 0, p.P.ncoarse, y, Py);
     assert_close(inner(n, y, Px), inner(ncoarse, x, Py), 0,
                  1e-13 * sqrt(inner(n, y, y) * inner(n, Px, Px)));
   }
@@ -314,8 +314,8 @@ static void the_coarse_matrix_is_the_projected_one(void **state) {
       x[j] = 1;
       prolong(&p, x, Px);
       corot_nodes_multiply(&p.A, Px, APx);
-      corot_prolong_restrict(&p.P, APx, z);
-      corot_rows_subtract(&p.coarse, x, y);
+      corot_prolong_restrict(&p.P, 0, p.P.ncoarse, APx, z);
+      corot_rows_subtract(&p.coarse, 0, p.coarse.n, x, y);
       bool dead = norm_max(n, Px) == 0;
       for (int i = 0; i < ncoarse; i++) assert_close(y[i], dead && i == j ? -1 : -z[i], 0, 1e-13);
       assert_close(y[j], -1, 0, 1e-15);

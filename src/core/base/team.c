@@ -211,3 +211,19 @@ void corot_team_run(team *t, int nparts, team_part *part, void *work) {
   do_parts(t, 0);
   wait_for_members(t);
 }
+
+typedef struct shared_loop {
+  team_loop *loop;
+  void *work;
+  int count, nparts;
+} shared_loop;
+
+static void loop_part(void *of, int k) {
+  const shared_loop *l = of;
+  l->loop(l->work, team_share(l->count, l->nparts, k), team_share(l->count, l->nparts, k + 1));
+}
+
+void corot_team_loop(team *t, int count, team_loop *loop, void *work) {
+  shared_loop l = {loop, work, count, corot_team_size(t)};
+  if (count > 0) corot_team_run(t, l.nparts, loop_part, &l);
+}

@@ -39,6 +39,12 @@ COROT_SISTERS int corot_team_size(const team *t);
    time. NULL, and what a copy made by fork() has of a team: one part after the other. */
 COROT_SISTERS void corot_team_run(team *t, int nparts, team_part *part, void *work);
 
+/* A part of a loop. */
+typedef void team_loop(void *work, int from, int end);
+
+/* A loop from 0 to count, in as many parts as the team has threads; each must write elsewhere. */
+COROT_SISTERS void corot_team_loop(team *t, int count, team_loop *loop, void *work);
+
 /* Where part k of n begins in a loop from 0 to count; part n begins at the end. */
 static inline int team_share(int count, int n, int k) { return (int)((long long)count * k / n); }
 

@@ -109,21 +109,13 @@ corot_status corot_rhs_trial(const corot_model *m, corot_state *s, double t, con
   return COROT_OK;
 }
 
-/* Blocks that are cleared by parts. */
-typedef struct clearing {
-  int nblock, nparts;
-  double (*A)[9];
-} clearing;
-
-static void clear_part(void *work, int k) {
-  const clearing *c = work;
-  int from = team_share(c->nblock, c->nparts, k), end = team_share(c->nblock, c->nparts, k + 1);
-  memset(c->A + from, 0, (end - from) * sizeof *c->A);
+static void clear_part(void *A, int from, int end) {
+  double(*block)[9] = A;
+  memset(block + from, 0, (end - from) * sizeof *block);
 }
 
 static void clear_blocks(const corot_state *s, int nblock, double (*A)[9]) {
-  clearing c = {nblock, corot_state_thread_count(s), A};
-  if (A) corot_team_run(s->system.team, c.nparts, clear_part, &c);
+  if (A) corot_team_loop(s->system.team, nblock, clear_part, A);
 }
 
 corot_status corot_jacobian(const corot_model *m, corot_state *s, double t, const double *u,

@@ -104,21 +104,19 @@ void corot_state_nodal(const corot_model *m, const corot_state *s, double t, con
 
 /* Values that are spread over the nodes by parts. */
 typedef struct spreading {
-  const corot_state *s;
+  const corot_model *model;
   const double *values;
   double (*nodal)[4];
 } spreading;
 
-static void spread_part(void *work, int k) {
+static void spread_part(void *work, int from, int end) {
   const spreading *p = work;
-  int n = corot_state_thread_count(p->s), nnode = p->s->nnode;
-  corot_model_spread_part(p->s->model, p->values, team_share(nnode, n, k),
-                          team_share(nnode, n, k + 1), p->nodal[0], 4);
+  corot_model_spread_part(p->model, p->values, from, end, p->nodal[0], 4);
 }
 
 nodal_field corot_state_spread(const corot_state *s, const double *values, double (*nodal)[4]) {
-  spreading p = {s, values, nodal};
-  corot_team_run(s->system.team, corot_state_thread_count(s), spread_part, &p);
+  spreading p = {s->model, values, nodal};
+  corot_team_loop(s->system.team, s->nnode, spread_part, &p);
   return (nodal_field)nodal;
 }
 

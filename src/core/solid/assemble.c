@@ -156,11 +156,9 @@ typedef struct averaging {
   solid_state *s;
 } averaging;
 
-static void pool_part(void *work, int k) {
+static void pool_part(void *work, int from, int end) {
   const averaging *a = work;
-  int npool = a->body->dilatation.npool, n = a->s->ranges.plan.n;
-  corot_kernel_pool(a->body, a->theta, team_share(npool, n, k), team_share(npool, n, k + 1),
-                    a->s->pool);
+  corot_kernel_pool(a->body, a->theta, from, end, a->s->pool);
 }
 
 /* theta [points] = the means that stand in for what `find` finds. */
@@ -169,7 +167,7 @@ static void average(solid_state *s, evaluation *e, chunk_work *find, block_vd *t
   averaging a = {e->body, theta, s};
   e->theta = theta;
   corot_solid_each(e->body, s, find, e);
-  corot_team_run(s->team, s->ranges.plan.n, pool_part, &a);
+  corot_team_loop(s->team, e->body->dilatation.npool, pool_part, &a);
   corot_solid_each(e->body, s, unpool_chunk, e);
 }
 
@@ -240,25 +238,23 @@ typedef struct seam_work {
   const solid_ranges *ranges;
 } seam_work;
 
-static void add_parts(const range_plan *plan, int k, const double (*aside)[9], double (*A)[9]) {
-  int end = team_share(plan->nshared, plan->n, k + 1);
-  for (int s = team_share(plan->nshared, plan->n, k); s < end; s++)
+static void add_parts(const range_plan *plan, int from, int end, const double (*aside)[9],
+                      double (*A)[9]) {
+  for (int s = from; s < end; s++)
     for (int at = plan->part_first[s]; at < plan->part_first[s + 1]; at++)
       for (int i = 0; i < 9; i++) A[plan->shared[s]][i] += aside[at][i];
 }
 
-static void add_shared(void *work, int k) {
+static void add_shared(void *work, int from, int end) {
   const seam_work *w = work;
   const solid_ranges *r = w->ranges;
-  if (w->e->K) add_parts(&r->plan, k, (const double(*)[9])r->aside_K, w->e->K);
-  if (w->e->D) add_parts(&r->plan, k, (const double(*)[9])r->aside_D, w->e->D);
+  if (w->e->K) add_parts(&r->plan, from, end, (const double(*)[9])r->aside_K, w->e->K);
+  if (w->e->D) add_parts(&r->plan, from, end, (const double(*)[9])r->aside_D, w->e->D);
 }
 
-static void complete_seams(void *work, int k) {
+static void complete_seams(void *work, int from, int end) {
   const seam_work *w = work;
-  const range_plan *plan = &w->ranges->plan;
-  int from = team_share(plan->nseam, plan->n, k), end = team_share(plan->nseam, plan->n, k + 1);
-  complete_diagonals(w->e, plan->seam + from, end - from);
+  complete_diagonals(w->e, w->ranges->plan.seam + from, end - from);
 }
 
 /* The batches of one colour, by parts. */
@@ -296,10 +292,8 @@ corot_status corot_solid_matrices(const solid *body, solid_state *s, nodal_field
   seam_work seams = {&e, &s->ranges};
   average(s, &e, own_chunk, s->dilatation);
   COROT_TRY(corot_solid_each(body, s, tangent_chunk, &e));
-  if (s->ranges.plan.n > 1) {
-    corot_team_run(s->team, s->ranges.plan.n, add_shared, &seams);
-    corot_team_run(s->team, s->ranges.plan.n, complete_seams, &seams);
-  }
+  corot_team_loop(s->team, s->ranges.plan.nshared, add_shared, &seams);
+  corot_team_loop(s->team, s->ranges.plan.nseam, complete_seams, &seams);
   if (K) add_averages(&e, s);
   return COROT_OK;
 }

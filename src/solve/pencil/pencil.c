@@ -126,14 +126,12 @@ corot_status corot_pencil_assemble_again(corot_pencil *p, corot_tangent tangent)
 typedef struct combining {
   const corot_pencil *pencil;
   linsol *solver;
-  int nparts;
 } combining;
 
-static void combine_part(void *work, int k) {
+static void combine_part(void *work, int from, int end) {
   const combining *c = work;
   const corot_pencil *p = c->pencil;
   const linsol *s = c->solver;
-  int from = team_share(p->n, c->nparts, k), end = team_share(p->n, c->nparts, k + 1);
   corot_csc_combine_columns(p->model, s->csc, p->a, p->b, (const double(*)[9])p->D, p->c,
                             (const double(*)[9])p->K, from, end, s->value);
 }
@@ -141,9 +139,8 @@ static void combine_part(void *work, int k) {
 /* S for one of the solvers. */
 static void combine(corot_pencil *p, linsol *s) {
   double start = clock_wall();
-  team *by = p->state->system.team;
-  combining c = {p, s, corot_team_size(by)};
-  corot_team_run(by, c.nparts, combine_part, &c);
+  combining c = {p, s};
+  corot_team_loop(p->state->system.team, p->n, combine_part, &c);
   p->counts.ncombine++;
   p->counts.combine_s += clock_wall() - start;
 }

@@ -37,6 +37,9 @@ enum { FEW = 400 };
 #endif
 enum { MOST_LEVELS = 20 };
 
+/* Fewer rows take less time than threads do to begin together. */
+enum { LEAST_ROWS = 500 };
+
 typedef struct amg_level {
   block_rows A;
   prolongator P; /* from the next level; none on the last one */
@@ -55,6 +58,11 @@ typedef struct amg {
   bottom bottom;
   int few; /* unknowns that are solved for directly */
 } amg;
+
+/* Who shares the loops over a level's rows out: nobody where they are few. */
+static team *team_of(const amg *m, const amg_level *l) {
+  return l->A.n < LEAST_ROWS ? NULL : m->A->team;
+}
 
 static void level_clear(amg_level *l) {
   corot_rows_clear(&l->A);
@@ -242,7 +250,7 @@ static corot_status amg_factor(void *self) {
       list_motions(m, (double(*)[ROWS_MODES])l->P.T);
     else
       memcpy(l->P.T, l[-1].P.R, (size_t)l->P.n * ROWS_MODES * ROWS_MODES * sizeof *l->P.T);
-    l->largest = margin * corot_rows_largest(&l->A, STEPS, work);
+    l->largest = margin * corot_rows_largest(&l->A, team_of(m, l), STEPS, work);
     if (!(l->largest > 0))
       return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (eigenvalue %.3g)",
                         l->largest);
@@ -262,30 +270,69 @@ static corot_status amg_factor(void *self) {
 
 /* --- cycle --- */
 
+/* What a loop over the rows of a level takes. */
+typedef struct level_work {
+  const amg_level *l;
+  double rho, factor;
+} level_work;
+
+static size_t entry(const amg_level *l, int row) { return (size_t)row * l->A.size; }
+
+/* d = factor r */
+static COROT_CLONES void begin_rows(void *of, int from, int end) {
+  const level_work *w = of;
+  double *d = w->l->d, *r = w->l->r;
+  for (size_t i = entry(w->l, from); i < entry(w->l, end); i++) d[i] = w->factor * r[i];
+}
+
+/* d = rho d + factor r */
+static COROT_CLONES void go_on_rows(void *of, int from, int end) {
+  const level_work *w = of;
+  double *d = w->l->d, *r = w->l->r;
+  for (size_t i = entry(w->l, from); i < entry(w->l, end); i++)
+    d[i] = w->rho * d[i] + w->factor * r[i];
+}
+
+/* x += d */
+static COROT_CLONES void add_rows(void *of, int from, int end) {
+  const level_work *w = of;
+  double *d = w->l->d, *x = w->l->x;
+  for (size_t i = entry(w->l, from); i < entry(w->l, end); i++) x[i] += d[i];
+}
+
 /* x += d, r -= (I + O) d */
-static void step(const amg_level *l) {
-  size_t n = (size_t)l->A.n * l->A.size;
-  for (size_t i = 0; i < n; i++) l->x[i] += l->d[i];
-  corot_rows_subtract(&l->A, l->d, l->r);
+static void step_rows(void *of, int from, int end) {
+  const level_work *w = of;
+  add_rows(of, from, end);
+  corot_rows_subtract(&w->l->A, from, end, w->l->d, w->l->r);
 }
 
 /* Chebyshev's iteration for r = b - A x; `whole`: r is needed afterwards. */
-static COROT_CLONES void smooth(const amg_level *l, bool whole) {
-  size_t n = (size_t)l->A.n * l->A.size;
+static void smooth(const amg *m, const amg_level *l, bool whole) {
   double high = l->largest, low = high / part;
   double centre = (high + low) / 2, half = (high - low) / 2, rho = half / centre;
-  for (size_t i = 0; i < n; i++) l->d[i] = l->r[i] / centre;
+  level_work w = {l, 0, 1 / centre};
+  corot_team_loop(team_of(m, l), l->A.n, begin_rows, &w);
   for (int k = 1; k < DEGREE; k++) {
     double next = 1 / (2 * centre / half - rho);
-    step(l);
-    for (size_t i = 0; i < n; i++) l->d[i] = next * (rho * l->d[i] + 2 / half * l->r[i]);
+    corot_team_loop(team_of(m, l), l->A.n, step_rows, &w);
+    w.rho = next * rho, w.factor = next * 2 / half;
+    corot_team_loop(team_of(m, l), l->A.n, go_on_rows, &w);
     rho = next;
   }
-  if (whole) {
-    step(l);
-  } else {
-    for (size_t i = 0; i < n; i++) l->x[i] += l->d[i];
-  }
+  corot_team_loop(team_of(m, l), l->A.n, whole ? step_rows : add_rows, &w);
+}
+
+static void restrict_rows(void *of, int from, int end) {
+  const amg_level *l = of;
+  corot_prolong_restrict(&l->P, from, end, l->r, l[1].b);
+}
+
+/* d = P of what the next level has found. */
+static void prolong_rows(void *of, int from, int end) {
+  const amg_level *l = of;
+  memset(l->d + entry(l, from), 0, (entry(l, end) - entry(l, from)) * sizeof *l->d);
+  corot_prolong_add(&l->P, from, end, l[1].x, l->d);
 }
 
 static corot_status solve_bottom(amg *m) {
@@ -307,17 +354,17 @@ static corot_status amg_apply(void *self, const double *r, double *z) {
     size_t n = (size_t)l->A.n * l->A.size;
     memset(l->x, 0, n * sizeof *l->x);
     memcpy(l->r, l->b, n * sizeof *l->r);
-    smooth(l, true);
-    corot_prolong_restrict(&l->P, l->r, l[1].b);
+    smooth(m, l, true);
+    corot_team_loop(team_of(m, l), l->P.ncoarse, restrict_rows, l);
   }
   COROT_TRY(solve_bottom(m));
   /* up: d is the correction */
   for (int k = m->nlevel - 2; k >= 0; k--) {
     amg_level *l = &m->level[k];
-    memset(l->d, 0, (size_t)l->A.n * l->A.size * sizeof *l->d);
-    corot_prolong_add(&l->P, l[1].x, l->d);
-    step(l);
-    smooth(l, false);
+    const level_work w = {.l = l};
+    corot_team_loop(team_of(m, l), l->A.n, prolong_rows, l);
+    corot_team_loop(team_of(m, l), l->A.n, step_rows, (void *)&w);
+    smooth(m, l, false);
   }
   memcpy(z, m->level[0].x, bytes);
   return COROT_OK;
@@ -326,6 +373,7 @@ static corot_status amg_apply(void *self, const double *r, double *z) {
 const multilevel_ops corot_amg = {
     .name = "amg",
     .scaled = true,
+    .by_domains = true,
     .create = amg_create,
     .factor = amg_factor,
     .apply = amg_apply,

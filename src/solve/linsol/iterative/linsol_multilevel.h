@@ -11,6 +11,7 @@ typedef struct multilevel_ops {
   const char *name;
   bool refined; /* it is for a refined mesh, linsol_galerkin.h being how its levels are related */
   bool scaled;  /* it works on A as corot_nodes_jacobi scales it, else unscaled */
+  bool by_domains; /* it takes the nodes in any order, so in that by domains */
 
   /* `csc` and A, on the finest level, and plan->x are borrowed; no more of the plan is needed
      afterwards. */

@@ -140,27 +140,6 @@ void corot_nodes_clear(node_matrix *A) {
   free(A->inner), free(A->left_first), free(A->left), free(A->left_node);
 }
 
-/* --- Loops that are shared out --- */
-
-typedef void node_loop(node_matrix *A, int from, int end);
-
-typedef struct shared_loop {
-  node_matrix *A;
-  node_loop *loop;
-  int nparts, count;
-} shared_loop;
-
-static void loop_part(void *work, int k) {
-  const shared_loop *s = work;
-  s->loop(s->A, team_share(s->count, s->nparts, k), team_share(s->count, s->nparts, k + 1));
-}
-
-/* From 0 to count; each part must write elsewhere. */
-static void share_loop(node_matrix *A, int count, node_loop *loop) {
-  shared_loop s = {A, loop, corot_team_size(A->team), count};
-  corot_team_run(A->team, s.nparts, loop_part, &s);
-}
-
 /* --- values --- */
 
 void corot_nodes_load(node_matrix *A, const corot_csc *csc, const double *value) {
@@ -219,7 +198,8 @@ COROT_INLINE void eliminate(const double *B, double *E) {
       E[3 * r + c] -= B[r] * B[c] + B[3 + r] * B[3 + c] + B[6 + r] * B[6 + c];
 }
 
-static COROT_CLONES void scale_columns(node_matrix *A, int from, int end) {
+static COROT_CLONES void scale_columns(void *of, int from, int end) {
+  node_matrix *A = of;
   double *L = A->value + 9 * (size_t)A->n;
   for (int i = from; i < end; i++) {
     for (int k = A->colptr[i]; k < A->colptr[i + 1]; k++)
@@ -230,7 +210,7 @@ static COROT_CLONES void scale_columns(node_matrix *A, int from, int end) {
 }
 
 /* Once all C are there and L has its factors C^-T. */
-static void scale_rows(node_matrix *A) { share_loop(A, A->n, scale_columns); }
+static void scale_rows(node_matrix *A) { corot_team_loop(A->team, A->n, scale_columns, A); }
 
 void corot_nodes_keep(node_matrix *A) {
   for (int i = 0; i < 9 * A->n; i++) A->C[i] = A->Cinv[i] = i % 9 % 4 == 0;
@@ -294,7 +274,8 @@ static COROT_CLONES int eliminate_between(node_matrix *A) {
 }
 
 /* What the rows between domains lose to these. */
-static COROT_CLONES void gather_eliminated(node_matrix *A, int from, int end) {
+static COROT_CLONES void gather_eliminated(void *of, int from, int end) {
+  node_matrix *A = of;
   const double *L = A->value + 9 * (size_t)A->n;
   int first = A->parts.first[A->parts.n];
   for (int i = from; i < end; i++)
@@ -323,7 +304,8 @@ bool corot_nodes_cholesky(node_matrix *A, double shift, int *at) {
     *at = e.failed[k];
     if (*at >= 0) return false;
   }
-  if (A->parts.n > 1) share_loop(A, A->n - A->parts.first[A->parts.n], gather_eliminated);
+  if (A->parts.n > 1)
+    corot_team_loop(A->team, A->n - A->parts.first[A->parts.n], gather_eliminated, A);
   *at = eliminate_between(A);
   if (*at >= 0) return false;
   scale_rows(A);

@@ -86,7 +86,7 @@ static corot_status prepare(pcg *p, const linsol_plan *plan) {
   if (p->ops && p->ops->refined)
     COROT_TRY(corot_order_create(p->csc, plan->def.refinement, &p->ordered));
   if (p->ordered.csc) p->csc = p->ordered.csc;
-  COROT_TRY(corot_nodes_create(p->csc, !p->ops, &p->A));
+  COROT_TRY(corot_nodes_create(p->csc, !p->ops || p->ops->by_domains, &p->A));
   p->A.unknown = p->ordered.unknown;
   corot_nodes_keep(&p->A);
   if (p->ops) COROT_TRY(p->ops->create(p->csc, &p->A, plan, &p->levels));

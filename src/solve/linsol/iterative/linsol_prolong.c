@@ -205,8 +205,9 @@ void corot_prolong_smooth(const block_rows *A, double largest, prolongator *P) {
 
 /* --- products --- */
 
-COROT_INLINE void add(const prolongator *P, int size, const double *x, double *y) {
-  for (int i = 0; i < P->n; i++) {
+COROT_INLINE void add(const prolongator *P, int size, int from, int end, const double *x,
+                      double *y) {
+  for (int i = from; i < end; i++) {
     double sum[M] = {0};
     for (int k = P->rowptr[i]; k < P->rowptr[i + 1]; k++) {
       const double *B = P->value + (size_t)k * size * M, *xk = x + (size_t)P->col[k] * M;
@@ -217,19 +218,22 @@ COROT_INLINE void add(const prolongator *P, int size, const double *x, double *y
   }
 }
 
-static COROT_CLONES void add_3(const prolongator *P, const double *x, double *y) {
-  add(P, ROWS_NODE, x, y);
+static COROT_CLONES void add_3(const prolongator *P, int from, int end, const double *x,
+                               double *y) {
+  add(P, ROWS_NODE, from, end, x, y);
 }
-static COROT_CLONES void add_6(const prolongator *P, const double *x, double *y) {
-  add(P, ROWS_MODES, x, y);
-}
-
-void corot_prolong_add(const prolongator *P, const double *x, double *y) {
-  (P->size == ROWS_NODE ? add_3 : add_6)(P, x, y);
+static COROT_CLONES void add_6(const prolongator *P, int from, int end, const double *x,
+                               double *y) {
+  add(P, ROWS_MODES, from, end, x, y);
 }
 
-COROT_INLINE void restrict_by(const prolongator *P, int size, const double *x, double *y) {
-  for (int a = 0; a < P->ncoarse; a++) {
+void corot_prolong_add(const prolongator *P, int from, int end, const double *x, double *y) {
+  (P->size == ROWS_NODE ? add_3 : add_6)(P, from, end, x, y);
+}
+
+COROT_INLINE void restrict_by(const prolongator *P, int size, int from, int end, const double *x,
+                              double *y) {
+  for (int a = from; a < end; a++) {
     double sum[M] = {0};
     for (int p = P->colptr[a]; p < P->colptr[a + 1]; p++) {
       const double *B = P->value + (size_t)P->place[p] * size * M;
@@ -241,13 +245,15 @@ COROT_INLINE void restrict_by(const prolongator *P, int size, const double *x, d
   }
 }
 
-static COROT_CLONES void restrict_3(const prolongator *P, const double *x, double *y) {
-  restrict_by(P, ROWS_NODE, x, y);
+static COROT_CLONES void restrict_3(const prolongator *P, int from, int end, const double *x,
+                                    double *y) {
+  restrict_by(P, ROWS_NODE, from, end, x, y);
 }
-static COROT_CLONES void restrict_6(const prolongator *P, const double *x, double *y) {
-  restrict_by(P, ROWS_MODES, x, y);
+static COROT_CLONES void restrict_6(const prolongator *P, int from, int end, const double *x,
+                                    double *y) {
+  restrict_by(P, ROWS_MODES, from, end, x, y);
 }
 
-void corot_prolong_restrict(const prolongator *P, const double *x, double *y) {
-  (P->size == ROWS_NODE ? restrict_3 : restrict_6)(P, x, y);
+void corot_prolong_restrict(const prolongator *P, int from, int end, const double *x, double *y) {
+  (P->size == ROWS_NODE ? restrict_3 : restrict_6)(P, from, end, x, y);
 }

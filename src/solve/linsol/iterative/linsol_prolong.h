@@ -34,8 +34,9 @@ void corot_prolong_split(prolongator *P);
 /* P of A, whose largest eigenvalue is `largest`. */
 void corot_prolong_smooth(const block_rows *A, double largest, prolongator *P);
 
-/* y [n] += P x [ncoarse], which is read by ROWS_BEYOND more; y [ncoarse] = P' x [n]. */
-void corot_prolong_add(const prolongator *P, const double *x, double *y);
-void corot_prolong_restrict(const prolongator *P, const double *x, double *y);
+/* Rows `from` to `end` - 1 of y [n] += P x [ncoarse], which is read by ROWS_BEYOND more, and of
+   y [ncoarse] = P' x [n]. */
+void corot_prolong_add(const prolongator *P, int from, int end, const double *x, double *y);
+void corot_prolong_restrict(const prolongator *P, int from, int end, const double *x, double *y);
 
 #endif

@@ -113,8 +113,19 @@ static COROT_CLONES void subtract_6(const block_rows *R, int first, int end, con
   }
 }
 
-void corot_rows_subtract(const block_rows *R, const double *x, double *y) {
-  (R->size == ROWS_NODE ? subtract_3 : subtract_6)(R, 0, R->n, x, y);
+void corot_rows_subtract(const block_rows *R, int from, int end, const double *x, double *y) {
+  (R->size == ROWS_NODE ? subtract_3 : subtract_6)(R, from, end, x, y);
+}
+
+typedef struct product {
+  const block_rows *R;
+  const double *x;
+  double *y;
+} product;
+
+static void subtract_part(void *work, int from, int end) {
+  const product *p = work;
+  corot_rows_subtract(p->R, from, end, p->x, p->y);
 }
 
 /* --- eigenvalue --- */
@@ -170,7 +181,7 @@ static void multiply_by(size_t n, double factor, double *v) {
   for (size_t i = 0; i < n; i++) v[i] *= factor;
 }
 
-double corot_rows_largest(const block_rows *R, int steps, double *const work[3]) {
+double corot_rows_largest(const block_rows *R, team *by, int steps, double *const work[3]) {
   size_t n = (size_t)R->n * R->size;
   double a[MOST_STEPS] = {0}, b[MOST_STEPS], *v = work[0], *before = work[1], *w = work[2];
   int k = 0;
@@ -181,7 +192,8 @@ double corot_rows_largest(const block_rows *R, int steps, double *const work[3])
     /* -w = A v less what it has of v and of the vector before */
     double last = k > 0 ? b[k - 1] : 0;
     for (size_t i = 0; i < n; i++) w[i] = last * before[i];
-    corot_rows_subtract(R, v, w);
+    product Av = {R, v, w};
+    corot_team_loop(by, R->n, subtract_part, &Av);
     a[k] = -dot(n, v, w);
     for (size_t i = 0; i < n; i++) w[i] = -w[i] - a[k] * v[i];
     b[k] = sqrt(dot(n, w, w));

@@ -51,11 +51,11 @@ static inline const double *rows_block(const block_rows *R, int e, double room[9
 /* A vector of n nodes or aggregates, of zeros. NULL: no memory. */
 double *corot_rows_vector(int n, int size);
 
-/* y -= (I + O) x; x may be read by ROWS_BEYOND more than it has. */
-void corot_rows_subtract(const block_rows *R, const double *x, double *y);
+/* Rows `from` to `end` - 1 of y -= (I + O) x; x may be read by ROWS_BEYOND more than it has. */
+void corot_rows_subtract(const block_rows *R, int from, int end, const double *x, double *y);
 
 /* The largest eigenvalue of I + O, from below, by `steps` of Lanczos' method; work [3] are vectors.
- */
-double corot_rows_largest(const block_rows *R, int steps, double *const work[3]);
+   A team shares the products out; NULL: nobody does. */
+double corot_rows_largest(const block_rows *R, team *by, int steps, double *const work[3]);
 
 #endif

@@ -37,7 +37,7 @@ typedef void sweep_nodes(const sweep *s, int from, int end);
 typedef struct shared_sweep {
   const sweep *s;
   sweep_nodes *of;
-  int first, count, nparts;
+  int first;
 } shared_sweep;
 
 static void domain_part(void *work, int k) {
@@ -51,16 +51,15 @@ static void each_domain(const sweep *s, sweep_nodes *of) {
   corot_team_run(s->A->team, s->A->parts.n, domain_part, &p);
 }
 
-static void node_part(void *work, int k) {
+static void node_part(void *work, int from, int end) {
   const shared_sweep *p = work;
-  p->of(p->s, p->first + team_share(p->count, p->nparts, k),
-        p->first + team_share(p->count, p->nparts, k + 1));
+  p->of(p->s, p->first + from, p->first + end);
 }
 
 /* Nodes that need nothing of each other. */
 static void each_node(const sweep *s, int first, sweep_nodes *of) {
-  shared_sweep p = {s, of, first, s->A->n - first, corot_team_size(s->A->team)};
-  if (p.count > 0) corot_team_run(s->A->team, p.nparts, node_part, &p);
+  shared_sweep p = {s, of, first};
+  corot_team_loop(s->A->team, s->A->n - first, node_part, &p);
 }
 
 static int first_between(const sweep *s) { return s->A->parts.first[s->A->parts.n]; }
