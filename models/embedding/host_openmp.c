@@ -1,6 +1,7 @@
-/* A host with a parallel loop of its own, here OpenMP's: the evaluations of one state are shared out
-   by it, and what comes out is the same to the last bit. (Without one, corot_state_threads(state, n)
-   has the library start threads.) The loop over time is that of host_rk4.c. */
+/* A host with a parallel loop of its own, here OpenMP's: the evaluations of one state are shared
+   out by it, and what comes out is the same to the last bit. (Without one,
+   corot_state_threads(state, n) has the library start threads.) The loop over time is that of
+   host_rk4.c. */
 #include <corot/ode.h>
 #include <omp.h>
 #include <string.h>

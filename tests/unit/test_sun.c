@@ -6,8 +6,8 @@
 #include <sunlinsol/sunlinsol_klu.h>
 
 #include "full_system.h"
-#include "solve/sundials/vector.h"
 #include "solve/sundials/sun_ark.h"
+#include "solve/sundials/vector.h"
 #include "solver.h"
 
 static SUNContext context(void) {

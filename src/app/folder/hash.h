@@ -11,8 +11,8 @@ typedef struct hashes {
   char scenario[HASH_SIZE]; /* of the resolved scenario as compact JSON with sorted keys, without
                                checkpoint.every */
   char mesh[HASH_SIZE];     /* of counts, coordinates, tets and groups as they stand in memory */
-  char run[HASH_SIZE]; /* of "corot VERSION\nSCENARIO\nMESH\n"; of a search for the equilibrium,
-                          of "static\nRUN\n" with that sum; of modes, of "modes\nRUN\n" */
+  char run[HASH_SIZE];    /* of "corot VERSION\nSCENARIO\nMESH\n"; of a search for the equilibrium,
+                             of "static\nRUN\n" with that sum; of modes, of "modes\nRUN\n" */
   char answer[HASH_SIZE]; /* of a run, as `run`, but without `threads`, on which only what it costs
                              depends: so one with other threads may go on from its checkpoint */
 } hashes;
