@@ -81,7 +81,8 @@ COROT_API corot_status corot_state_threads(corot_state *state, int n);
 /* The same by threads of a host: `run` has to call part(work, k) for every k from 0 to nparts - 1, each
    once, at the same time or not and on threads as it likes, and to return when all of them are done.
    n, from 1 to COROT_MOST_THREADS, is how many parts there mostly are. `host` is handed on to it. The
-   parts do not call the host, and do not wait for each other. */
+   parts do not call the host, and do not wait for each other. COROT_EINVAL: there is no state or no
+   `run`, or n is not in that range. COROT_ENOMEM. After a failure all is as it was. */
 typedef void corot_parallel_for(void *host, int nparts, void (*part)(void *work, int k), void *work);
 COROT_API corot_status corot_state_parallel(corot_state *state, int n, corot_parallel_for *run,
                                             void *host);

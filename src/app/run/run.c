@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "app/scenario/field_frames.h"
-#include "app/scenario/threads.h"
+#include "app/scenario/scenario_threads.h"
 #include "app/text/say.h"
 #include "quantities.h"
 #include "run_clock.h"

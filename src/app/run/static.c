@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/scenario/threads.h"
+#include "app/scenario/scenario_threads.h"
 #include "app/text/json_text.h"
 #include "app/text/say.h"
 #include "live.h"

@@ -1,5 +1,5 @@
 /* From the scenario, the model and the environment. */
-#include "threads.h"
+#include "scenario_threads.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* How many threads a run has. */
-#ifndef COROT_APP_SCENARIO_THREADS_H
-#define COROT_APP_SCENARIO_THREADS_H
+#ifndef COROT_APP_SCENARIO_SCENARIO_THREADS_H
+#define COROT_APP_SCENARIO_SCENARIO_THREADS_H
 
 #include <corot/ode.h>
 
