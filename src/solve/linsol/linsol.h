@@ -114,8 +114,7 @@ COROT_SISTERS corot_status corot_linsol_create(const corot_model *model,
 COROT_SISTERS void corot_linsol_clear(linsol *s);
 
 /* Matrices are of the body displaced by u at t from now on, and not at rest. */
-COROT_SISTERS void corot_linsol_move(linsol *s, const corot_model *model, double t,
-                                     const double *u);
+void corot_linsol_move(linsol *s, const corot_model *model, double t, const double *u);
 
 /* Negative pivots of the symmetric matrix `value` on `A` (both triangles), none of which is moved
    from the diagonal: as many as it has negative eigenvalues. Zero pivots count, too. */
