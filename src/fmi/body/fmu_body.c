@@ -54,6 +54,7 @@ void body_forget(body *b) {
 static corot_status use(body *b) {
   const scenario *s = b->scenario;
   b->used = *s;
+  if (!s->threads) b->used.threads = 1; /* the processors are the importer's */
   b->material = calloc((size_t)s->model.nmaterial + 1, sizeof *b->material);
   b->input = calloc((size_t)s->ninput + 1, sizeof *b->input);
   b->value = calloc((size_t)s->ninput + 1, sizeof *b->value);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "app/run/static.h"
+#include "app/scenario/scenario_threads.h"
 #include "app/text/no_memory.h"
 
 /* --- Calls --- */
@@ -114,6 +115,7 @@ static corot_status make_start(instance *in) {
 static corot_status settle(instance *in) {
   COROT_TRY(body_build(&in->body));
   COROT_TRY(corot_state_create(in->body.model, &in->state));
+  COROT_TRY(scenario_share(&in->body.used, in->body.model, in->state));
   COROT_TRY(make_start(in));
   instance_enter(in);
   COROT_TRY(make_inputs(in));
