@@ -8,6 +8,7 @@
 
 #include "core/lanes/polar.h"
 #include "core/mesh/mesh.h"
+#include "element_order.h"
 
 void *corot_vector_calloc(size_t count, size_t size) {
   if (size && count > (SIZE_MAX - sizeof(vd)) / size) return NULL;
@@ -15,19 +16,6 @@ void *corot_vector_calloc(size_t count, size_t size) {
   void *p = aligned_alloc(sizeof(vd), bytes ? bytes : sizeof(vd));
   if (p) memset(p, 0, bytes);
   return p;
-}
-
-/* Order of the kernels' loop: by material, then by lowest node, so that neighbours in the loop
-   share nodes in the cache. Counting sort; order[k] is the mesh's number of the k-th tet. */
-static void sort_tets(const corot_mesh *mesh, const int *key, int nkey, const int *from, int *count,
-                      int *order) {
-  memset(count, 0, (nkey + 1) * sizeof *count);
-  for (int k = 0; k < mesh->ntet; k++) count[key[from ? from[k] : k] + 1]++;
-  for (int i = 0; i < nkey; i++) count[i + 1] += count[i];
-  for (int k = 0; k < mesh->ntet; k++) {
-    int e = from ? from[k] : k;
-    order[count[key[e]]++] = e;
-  }
 }
 
 static void ascending(const int tet[4], int node[4]) {
@@ -150,17 +138,6 @@ mat3 corot_tets_rest_basis(const corot_mesh *mesh, const int *number) {
   return gram_schmidt(D);
 }
 
-/* Of the nodes of all tets that stay together. */
-static void find_lowest(const corot_mesh *mesh, int together, int *lowest) {
-  for (int e = 0; e < mesh->ntet; e++) {
-    const int *n = mesh->tet[e];
-    int low01 = n[0] < n[1] ? n[0] : n[1], low23 = n[2] < n[3] ? n[2] : n[3];
-    int low = low01 < low23 ? low01 : low23, first = e - e % together;
-    if (e == first || low < lowest[first]) lowest[first] = low;
-  }
-  for (int e = 0; e < mesh->ntet; e++) lowest[e] = lowest[e - e % together];
-}
-
 corot_status corot_tets_create(const corot_mesh *mesh, int nmaterial, const int *material,
                                int together, int with_rest_basis, element_set *out) {
   return corot_tets_create_ordered(mesh, mesh, nmaterial, material, together, with_rest_basis, out);
@@ -172,14 +149,13 @@ corot_status corot_tets_create_ordered(const corot_mesh *mesh, const corot_mesh 
   element_set e = {.kind = &element_kinds[mesh->mid ? TET10 : TET4]};
   if (mesh->ntet > INT_MAX / (e.kind->nnode * 3) - W * nmaterial) /* slots in the force buffer */
     return corot_fail(COROT_EINVAL, "%d tets exceed 32-bit counts", mesh->ntet);
-  int ntet = mesh->ntet, nkey = order_of->nnode > nmaterial ? order_of->nnode : nmaterial;
-  int *lowest = calloc(ntet, sizeof *lowest), *count = malloc((nkey + 1) * sizeof *count);
-  int *by_node = malloc(ntet * sizeof *by_node), *order = malloc(ntet * sizeof *order);
-  if (!lowest || !count || !by_node || !order) goto no_memory;
-
-  find_lowest(order_of, together, lowest);
-  sort_tets(mesh, lowest, order_of->nnode, NULL, count, by_node);
-  sort_tets(mesh, material, nmaterial, by_node, count, order);
+  int ntet = mesh->ntet, *order = malloc(ntet * sizeof *order);
+  if (!order) return corot_fail(COROT_ENOMEM, "no memory for %d tets", ntet);
+  corot_status status = corot_element_order(order_of, nmaterial, material, together, order);
+  if (status) {
+    free(order);
+    return status;
+  }
 
   /* blocks: W tets in order, a new one where the material changes */
   for (int k = 0, lanes = W; k < ntet; k++, lanes++)
@@ -195,12 +171,12 @@ corot_status corot_tets_create_ordered(const corot_mesh *mesh, const corot_mesh 
     fill_block(mesh, b, &e);
     if (with_rest_basis) e.rest_basis[b] = corot_tets_rest_basis(mesh, number);
   }
-  free(lowest), free(count), free(by_node), free(order);
+  free(order);
   *out = e;
   return COROT_OK;
 
 no_memory:
-  free(lowest), free(count), free(by_node), free(order);
+  free(order);
   corot_tets_clear(&e);
   return corot_fail(COROT_ENOMEM, "no memory for %d tets", ntet);
 }
