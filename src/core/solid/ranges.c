@@ -168,13 +168,16 @@ static corot_status find_seams(int nnode, const element_set *t, const pattern *p
   return status;
 }
 
+/* There is one at least. */
+static size_t count(const solid_ranges *r) { return r->plan.n > 1 ? (size_t)r->plan.n : 1; }
+
 /* A buffer for all blocks serves all ranges; else each has a window of its own, the first that of
    the state. */
 static corot_status make_windows(const element_set *t, const pattern *p, block_vd (*force)[3],
                                  solid_ranges *r) {
   int n = r->plan.n;
-  r->force = calloc(n, sizeof *r->force);
-  r->told = calloc(n, sizeof *r->told);
+  r->force = calloc(count(r), sizeof *r->force);
+  r->told = calloc(count(r), sizeof *r->told);
   if (!r->force || !r->told) return corot_fail(COROT_ENOMEM, "no memory for %d ranges", n);
   r->windowed = p->window < t->nblock;
   for (int k = 0; k < n; k++) {
@@ -197,7 +200,7 @@ static corot_status make_room_aside(bool damped, solid_ranges *r) {
 }
 
 static corot_status make_gathered(int nnode, solid_ranges *r) {
-  r->gathered = calloc(r->plan.n, sizeof *r->gathered);
+  r->gathered = calloc(count(r), sizeof *r->gathered);
   bool room = r->gathered != NULL;
   for (int k = 0; k < r->plan.n && room; k++)
     room = (r->gathered[k] = calloc(nnode, sizeof *r->gathered[k])) != NULL;
