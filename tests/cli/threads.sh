@@ -25,15 +25,14 @@ holds() { python3 -c "import json; d = json.load(open('$1')); assert $2, d" || c
 # same A B: all files but result.json, which tells of times.
 same() { diff -r -x result.json "$1" "$2" >stdout 2>stderr || complain "$1 and $2 differ"; }
 
-for method in cvode ida arkode bdf2 newmark; do
+for method in cvode arkode newmark; do
   step=null
-  case $method in bdf2 | newmark) step=0.001 ;; esac
+  case $method in newmark) step=0.001 ;; esac
   sed "s/^linear_solver/integrator: {method: $method, step: $step}\nlinear_solver/; s/, step: null//" a.yaml >$method.yaml
-  for n in 1 2 3; do
+  for n in 1 3; do
     expect 0 run $method.yaml -o "$method-$n" --quiet --set threads=$n
     holds "$method-$n/result.json" "d['threads'] == $n and d['scenario']['threads'] == $n"
   done
-  same $method-1 $method-2
   same $method-1 $method-3
 done
 expect 0 static a.yaml -o still-1 --quiet --set threads=1
@@ -44,15 +43,15 @@ same still-1 still-2
 # They are no part of the answer, but of what it costs: another run, and the same checkpoint.
 python3 - <<'PY' || complain "the hashes"
 import json
-a, b = (json.load(open(f"cvode-{n}/result.json"))["hashes"] for n in (1, 2))
+a, b = (json.load(open(f"cvode-{n}/result.json"))["hashes"] for n in (1, 3))
 assert a["mesh"] == b["mesh"] and a["run"] != b["run"], (a, b)
 PY
 
 # By default a small body has one; a host says how many are its own.
 expect 0 run a.yaml -o default --quiet; holds default/result.json "d['threads'] == 1"
-expect 0 run a.yaml -o big --quiet --set mesh.box.cells='[12,12,24]' --set time.end=0.001 --set output.fields=none
+expect 0 run a.yaml -o big --quiet --set mesh.box.cells='[9,9,18]' --set time.end=0.001 --set output.fields=none
 if [ "$(nproc)" -gt 1 ]; then holds big/result.json "d['threads'] >= 2"; fi
-OMP_NUM_THREADS=1 expect 0 run a.yaml -o one --quiet --set mesh.box.cells='[12,12,24]' --set time.end=0.001 --set output.fields=none
+OMP_NUM_THREADS=1 expect 0 run a.yaml -o one --quiet --set mesh.box.cells='[9,9,18]' --set time.end=0.001 --set output.fields=none
 holds one/result.json "d['threads'] == 1"
 
 # What makes no sense.
