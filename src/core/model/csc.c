@@ -30,43 +30,28 @@ void corot_block_multiply(const corot_model *m, const double (*A)[9], const doub
   }
 }
 
-/* Blocks of a whole column j, rows ascending: those of the lower triangle stand in it, those of
-   the upper are the transposed ones of row j. */
-typedef struct upper_lists {
-  int *first;         /* [nnode + 1] */
-  int *block, *other; /* blocks of row j left of the diagonal, and their columns */
-} upper_lists;
-
-static corot_status list_upper(const pattern *p, upper_lists *u) {
-  u->first = calloc(p->nnode + 2, sizeof *u->first);
-  u->block = malloc(p->nblock * sizeof *u->block);
-  u->other = malloc(p->nblock * sizeof *u->other);
-  if (!u->first || !u->block || !u->other)
-    return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d blocks", p->nblock);
-  int *next = u->first + 1;
+/* The column of each block [nblock]. Those of a whole column j, rows ascending, are the transposed
+   ones of row j left of the diagonal, then those of the lower triangle. */
+static corot_status list_columns(const pattern *p, int **column) {
+  *column = malloc(p->nblock * sizeof **column);
+  if (!*column) return corot_fail(COROT_ENOMEM, "no memory for a matrix of %d blocks", p->nblock);
   for (int j = 0; j < p->nnode; j++)
-    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) next[p->row[k] + 1]++;
-  for (int n = 0; n < p->nnode; n++) next[n + 1] += next[n];
-  for (int j = 0; j < p->nnode; j++)
-    for (int k = p->colptr[j] + 1; k < p->colptr[j + 1]; k++) {
-      int at = next[p->row[k]]++;
-      u->block[at] = k;
-      u->other[at] = j;
-    }
+    for (int k = p->colptr[j]; k < p->colptr[j + 1]; k++) (*column)[k] = j;
   return COROT_OK;
 }
 
-/* The entries of one column, or only their number if `csc` has no room yet. */
-static int fill_column(const corot_model *m, const upper_lists *u, corot_triangle triangle, int j,
+/* The entries of one column, or only their number if `csc` has no room yet; of_block [nblock] is
+   asked for a full matrix only. */
+static int fill_column(const corot_model *m, const int *of_block, corot_triangle triangle, int j,
                        int c, corot_csc *csc, int nnz) {
   const pattern *p = &solid_of(m)->pattern;
   int column = m->dof[j][c];
   if (triangle == COROT_FULL)
-    for (int k = u->first[j]; k < u->first[j + 1]; k++)
+    for (int k = p->left_first[j]; k < p->left_first[j + 1]; k++)
       for (int r = 0; r < 3; r++) {
-        int i = m->dof[u->other[k]][r];
+        int i = m->dof[of_block[p->left[k]]][r];
         if (i < 0) continue;
-        if (csc->row) csc->row[nnz] = i, csc->source[nnz] = 9 * u->block[k] + 3 * c + r;
+        if (csc->row) csc->row[nnz] = i, csc->source[nnz] = 9 * p->left[k] + 3 * c + r;
         nnz++;
       }
   for (int k = p->colptr[j]; k < p->colptr[j + 1]; k++)
@@ -82,7 +67,7 @@ static int fill_column(const corot_model *m, const upper_lists *u, corot_triangl
   return nnz;
 }
 
-static corot_status fill(const corot_model *m, corot_triangle triangle, const upper_lists *u,
+static corot_status fill(const corot_model *m, corot_triangle triangle, const int *of_block,
                          corot_csc *csc) {
   csc->n = m->ndof;
   csc->colptr = malloc((csc->n + 1) * sizeof *csc->colptr);
@@ -97,7 +82,7 @@ static corot_status fill(const corot_model *m, corot_triangle triangle, const up
         if (m->dof[j][c] < 0) continue;
         csc->colptr[m->dof[j][c]] = nnz;
         csc->node[m->dof[j][c]] = j;
-        nnz = fill_column(m, u, triangle, j, c, csc, nnz);
+        nnz = fill_column(m, of_block, triangle, j, c, csc, nnz);
         if (nnz > INT_MAX - 9 * solid_of(m)->pattern.nnode)
           return corot_fail(COROT_EINVAL, "the matrix exceeds 32-bit counts at node %d", j);
       }
@@ -114,13 +99,13 @@ static corot_status fill(const corot_model *m, corot_triangle triangle, const up
 corot_status corot_csc_create(const corot_model *m, corot_triangle triangle, corot_csc **csc) {
   COROT_TRY(COROT_GIVEN_AS(m, "model"));
   COROT_TRY(COROT_GIVEN(csc));
-  upper_lists u = {0};
+  int *of_block = NULL;
   corot_csc *made = calloc(1, sizeof *made);
   corot_status status = COROT_OK;
   if (!made) status = corot_fail(COROT_ENOMEM, "no memory for a matrix");
-  if (!status && triangle == COROT_FULL) status = list_upper(&solid_of(m)->pattern, &u);
-  if (!status) status = fill(m, triangle, &u, made);
-  free(u.first), free(u.block), free(u.other);
+  if (!status && triangle == COROT_FULL) status = list_columns(&solid_of(m)->pattern, &of_block);
+  if (!status) status = fill(m, triangle, of_block, made);
+  free(of_block);
   if (status) {
     corot_csc_destroy(made);
     return status;
