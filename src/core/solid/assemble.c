@@ -21,23 +21,28 @@ typedef struct shared_out {
   force_sum *sum; /* or NULL: no forces are summed up */
 } shared_out;
 
+/* Adds a node's force to the sum, and to `check`. */
+static inline void add_force(const force_sum *sum, int n, const double f[3], double *check) {
+  for (int c = 0; c < 3; c++) {
+    int i = sum->row ? sum->row[n][c] : 4 * n + c;
+    if (i >= 0) *check += sum->r[i] += sum->sign * f[c];
+  }
+}
+
 /* A chunk's element forces: adds those of the nodes that are complete now, each node's own in the
    order of the elements, and sets those of seams aside. */
 static void collect(const solid *body, const solid_state *own, int chunk, force_sum *sum) {
   const double *force = (const double *)own->force;
   const range_plan *plan = &own->ranges.plan;
   const int *begin = body->pattern.first, *slot = body->pattern.slot, *due = plan->due;
-  double *r = sum->r, check = 0;
+  double check = 0;
   for (int at = due[chunk]; at < due[chunk + 1]; at++) {
     int n = plan->turn[at];
     if (n < sum->from) continue;
     double f[3] = {0, 0, 0};
     for (int k = begin[n]; k < begin[n + 1]; k++)
       for (int c = 0; c < 3; c++) f[c] += force[slot[k] + c * W];
-    for (int c = 0; c < 3; c++) {
-      int i = sum->row ? sum->row[n][c] : 4 * n + c;
-      if (i >= 0) check += r[i] += sum->sign * f[c];
-    }
+    add_force(sum, n, f, &check);
   }
   sum->check += check;
   if (plan->nseam == 0) return;
@@ -80,7 +85,7 @@ static void add_seams(void *work, int k) {
   const shared_out *j = work;
   const solid_ranges *ranges = &j->s->ranges;
   const range_plan *plan = &ranges->plan;
-  double *r = j->sum->r, check = 0;
+  double check = 0;
   int end = team_share(plan->nseam, plan->n, k + 1);
   for (int s = team_share(plan->nseam, plan->n, k); s < end; s++) {
     int n = plan->seam[s];
@@ -88,10 +93,7 @@ static void add_seams(void *work, int k) {
     double f[3] = {0, 0, 0};
     for (int at = plan->force_first[s]; at < plan->force_first[s + 1]; at++)
       for (int c = 0; c < 3; c++) f[c] += ranges->aside[at][c];
-    for (int c = 0; c < 3; c++) {
-      int i = j->sum->row ? j->sum->row[n][c] : 4 * n + c;
-      if (i >= 0) check += r[i] += j->sum->sign * f[c];
-    }
+    add_force(j->sum, n, f, &check);
   }
   ranges->told[k].check += check;
 }
