@@ -42,12 +42,6 @@ static void skip_section(corot_reader *r) {
   }
 }
 
-static corot_status begin_list(corot_reader *r, const char *what, size_t bytes, int *n) {
-  corot_reader_skip_lines(r);
-  COROT_TRY(corot_reader_count(r, what, bytes, n));
-  return corot_reader_end_line(r);
-}
-
 static corot_status read_dimension(corot_reader *r) {
   int dim;
   corot_reader_skip_lines(r);
@@ -62,7 +56,7 @@ static corot_status read_vertices(mfem *m) {
   corot_reader *r = &m->r;
   int n;
   if (m->has_nodes) return corot_reader_fail(r, r->at, "vertices are listed twice");
-  COROT_TRY(begin_list(r, "the number of vertices", 1, &n));
+  COROT_TRY(corot_reader_count_line(r, "the number of vertices", 1, &n));
   if (r->at >= r->size || is_word_here(r)) return COROT_OK;
   m->has_nodes = true;
   COROT_TRY(read_dimension(r));
@@ -103,7 +97,7 @@ static corot_status read_element(mfem *m, int dim, int number) {
 static corot_status read_elements(mfem *m, int dim, size_t at) {
   int n;
   m->r.at = at;
-  COROT_TRY(begin_list(&m->r, "the number of elements", 9, &n));
+  COROT_TRY(corot_reader_count_line(&m->r, "the number of elements", 9, &n));
   for (int i = 0; i < n; i++) COROT_TRY(read_element(m, dim, i + 1));
   return COROT_OK;
 }

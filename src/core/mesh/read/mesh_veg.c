@@ -13,8 +13,7 @@ typedef struct veg {
 
 static corot_status begin_list(corot_reader *r, const char *what, size_t bytes, int *n) {
   corot_reader_skip_lines(r);
-  COROT_TRY(corot_reader_count(r, what, bytes, n));
-  return COROT_OK;
+  return corot_reader_count(r, what, bytes, n);
 }
 
 /* N 3 0 0, then N times NUMBER X Y Z. */

@@ -25,18 +25,12 @@ static void skip_section(corot_reader *r) {
   }
 }
 
-static corot_status begin_list(corot_reader *r, const char *what, size_t bytes, int *n) {
-  corot_reader_skip_lines(r);
-  COROT_TRY(corot_reader_count(r, what, bytes, n));
-  return corot_reader_end_line(r);
-}
-
 static corot_status read_points(vol *v) {
   corot_reader *r = &v->r;
   int n;
   if (v->has_points) return corot_reader_fail(r, r->at, "points are listed twice");
   v->has_points = true;
-  COROT_TRY(begin_list(r, "the number of points", 6, &n));
+  COROT_TRY(corot_reader_count_line(r, "the number of points", 6, &n));
   COROT_TRY(corot_draft_alloc_nodes(&v->d, n));
   for (int i = 0; i < n; i++) {
     v->d.node[i] = (corot_draft_node){i + 1, r->at};
@@ -63,7 +57,7 @@ static void read_name(corot_reader *r, char name[COROT_GROUP_NAME_MAX + 1]) {
 static corot_status read_names(vol *v, int dim) {
   corot_reader *r = &v->r;
   int n;
-  COROT_TRY(begin_list(r, "the number of names", 3, &n));
+  COROT_TRY(corot_reader_count_line(r, "the number of names", 3, &n));
   for (int i = 0; i < n; i++) {
     char name[COROT_GROUP_NAME_MAX + 1];
     int number;
@@ -131,7 +125,7 @@ static corot_status read_element(vol *v, corot_draft_element *e, int number) {
 static corot_status read_surfaces(vol *v) {
   corot_reader *r = &v->r;
   int n, number, ignored;
-  COROT_TRY(begin_list(r, "the number of surface elements", 11, &n));
+  COROT_TRY(corot_reader_count_line(r, "the number of surface elements", 11, &n));
   for (int i = 0; i < n; i++) {
     corot_draft_element e = {.tag = i + 1, .at = r->at, .dim = 2};
     COROT_TRY(corot_reader_int(r, "the number of a surface", &ignored));
@@ -149,7 +143,7 @@ static corot_status read_surfaces(vol *v) {
 static corot_status read_volumes(vol *v) {
   corot_reader *r = &v->r;
   int n, number;
-  COROT_TRY(begin_list(r, "the number of volume elements", 11, &n));
+  COROT_TRY(corot_reader_count_line(r, "the number of volume elements", 11, &n));
   for (int i = 0; i < n; i++) {
     corot_draft_element e = {.tag = i + 1, .at = r->at, .dim = 3};
     COROT_TRY(corot_reader_int(r, "the number of a material", &number));

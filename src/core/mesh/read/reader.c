@@ -260,3 +260,9 @@ corot_status corot_reader_count(corot_reader *r, const char *what, size_t bytes,
   *value = (int)v;
   return COROT_OK;
 }
+
+corot_status corot_reader_count_line(corot_reader *r, const char *what, size_t bytes, int *value) {
+  corot_reader_skip_lines(r);
+  COROT_TRY(corot_reader_count(r, what, bytes, value));
+  return corot_reader_end_line(r);
+}

@@ -78,4 +78,7 @@ corot_status corot_reader_point(corot_reader *r, double x[3]);
    more than the file can hold. As a long in binary. */
 corot_status corot_reader_count(corot_reader *r, const char *what, size_t bytes, int *value);
 
+/* Of text: such a number on the next line that is not empty, with nothing behind it. */
+corot_status corot_reader_count_line(corot_reader *r, const char *what, size_t bytes, int *value);
+
 #endif
