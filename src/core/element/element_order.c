@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/mesh/mesh.h"
+
 /* Scratch of a sort. */
 typedef struct sorting {
   int *lowest;       /* [ntet] key of each tet */
@@ -63,21 +65,6 @@ static double mean_reach(const corot_mesh *mesh, const int *order, sorting *s) {
 
 /* --- A search in breadth --- */
 
-/* The tets of each corner: count, then fill. */
-static bool list_tets(const corot_mesh *mesh, int **first, int **tet) {
-  int *begin = calloc((size_t)mesh->nnode + 2, sizeof *begin);
-  int *list = malloc(4 * (size_t)mesh->ntet * sizeof *list);
-  *first = begin, *tet = list;
-  if (!begin || !list) return false;
-  int *next = begin + 1; /* shifted by one while filling, in place after */
-  for (int e = 0; e < mesh->ntet; e++)
-    for (int k = 0; k < 4; k++) next[mesh->tet[e][k] + 1]++;
-  for (int i = 0; i < mesh->nnode; i++) next[i + 1] += next[i];
-  for (int e = 0; e < mesh->ntet; e++)
-    for (int k = 0; k < 4; k++) list[next[mesh->tet[e][k]]++] = e;
-  return true;
-}
-
 /* From a corner on, into queue [from `n` on]; seen [nnode] is `mark` where it has been. Returns the
    queue's end. */
 static int search(const corot_mesh *mesh, const int *first, const int *tet, int start, int mark,
@@ -112,11 +99,14 @@ static void rank_corners(const corot_mesh *mesh, const int *first, const int *te
 
 /* s->rank of the nodes; s->first and s->last are scratch. */
 static bool find_ranks(const corot_mesh *mesh, sorting *s) {
-  int *first = NULL, *tet = NULL;
-  bool room = list_tets(mesh, &first, &tet);
+  int *first = calloc((size_t)mesh->nnode + 1, sizeof *first);
+  int *tet = malloc(4 * (size_t)mesh->ntet * sizeof *tet);
   s->rank = malloc(mesh->nnode * sizeof *s->rank);
-  room = room && s->rank;
-  if (room) rank_corners(mesh, first, tet, s->first, s->last, s->rank);
+  bool room = first && tet && s->rank;
+  if (room) {
+    corot_corner_tets(mesh, first, tet);
+    rank_corners(mesh, first, tet, s->first, s->last, s->rank);
+  }
   free(first), free(tet);
   return room;
 }

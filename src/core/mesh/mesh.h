@@ -62,6 +62,9 @@ bool corot_tri_ascends(const int tri[3]);
 corot_status corot_faces_boundary(int nface, const corot_face *face, const int (*tet)[4], int *ntri,
                                   int (**tri)[3]);
 
+/* The tets at each corner: first [nnode + 1], zero before, is each node's part of tet [4 ntet]. */
+COROT_SISTERS void corot_corner_tets(const corot_mesh *mesh, int *first, int *tet);
+
 #define COROT_GROUP_NAME_MAX 127 /* bytes; gmsh's limit */
 
 /* What is found wrong with a mesh: how much, and the first few in words, a line each. */

@@ -137,3 +137,13 @@ corot_status corot_mesh_boundary(const corot_mesh *mesh, int *ntri, int (**tri)[
   free(face);
   return status;
 }
+
+void corot_corner_tets(const corot_mesh *mesh, int *first, int *tet) {
+  for (int e = 0; e < mesh->ntet; e++)
+    for (int k = 0; k < 4; k++) first[mesh->tet[e][k] + 1]++;
+  for (int n = 0; n < mesh->nnode; n++) first[n + 1] += first[n];
+  for (int e = 0; e < mesh->ntet; e++)
+    for (int k = 0; k < 4; k++) tet[first[mesh->tet[e][k]]++] = e;
+  memmove(first + 1, first, (size_t)mesh->nnode * sizeof *first);
+  first[0] = 0;
+}

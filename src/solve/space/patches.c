@@ -55,19 +55,7 @@ static void place_points(patches *p) {
     }
 }
 
-/* The tets at each corner. */
-static void list_tets(patches *p) {
-  const corot_mesh *mesh = p->mesh;
-  for (int e = 0; e < mesh->ntet; e++)
-    for (int k = 0; k < 4; k++) p->first[mesh->tet[e][k] + 1]++;
-  for (int n = 0; n < mesh->nnode; n++) p->first[n + 1] += p->first[n];
-  for (int e = 0; e < mesh->ntet; e++)
-    for (int k = 0; k < 4; k++) p->around[p->first[mesh->tet[e][k]]++] = e;
-  memmove(p->first + 1, p->first, (size_t)mesh->nnode * sizeof *p->first);
-  p->first[0] = 0;
-}
-
-/* How many there are. */
+/* How many corners there are. */
 static int number_corners(patches *p) {
   int count = 0;
   for (int n = 0; n < p->mesh->nnode; n++)
@@ -85,7 +73,7 @@ corot_status corot_patches_create(patches *p) {
   COROT_TRY(COROT_ALLOC(p->stamp, ntet));
   COROT_TRY(COROT_ALLOC(p->corner, nnode));
   place_points(p);
-  list_tets(p);
+  corot_corner_tets(p->mesh, p->first, p->around);
   size_t ncorner = (size_t)number_corners(p);
   COROT_TRY(COROT_ALLOC(p->scale, ncorner));
   return COROT_ALLOC(p->fitted, ncorner * (size_t)(p->nterm * p->ncolumn));
