@@ -52,6 +52,11 @@ class Page:
         scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": scheme})
         self.browser.get(self.url)
+        # The charts are drawn again when their size is first seen, in the first frames painted.
+        self.browser.execute_async_script("""const done = arguments[0];
+            let left = 4;
+            const frame = () => left-- ? requestAnimationFrame(frame) : done();
+            frame();""")
 
     def __enter__(self):
         return self
@@ -69,6 +74,15 @@ class Page:
 
     def all(self, selector):
         return self.browser.find_elements(By.CSS_SELECTOR, selector)
+
+    def texts(self, selector):
+        """What elements say; at once, as a diagram may be drawn again at any time."""
+        return self.js("return [...document.querySelectorAll(arguments[0])].map(e => e.textContent)", selector)
+
+    def points(self, selector):
+        """How many points each line of a diagram has."""
+        return self.js("return [...document.querySelectorAll(arguments[0])].map(g => +g.dataset.points)",
+                       selector + " .frame g.series")
 
 
 def table(path):
@@ -90,14 +104,14 @@ def check_charts(page, run):
     charts = page.js("return Object.keys(corot.charts)")
     assert sorted(charts) == sorted(expected), charts
     for name, (source, nseries) in expected.items():
-        figure = page.find("#" + name)
-        points = [int(g.get_attribute("data-points")) for g in figure.find_elements(By.CSS_SELECTOR, ".frame g.series")]
+        points = page.points("#" + name)
         assert points == [len(rows[source])] * nseries, (name, points)
         for axis in ".tick.x", ".tick.y":
-            labels = [t.text for t in figure.find_elements(By.CSS_SELECTOR, axis)]
+            labels = page.texts(f"#{name} {axis}")
             assert len(labels) >= 2 and all(labels), (name, axis, labels)
-        assert all(t.text for t in figure.find_elements(By.CSS_SELECTOR, "text.label")), name
-        label = figure.find_elements(By.CSS_SELECTOR, "text.label")[1].text
+        titles = page.texts(f"#{name} text.label")
+        assert all(titles), name
+        label = titles[1]
         assert "[" in label or name in ("order", "newton", "error-estimate"), label  # has its unit
     # No point is left out of a line that is not crowded.
     path = page.find("#probe-0 g.series .line").get_attribute("d")
@@ -329,9 +343,9 @@ def check_goal(folder):
     solved = json.load(open(f"{folder}/solve.json"))
     with Page(f"{folder}/report.html") as page:
         assert page.js("return Object.keys(corot.charts)") == ["meshes"]
-        lines = page.all("#meshes .frame g.series")
-        assert len(lines) == 2 + (solved["limit"] is not None)
-        assert int(lines[0].get_attribute("data-points")) == len(solved["levels"]) >= 2
+        points = page.points("#meshes")
+        assert len(points) == 2 + (solved["limit"] is not None)
+        assert points[0] == len(solved["levels"]) >= 2
         band = page.js("""const c = corot.charts.meshes, r = c.svg.querySelector('rect.interval');
             return [+r.getAttribute('y'), +r.getAttribute('height'), c.down(arguments[1]),
                     c.down(arguments[0]) - c.down(arguments[1]), c.height]""", solved["low"], solved["high"])
