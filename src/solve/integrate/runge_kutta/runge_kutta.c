@@ -207,13 +207,16 @@ static corot_status find_slopes(runge_kutta *m) {
   return m->stages.n ? corot_rk_resolves(m, &m->resolved) : COROT_OK;
 }
 
-/* Power of the state y at t; where that cannot be evaluated, at the end of the step. */
+/* Power of the state y at t; where that cannot be evaluated, at the end of the step. The energies
+   that come with it are kept as those of their time if y is the solution there: a stage at the end
+   of the step is not, nor the interpolant with other slopes. */
 static corot_status find_power(runge_kutta *m, double t, N_Vector y, double *power) {
   driver *d = &m->driver;
   m->nfeQ++;
   if (corot_driver_work_rate(t, y, m->power, d) &&
       (d->fatal || corot_driver_work_rate(m->end.t, m->end.y, m->power, d)))
     return corot_driver_give_up(d, corot_error());
+  if (y != m->start.y && y != m->end.y) d->self->t_energies = NAN;
   memcpy(power, N_VGetArrayPointer(m->power), 2 * sizeof *power);
   return COROT_OK;
 }
