@@ -125,7 +125,7 @@ corot_status corot_rk_keep_stages(runge_kutta *m, ARKodeButcherTable table) {
                       m->driver.self->ops->kind.name);
   choose_nodes(s);
   for (int k = 0; k < 4; k++) find_weights(s, 1 + k % 2, k / 2, s->weight[k]);
-  find_weights(s, 0, RK_SAMPLE, s->weight[4]);
+  for (int k = 0; k < 2; k++) find_weights(s, k, RK_SAMPLE, s->weight[4 + k]);
   if (m->api->observe_stages(m->memory, keep_stage))
     return corot_driver_refuse(&m->driver, "stages");
   return COROT_OK;
@@ -198,25 +198,38 @@ static double norm(int n, const double *x) {
   return sqrt(square);
 }
 
-/* The part of E in modes of g w > 1 is no larger than the product of E. What the step resolves is
-   small there, too, and the smaller the more often; three times is where the test costs as much as
-   what it may save. The absolute tolerance does not count: it may be far above all displacements,
-   which are right nevertheless at the ends of the steps. */
-corot_status corot_rk_resolves(runge_kutta *m, bool *resolved) {
-  const corot_integrator *self = m->driver.self;
+/* Whether E's part in modes too fast for the step has a norm below `most`. In modes of g w > 1 it
+   is no larger than the product of E. What the step resolves is small there, too, and the smaller
+   the more often; three times is where the test costs as much as what it may save. */
+static corot_status is_small(const corot_integrator *self, double most, double *E, double *room,
+                             bool *small) {
   int n = corot_model_ndof(self->model);
-  double *E = N_VGetArrayPointer(m->error), *room = E + n;
-  double most = self->def.rtol * fmax(norm(n, N_VGetArrayPointer(m->start.y)),
-                                      norm(n, N_VGetArrayPointer(m->end.y)));
-  corot_rk_interpolate(m, RK_SAMPLE, room, NULL);
-  difference(m, 4, 1, room, E);
   for (int pass = 0; pass < 3; pass++) {
-    *resolved = norm(n, E) <= most;
-    if (*resolved) return COROT_OK;
+    *small = norm(n, E) <= most;
+    if (*small) return COROT_OK;
     corot_status status = amplify(self, E, room);
     if (status) return sun_is_fatal(status) ? status : COROT_OK;
   }
-  *resolved = norm(n, E) <= most;
+  *small = norm(n, E) <= most;
+  return COROT_OK;
+}
+
+/* Of the displacements and, as these may hide what Newton's iteration left in M^-1 r, of the
+   velocities. The absolute tolerance does not count: it may be far above all displacements, which
+   are right nevertheless at the ends of the steps. */
+corot_status corot_rk_resolves(runge_kutta *m, bool *resolved) {
+  const corot_integrator *self = m->driver.self;
+  int n = corot_model_ndof(self->model);
+  double h = m->end.t - m->start.t, rtol = self->def.rtol;
+  double *E = N_VGetArrayPointer(m->error), *room = E + n;
+  const double *y0 = N_VGetArrayPointer(m->start.y), *y1 = N_VGetArrayPointer(m->end.y);
+  for (int k = 0; k < 2; k++) {
+    corot_rk_interpolate(m, RK_SAMPLE, k ? NULL : room, k ? room : NULL);
+    difference(m, 4 + k, k ? 1 / h : 1, room, E);
+    double most = rtol * fmax(norm(n, y0 + k * n), norm(n, y1 + k * n));
+    COROT_TRY(is_small(self, most, E, room, resolved));
+    if (!*resolved) break;
+  }
   return COROT_OK;
 }
 

@@ -65,8 +65,8 @@ typedef struct rk_stages {
   bool closing;                   /* the last stage is the end of the step */
   int nnode, node[RK_MOST_NODES]; /* stages the polynomial passes through */
   /* Weights of the displacements at the start, at the end and at the nodes, in its h u' and h^2 u''
-     at the start, the same at the end, and its value at RK_SAMPLE. */
-  double weight[5][RK_MOST_NODES + 2];
+     at the start, the same at the end, and in its value and h u' at RK_SAMPLE. */
+  double weight[6][RK_MOST_NODES + 2];
 } rk_stages;
 
 typedef struct runge_kutta {
