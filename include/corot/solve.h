@@ -29,8 +29,8 @@ typedef enum corot_role { COROT_ROLE_DYNAMIC, COROT_ROLE_STATIC } corot_role;
 
 /* How linear systems are solved. Each "auto" is decided by the operations it would take, and by the
    role: in a time step of a length that resolves the slow motion (at much shorter ones, where the
-   mass outweighs the stiffness, "pcg" may be several times faster on compact bodies); in statics by
-   a solver that can tell whether an equilibrium is stable, if one is built in. Rules:
+   mass outweighs the stiffness, "pcg" may be several times faster on compact bodies); in statics for
+   solutions as accurate as Newton's iteration asks for. Rules:
    src/solve/linsol/linsol_choose.c. A direct solver is not chosen where the run would need more than
    a third of the machine's memory with it, as the entries of its factor are counted before it is
    made: "pcg" is. */

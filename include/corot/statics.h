@@ -76,7 +76,7 @@ COROT_API corot_status corot_statics_create(const corot_statics_def *def, const 
 COROT_API void corot_statics_destroy(corot_statics *statics);
 
 typedef enum corot_stability {
-  COROT_STABILITY_UNKNOWN, /* an iterative solver cannot tell, nor can K of a hierarchy */
+  COROT_STABILITY_UNKNOWN, /* K of a hierarchy does not tell, nor an iteration that fails */
   COROT_STABLE,
   COROT_UNSTABLE,
 } corot_stability;

@@ -141,6 +141,48 @@ static void an_indefinite_matrix_is_found_out(void **state) {
   free(f), drop_body(&b);
 }
 
+static corot_status try_shift(corot_pencil *p, double shift, bool *known) {
+  corot_pencil_combine(p, -shift, 0, 1);
+  return corot_pencil_factor_proved(p, known);
+}
+
+/* The lowest eigenvalue of K, M, to 14 digits: up to it K - s M is positive definite. */
+static double lowest(corot_pencil *klu) {
+  double low = 0, high = 1;
+  bool known;
+  while (try_shift(klu, high, &known) == COROT_OK) low = high, high *= 2;
+  while (high - low > 1e-14 * high) {
+    double middle = 0.5 * (low + high);
+    *(try_shift(klu, middle, &known) ? &high : &low) = middle;
+  }
+  return low;
+}
+
+/* Both of a matrix that is positive definite by a hair and of one that is not by as much. */
+static void definiteness_is_proved(void **state) {
+  (void)state;
+  static const char *const names[] = {"block-jacobi", "incomplete-cholesky", "amg"};
+  body b = partly_held_bar(8);
+  corot_linear_def def = corot_linear_defaults();
+  def.role = COROT_ROLE_STATIC, def.solver = "klu";
+  corot_pencil *klu = pencil_with(&b, &def);
+  double root = lowest(klu);
+  for (int k = 0; k < 3; k++) {
+    def.solver = "pcg", def.preconditioner = names[k];
+    corot_pencil *p = pencil_with(&b, &def);
+    for (double apart = 0.5; apart > 1e-9; apart *= 0.1) {
+      bool known = false;
+      assert_ok(try_shift(p, root * (1 - apart), &known));
+      assert_true(known);
+      assert_fails(try_shift(p, root * (1 + apart), &known), COROT_RETRY, "not positive definite");
+      assert_true(known);
+    }
+    corot_pencil_destroy(p);
+  }
+  corot_pencil_destroy(klu);
+  drop_body(&b);
+}
+
 /* --- incomplete Cholesky --- */
 
 /* The matrix of a step of a pencil by nodes, with its incomplete factor. */
@@ -378,6 +420,7 @@ int main(void) {
       cmocka_unit_test(solves_like_klu_in_more_iterations_as_steps_grow),
       cmocka_unit_test(blocks_of_partly_held_nodes_are_inverted),
       cmocka_unit_test(an_indefinite_matrix_is_found_out),
+      cmocka_unit_test(definiteness_is_proved),
       cmocka_unit_test(the_preconditioner_is_symmetric_and_positive),
       cmocka_unit_test(the_sandwich_is_what_it_is_made_of),
       cmocka_unit_test(without_fill_the_factor_is_complete),

@@ -176,19 +176,25 @@ static void the_damped_motion_ends_there(void **state) {
   }
 }
 
+/* What an iterative solver leaves in the first steps costs one step at most. */
 static void all_linear_solvers_find_the_same(void **state) {
   (void)state;
-  const char *solver[] = {"klu", "pcg", "auto"};
-  double tip[3][2];
-  corot_statics_counts n[3];
-  for (int k = 0; k < 3; k++) {
+  const char *way[][2] = {{"klu", "auto"},
+                          {"auto", "auto"},
+                          {"pcg", "block-jacobi"},
+                          {"pcg", "incomplete-cholesky"},
+                          {"pcg", "amg"}};
+  enum { NWAY = sizeof way / sizeof *way };
+  double tip[NWAY][2];
+  corot_statics_counts n[NWAY];
+  for (int k = 0; k < NWAY; k++) {
     corot_statics_def def = corot_statics_defaults();
-    def.linear.solver = solver[k];
+    def.linear.solver = way[k][0], def.linear.preconditioner = way[k][1];
     solve_strip(&bent, &def, tip[k], &n[k]);
     for (int c = 0; c < 2; c++) assert_close(tip[k][c], tip[0][c], 1e-8, 0);
-    assert_int_equal(n[k].nni, n[0].nni);
+    assert_in_range(n[k].nni, n[0].nni, n[0].nni + (k > 1));
+    assert_int_equal(n[k].nli > 0, k > 1);
   }
-  assert_true(n[1].nli > 0 && n[0].nli == 0);
 }
 
 /* A support that has turned by half a right angle takes the strip along: no force is left. */

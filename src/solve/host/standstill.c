@@ -161,24 +161,14 @@ int corot_sun_jacobian_static(N_Vector u, N_Vector F, SUNMatrix A, void *user_da
   return sun_callback_code(status ? status : make_jacobian(pencil, u));
 }
 
-/* Where K is not positive definite, a clamped one takes its place: it leads downhill in the energy,
-   so that the iteration does not end on an unstable equilibrium beside a stable one. */
-static corot_status factor_downhill(corot_pencil *p) {
-  corot_status status = corot_pencil_factor_definite(p);
-  if (status != COROT_RETRY) return status;
-  COROT_TRY(corot_pencil_assemble_again(p, COROT_TANGENT_CLAMPED));
-  corot_pencil_combine(p, 0, 0, 1);
-  return corot_pencil_factor(p);
-}
-
 static int solver_setup(SUNLinearSolver LS, SUNMatrix A) {
   (void)A;
-  return sun_callback_code(factor_downhill(LS->content));
+  return sun_callback_code(corot_pencil_factor_downhill(LS->content));
 }
 
 static corot_status solve(corot_pencil *p, N_Vector x, N_Vector b) {
   COROT_TRY(corot_seam_vectors("corot_sun_linsol_static", p->n, 2, (N_Vector[]){x, b}));
-  return corot_pencil_solve(p, values(b), values(x));
+  return corot_pencil_solve_downhill(p, values(b), values(x));
 }
 
 static int solver_solve(SUNLinearSolver LS, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tol) {
@@ -215,7 +205,7 @@ static corot_status set_up(const corot_sun_data *d, N_Vector u) {
   COROT_TRY(check("corot_sun_psetup_static", d, 1, &u));
   COROT_TRY(corot_seam_pencil(d->pencil, d, "corot_sun_psetup_static"));
   COROT_TRY(make_jacobian(d->pencil, u));
-  return factor_downhill(d->pencil);
+  return corot_pencil_factor_downhill(d->pencil);
 }
 
 int corot_sun_psetup_static(N_Vector u, N_Vector uscale, N_Vector F, N_Vector fscale,

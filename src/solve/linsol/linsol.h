@@ -23,8 +23,6 @@ typedef struct linsol_ops {
   const char *name;
   const linsol_variant *variants; /* up to one without a name */
   bool iterative;                 /* its factor is a preconditioner, its solution is iterated */
-  bool knows_definiteness;        /* it tells whether A is positive definite: factor refuses other
-                                     matrices,        or count_negative counts */
   corot_triangle triangle;        /* the part of the matrix it reads */
 
   /* Symbolic analysis, once; `pattern` is borrowed for the solver's life. */
@@ -42,8 +40,16 @@ typedef struct linsol_ops {
      in the place of this: none ever does. */
   void (*share)(void *solver, team *by);
 
-  /* Iterations so far; NULL: the solver is not iterative. */
+  /* The following four are NULL where the solver is not iterative.
+     Iterations so far. */
   long (*iterations)(const void *solver);
+  /* The relative residual of solutions from now on; 0: the plan's. */
+  void (*aim)(void *solver, double tolerance);
+  /* Whether the last solution failed as A turned out not to be positive definite. */
+  bool (*met_indefinite)(const void *solver);
+  /* Whether A, of which there is a factor, is positive definite: what a direct solver's factor
+     shows. COROT_RETRY: not known, for the iteration does not converge. */
+  corot_status (*prove)(void *solver, bool *definite);
 
   /* How many negative pivots A has, of a direct solver whose factor does not object to an
      indefinite A; else NULL. */

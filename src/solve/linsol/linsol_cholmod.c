@@ -151,7 +151,6 @@ static const linsol_variant variants[] = {
 const linsol_ops corot_linsol_cholmod = {
     .name = "cholmod",
     .variants = variants,
-    .knows_definiteness = true,
     .triangle = COROT_LOWER,
     .create = cholesky_create,
     .factor = cholesky_factor,

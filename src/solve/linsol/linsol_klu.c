@@ -122,7 +122,6 @@ static const linsol_variant variants[] = {
 const linsol_ops corot_linsol_klu = {
     .name = "klu",
     .variants = variants,
-    .knows_definiteness = true,
     .triangle = COROT_FULL,
     .create = klu_solver_create,
     .factor = klu_solver_factor,

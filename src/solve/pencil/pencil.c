@@ -215,8 +215,10 @@ static corot_status factor_by_klu(corot_pencil *p) {
 
 static corot_status solve(corot_pencil *p, double *x) {
   double start = clock_wall();
-  share(p, p->solver);
-  corot_status status = p->solver->ops->solve(p->solver->solver, x);
+  const linsol *s = p->solver;
+  share(p, s);
+  if (s->ops->aim) s->ops->aim(s->solver, p->aim);
+  corot_status status = s->ops->solve(s->solver, x);
   p->counts.nsolve++;
   p->counts.nlsfail += status != COROT_OK;
   p->counts.solve_s += clock_wall() - start;
@@ -273,15 +275,57 @@ corot_status corot_pencil_factor(corot_pencil *p) {
   return factor_chosen(p);
 }
 
-corot_status corot_pencil_factor_definite(corot_pencil *p) {
+static corot_status refuse_indefinite(corot_pencil *p) {
+  p->counts.nindefinite++;
+  return corot_fail(COROT_RETRY, "the stiffness is not positive definite");
+}
+
+static corot_status check_pivots(corot_pencil *p) {
   int negative;
-  COROT_TRY(corot_pencil_factor(p));
   double start = clock_wall();
   corot_status status = corot_linsol_count_negative(&p->chosen, p->S, &negative);
   p->counts.factor_s += clock_wall() - start;
-  if (!status && negative)
-    status = corot_fail(COROT_RETRY, "the stiffness is not positive definite");
+  return !status && negative ? refuse_indefinite(p) : status;
+}
+
+corot_status corot_pencil_factor_definite(corot_pencil *p) {
+  COROT_TRY(corot_pencil_factor(p));
+  return check_pivots(p);
+}
+
+void corot_pencil_aim(corot_pencil *p, double tolerance) { p->aim = tolerance; }
+
+/* COROT_RETRY: the iteration does not converge. */
+static corot_status prove(corot_pencil *p, bool *definite) {
+  double start = clock_wall();
+  const linsol *s = &p->chosen;
+  share(p, s);
+  corot_status status = s->ops->prove(s->solver, definite);
+  p->counts.nsolve++;
+  p->counts.nlsfail += status != COROT_OK;
+  p->counts.solve_s += clock_wall() - start;
   return status;
+}
+
+corot_status corot_pencil_factor_proved(corot_pencil *p, bool *known) {
+  bool definite;
+  *known = true;
+  COROT_TRY(corot_pencil_factor_definite(p));
+  if (!p->chosen.ops->prove) return COROT_OK;
+  corot_status status = prove(p, &definite);
+  if (status == COROT_OK) return definite ? COROT_OK : refuse_indefinite(p);
+  *known = false;
+  if (status != COROT_RETRY) return status;
+  if (!p->tentative) return COROT_OK;
+  *known = true;
+  COROT_TRY(choose_again(p));
+  return check_pivots(p);
+}
+
+/* Whether the last solution showed that S is not positive definite. */
+static bool met_indefinite(const corot_pencil *p) {
+  const linsol *s = p->solver;
+  return s->ops->met_indefinite && s->ops->met_indefinite(s->solver);
 }
 
 corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
@@ -294,8 +338,28 @@ corot_status corot_pencil_solve(corot_pencil *p, const double *b, double *x) {
   if (x != b) memcpy(x, b, p->n * sizeof *x);
   corot_status status = solve(p, x);
   if (status != COROT_RETRY || !p->tentative || p->solver != &p->chosen) return status;
+  if (p->role == COROT_ROLE_STATIC && met_indefinite(p)) return status; /* no solver minds less */
   COROT_TRY(choose_again(p));
   return solve(p, x);
+}
+
+static corot_status clamp(corot_pencil *p) {
+  COROT_TRY(corot_pencil_assemble_again(p, COROT_TANGENT_CLAMPED));
+  corot_pencil_combine(p, 0, 0, 1);
+  return corot_pencil_factor(p);
+}
+
+corot_status corot_pencil_factor_downhill(corot_pencil *p) {
+  corot_status status = corot_pencil_factor_definite(p);
+  return status == COROT_RETRY ? clamp(p) : status;
+}
+
+corot_status corot_pencil_solve_downhill(corot_pencil *p, const double *b, double *x) {
+  corot_status status = corot_pencil_solve(p, b, x);
+  if (status != COROT_RETRY || !met_indefinite(p)) return status;
+  p->counts.nindefinite++;
+  COROT_TRY(clamp(p));
+  return corot_pencil_solve(p, b, x);
 }
 
 corot_status corot_pencil_slow_part(corot_pencil *p, const double *x, double *y) {

@@ -31,6 +31,7 @@ struct corot_pencil {
   double *S;            /* [csc->nnz] */
   double *work;         /* [2 n] */
   double gamma;         /* b, which is gamma where S is that of a step */
+  double aim;           /* of an iterative solver; 0: the definition's */
   corot_pencil_counts counts;
 };
 
@@ -47,9 +48,23 @@ COROT_SISTERS void corot_pencil_exchange(pack *p, corot_pencil *pencil);
    and factors are gone, pivots, too; the analysis stays. */
 COROT_SISTERS void corot_pencil_forget(corot_pencil *pencil);
 
-/* corot_pencil_factor, and COROT_RETRY from a solver, too, that does not mind what is not positive
-   definite. */
+/* corot_pencil_factor, and COROT_RETRY from a direct solver, too, that does not mind what is not
+   positive definite. An iterative one sees that later, if it has to: as it solves. */
 COROT_SISTERS corot_status corot_pencil_factor_definite(corot_pencil *pencil);
+
+/* The same, and an iterative solver makes sure. *known: whether it could; if not, its iteration
+   does not converge. */
+corot_status corot_pencil_factor_proved(corot_pencil *pencil, bool *known);
+
+/* Factor and solution of K = S(0, 0, 1) as it was assembled; where K is not positive definite a
+   clamped one takes its place. That leads downhill in the energy, so that Newton's iteration does
+   not end on an unstable equilibrium beside a stable one. */
+COROT_SISTERS corot_status corot_pencil_factor_downhill(corot_pencil *pencil);
+COROT_SISTERS corot_status corot_pencil_solve_downhill(corot_pencil *pencil, const double *b,
+                                                       double *x);
+
+/* The relative residual of solutions from now on, of an iterative solver; 0: the definition's. */
+void corot_pencil_aim(corot_pencil *pencil, double tolerance);
 
 /* y = S^-1 M x [n] by the latest factor, S = M + g D + g^2 K: x where a mode is slow, g w small,
    and x / (g w)^2 where it is fast: what a step of an implicit method resolves. y may be x. */

@@ -31,7 +31,10 @@ typedef struct equilibrium {
   double floor;     /* rounding of r [N] */
   double tolerance; /* of r's largest component [N] */
   double unit;      /* KINSOL's, of forces [N] */
-  double *history;  /* [nhistory] largest component of r [N] */
+  double before; /* largest component of r where the last iteration of this run began [N]; 0: it is
+                    the first */
+  double aim;    /* of an iterative linear solver: what it has to leave of r */
+  double *history; /* [nhistory] largest component of r [N] */
   int nhistory, capacity;
   bool recording; /* the residual of each Newton iteration goes to the history */
   int iterations;

@@ -183,7 +183,7 @@ static corot_status look(corot_statics *s, double target) {
 }
 
 static corot_status step_on(corot_statics *s, corot_load_step *step) {
-  long nindefinite = s->e.counts.nindefinite;
+  long nindefinite = corot_pencil_statistics(s->e.pencil).nindefinite;
   for (int rejected = 0;; rejected++) {
     /* an equilibrium there, and whether it is stable */
     double target = next_target(s), length = target - s->factor;
@@ -206,7 +206,8 @@ static corot_status step_on(corot_statics *s, corot_load_step *step) {
     s->length = 0.5 * length;
     if (status == COROT_OK) s->ceiling = target;
     if (status == COROT_OK && s->length < resolution(s, target)) return lose_stability(s, target);
-    if (s->length < s->def.min_step) return give_up(s, s->e.counts.nindefinite > nindefinite);
+    if (s->length < s->def.min_step)
+      return give_up(s, corot_pencil_statistics(s->e.pencil).nindefinite > nindefinite);
   }
 }
 
@@ -244,7 +245,7 @@ corot_statics_counts corot_statics_statistics(const corot_statics *s) {
   corot_statics_counts c = s->e.counts;
   corot_pencil_counts p = corot_pencil_statistics(s->e.pencil);
   c.nje = p.nassembly, c.nfactor = p.nfactor, c.nsolve = p.nsolve, c.nli = p.niteration;
-  c.nlsfail = p.nlsfail;
+  c.nlsfail = p.nlsfail, c.nindefinite = p.nindefinite;
   c.force_s = s->e.force_s;
   c.assembly_s = p.assembly_s, c.combine_s = p.combine_s;
   c.factor_s = p.factor_s, c.solve_s = p.solve_s;

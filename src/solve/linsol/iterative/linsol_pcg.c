@@ -6,6 +6,7 @@
    Those by levels SUNDIALS applies; C is I, or that of block Jacobi. */
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sunlinsol/sunlinsol_pcg.h>
@@ -34,9 +35,11 @@ typedef struct pcg {
   int most;            /* iterations of a system */
   corot_role role; /* in a time step direct solvers have a remedy against an indefinite matrix */
   bool factored;
-  double tolerance; /* of the residual, relative to the right-hand side */
+  double tolerance; /* of the residual, relative to the right-hand side: of the plan, */
+  double aim;       /* and of the next solution */
   long iterations;
   double curvature;      /* p' A p of the last direction */
+  bool indefinite;       /* the last solution failed as this was not positive */
   double *b, *r, *x, *z; /* [3 nodes] right-hand side, residual, solution, its change; scaled */
   SUNContext ctx;
   N_Vector from, to;
@@ -111,7 +114,7 @@ static corot_status pcg_create(const corot_csc *pattern, const linsol_plan *plan
   pcg *p = calloc(1, sizeof *p);
   if (!p) return corot_fail(COROT_ENOMEM, "no memory for pcg");
   p->csc = pattern;
-  p->tolerance = plan->def.tolerance;
+  p->tolerance = p->aim = plan->def.tolerance;
   p->role = plan->def.role;
   p->cholesky = strcmp(plan->def.preconditioner, "incomplete-cholesky") == 0;
   p->ops = corot_multilevel_find(plan->def.preconditioner);
@@ -154,7 +157,7 @@ static corot_status pcg_factor(void *solver, const double *value, bool *fresh) {
    `whole` being |b|. */
 static corot_status improve(pcg *p, double norm, double whole) {
   int n = 3 * p->A.n;
-  double square = 0, target = 0.5 * p->tolerance * whole;
+  double square = 0, target = 0.5 * p->aim * whole;
   if (p->cholesky) corot_nodes_forward(&p->A, p->r);
   for (int i = 0; i < n; i++) square += p->r[i] * p->r[i];
   /* iterate on the residual, from zero */
@@ -170,7 +173,8 @@ static corot_status improve(pcg *p, double norm, double whole) {
   p->iterations += iterations;
   /* why it ended */
   if (p->status) return p->status;
-  if (status && !(p->curvature > 0))
+  p->indefinite = status && !(p->curvature > 0);
+  if (p->indefinite)
     return corot_fail(COROT_RETRY, "pcg: the matrix is not positive definite (p'Sp = %.3g)%s",
                       p->curvature, p->role == COROT_ROLE_STATIC ? "" : WHAT_SOLVES);
   if (status && status != SUNLS_RES_REDUCED && status != SUNLS_CONV_FAIL)
@@ -179,8 +183,7 @@ static corot_status improve(pcg *p, double norm, double whole) {
     return corot_fail(COROT_RETRY,
                       "pcg: did not converge in %d iterations: residual %.1e of the right-hand "
                       "side, tolerance %.1e" WHAT_SOLVES,
-                      iterations, SUNLinSolResNorm(p->cg) / sqrt(square) * norm / whole,
-                      p->tolerance);
+                      iterations, SUNLinSolResNorm(p->cg) / sqrt(square) * norm / whole, p->aim);
   /* back to the unknowns of the matrix */
   if (p->cholesky) corot_nodes_backward(&p->A, p->z);
   for (int i = 0; i < n; i++) p->x[i] += p->z[i];
@@ -203,19 +206,22 @@ static corot_status iterate(pcg *p) {
   memcpy(p->r, p->b, bytes);
   memset(p->x, 0, bytes);
   corot_status status;
+  p->indefinite = false;
   do {
     before = norm;
     status = improve(p, norm, whole);
     if (!status) norm = residual(p);
-  } while (!status && norm > p->tolerance * whole && norm < 0.5 * before);
+  } while (!status && norm > p->aim * whole && norm < 0.5 * before);
   if (sun_is_fatal(status)) return status;
-  if (norm <= p->tolerance * whole || norm <= 10 * corot_nodes_rounding(&p->A, p->x))
+  if (norm <= p->aim * whole || norm <= 10 * corot_nodes_rounding(&p->A, p->x)) {
+    p->indefinite = false;
     return COROT_OK;
+  }
   if (status) return status;
   return corot_fail(COROT_RETRY,
                     "pcg: the residual stays at %.1e of the right-hand side, tolerance "
                     "%.1e" WHAT_SOLVES,
-                    norm / whole, p->tolerance);
+                    norm / whole, p->aim);
 }
 
 /* The exponent by which x [n] must be scaled so that squares of its entries can be represented. */
@@ -251,6 +257,39 @@ static corot_status pcg_solve(void *solver, double *x) {
   return COROT_OK;
 }
 
+static void pcg_aim(void *solver, double tolerance) {
+  pcg *p = solver;
+  p->aim = tolerance > 0 ? tolerance : p->tolerance;
+}
+
+static bool pcg_met_indefinite(const void *solver) { return ((const pcg *)solver)->indefinite; }
+
+/* Uniform in (-1, 1): the high bits of a congruential sequence (Knuth's constants). */
+static double draw(uint64_t *seed) {
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return (double)(*seed >> 11) * 0x1p-52 - 1;
+}
+
+/* Solves for a right-hand side b at random. After k iterations with Ritz values t_i, all positive,
+   the residual in an eigenvector w of A is prod (1 - l / t_i) times that of b: where l is negative,
+   it has grown. So if |r| falls to a part e of |b| and no direction of negative curvature was met,
+   w'b is less than e |b|. As the density of w'b is at most 1 / sqrt(2) (Ball 1986, slices of the
+   cube) and |b| about sqrt(n / 3), that has a probability of e sqrt(n) at most, once in 100 000
+   matrices of a million unknowns that are not positive definite. */
+static corot_status pcg_prove(void *solver, bool *definite) {
+  static const double small = 1e-8;
+  pcg *p = solver;
+  uint64_t seed = 1;
+  if (!p->factored) return corot_fail(COROT_EINVAL, "pcg: prove: there is no factor");
+  memset(p->b, 0, 3 * (size_t)p->A.n * sizeof *p->b);
+  for (int i = 0; i < p->csc->n; i++) p->b[p->A.slot[i]] = draw(&seed);
+  p->aim = small;
+  corot_status status = iterate(p);
+  p->aim = p->tolerance;
+  *definite = !p->indefinite;
+  return p->indefinite ? COROT_OK : status;
+}
+
 static void pcg_share(void *solver, team *by) { ((pcg *)solver)->A.team = by; }
 
 static long pcg_iterations(const void *solver) { return ((const pcg *)solver)->iterations; }
@@ -274,5 +313,8 @@ const linsol_ops corot_linsol_pcg = {
     .solve = pcg_solve,
     .destroy = pcg_destroy,
     .iterations = pcg_iterations,
+    .aim = pcg_aim,
+    .met_indefinite = pcg_met_indefinite,
+    .prove = pcg_prove,
     .share = pcg_share,
 };
