@@ -27,6 +27,26 @@ extern "C" {
 /* Whose matrix it is: the mass helps an iterative solver in a time step, not in statics. */
 typedef enum corot_role { COROT_ROLE_DYNAMIC, COROT_ROLE_STATIC } corot_role;
 
+/* What the parts of a solution cost on one core of a machine [ns]: "auto" chooses by their ratios. An
+   entry is one of the triangle of the matrix, but where it is said to be of the factor. */
+typedef struct corot_linear_costs {
+  double operation;  /* of a direct factorisation, a multiplication in it, */
+  double made;       /* and besides an entry of the factor */
+  double solved;     /* of a direct solution, an entry of the factor */
+  double incomplete; /* of an incomplete Cholesky factorisation, an entry */
+  double iterated;   /* of an iteration with it, an entry */
+  double aggregated; /* of the set-up of amg, an entry */
+  double cycled;     /* of an iteration with it, an entry */
+} corot_linear_costs;
+
+/* Those of a Xeon with AVX-512 and 2 MB of cache a core, from which others differ most in
+   `operation`. */
+COROT_API corot_linear_costs corot_linear_costs_usual(void);
+
+/* Measures them in some seconds, on cubes of 6000 and 27 000 unknowns, as the least of several
+   passes; the machine should have nothing else to do. COROT_ENOMEM. */
+COROT_API corot_status corot_linear_costs_measure(corot_linear_costs *costs);
+
 /* How linear systems are solved. Each "auto" is decided by the operations it would take, and by the
    role: in a time step of a length that resolves the slow motion (at much shorter ones, where the
    mass outweighs the stiffness, "pcg" may be several times faster on compact bodies); in statics for
@@ -43,12 +63,14 @@ typedef struct corot_linear_def {
                                  with the mesh; on a refined mesh also "hierarchical", its
                                  hierarchical basis, or "multigrid", V-cycles through its levels,
                                  both with a factor of level 0, or aggregates where that has more
-                                 than 30 000 unknowns. "auto": "amg" in statics of 1500 unknowns and
-                                 more, else "incomplete-cholesky" */
+                                 than 30 000 unknowns. "auto": in statics of 1500 unknowns and more
+                                 "amg", if it costs less, else "incomplete-cholesky" */
   double tolerance; /* of pcg: residual relative to the right-hand side, > 0 */
   corot_role role;
   const corot_refinement *refinement; /* of the model's mesh, for these two; only read while the
                                          solver is being created. Else NULL will do */
+  const corot_linear_costs *costs;    /* that "auto" chooses by; only read like that, too. NULL: the
+                                         usual ones */
 } corot_linear_def;
 
 /* All "auto", 1e-10, dynamic, no refinement. */

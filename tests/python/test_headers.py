@@ -30,6 +30,7 @@ LEFT_OUT = {
     r"corot_mesh_box_\w+": "none so far",
     r"corot_state_parallel": "Python has no parallel loop to lend",
     r"corot_model_threads|corot_processors": "State.threads = 0 takes as many",
+    r"corot_linear_costs_\w+": "a linear solver of Python's is chosen by the usual ones",
     r"corot_mesh_format": "write_as refuses what there is not",
     r"corot_sundials_version|corot_version|corot_error|corot_fail": "called, by _library and build_info",
 }

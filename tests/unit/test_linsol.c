@@ -9,15 +9,15 @@
 
 /* Every solver with every choice it has. */
 static const corot_linear_def table[] = {
-    {"klu", "amd", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
-    {"klu", "metis", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
-    {"cholmod", "amd", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
-    {"cholmod", "metis", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
-    {"cholmod", "amd", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
-    {"cholmod", "metis", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL},
-    {"pcg", "auto", "auto", "block-jacobi", 1e-13, COROT_ROLE_DYNAMIC, NULL},
-    {"pcg", "auto", "auto", "incomplete-cholesky", 1e-13, COROT_ROLE_DYNAMIC, NULL},
-    {"pcg", "auto", "auto", "amg", 1e-13, COROT_ROLE_DYNAMIC, NULL},
+    {"klu", "amd", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
+    {"klu", "metis", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
+    {"cholmod", "amd", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
+    {"cholmod", "metis", "simplicial", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
+    {"cholmod", "amd", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
+    {"cholmod", "metis", "supernodal", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
+    {"pcg", "auto", "auto", "block-jacobi", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
+    {"pcg", "auto", "auto", "incomplete-cholesky", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
+    {"pcg", "auto", "auto", "amg", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL},
 };
 enum { NSOLVER = sizeof table / sizeof *table };
 
@@ -341,8 +341,7 @@ static bool built(const char *solver) {
   return answer;
 }
 
-/* Slender bodies have little fill and many iterations, compact ones the opposite. In statics
-   cholmod is taken even so where it is built, as it tells whether an equilibrium is stable. */
+/* Slender bodies have little fill and many iterations, compact ones the opposite. */
 static void auto_goes_by_shape_size_and_role(void **state) {
   (void)state;
   static const struct {
@@ -359,7 +358,9 @@ static void auto_goes_by_shape_size_and_role(void **state) {
       {{14, 14, 14}, COROT_ROLE_DYNAMIC, "cholmod supernodal", "pcg"},
       {{1, 1, 8}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
       {{3, 3, 30}, COROT_ROLE_STATIC, "cholmod simplicial", "klu"},
-      {{20, 20, 20}, COROT_ROLE_STATIC, "cholmod supernodal", "pcg"},
+      {{8, 8, 8}, COROT_ROLE_STATIC, "pcg, incomplete-cholesky", "pcg, incomplete-cholesky"},
+      {{20, 20, 20}, COROT_ROLE_STATIC, "pcg, amg", "pcg, amg"},
+      {{6, 6, 36}, COROT_ROLE_STATIC, "pcg, amg", "pcg, amg"},
   };
   bool cholmod = built("cholmod");
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -375,6 +376,38 @@ static void auto_goes_by_shape_size_and_role(void **state) {
   }
 }
 
+/* A machine on which iterations are dear takes factors, and the other way about. */
+static void auto_goes_by_what_things_cost(void **state) {
+  (void)state;
+  corot_csc *csc = box_matrix(8, 8, 8);
+  corot_linear_def def = corot_linear_defaults();
+  corot_linear_costs costs = corot_linear_costs_usual();
+  def.role = COROT_ROLE_STATIC, def.costs = &costs;
+  costs.iterated *= 100, costs.cycled *= 100;
+  assert_int_equal(strncmp(choice_of(&def, csc), corot_linsol_direct, strlen(corot_linsol_direct)),
+                   0);
+  costs.made *= 10000, costs.operation *= 10000;
+  assert_string_equal(choice_of(&def, csc), "pcg, incomplete-cholesky");
+  costs.iterated *= 10;
+  assert_string_equal(choice_of(&def, csc), "pcg, amg");
+  corot_csc_destroy(csc);
+}
+
+/* Found on small cubes here. On any machine a hundred entries cost more than a nanosecond, and amg,
+   which smooths on top of a product, more than that product. */
+static void costs_are_measured(void **state) {
+  (void)state;
+  static const int cells[] = {7, 10};
+  corot_linear_costs c;
+  assert_ok(corot_linear_costs_measure_on(cells, &c));
+  assert_true(c.operation >= 0 && c.made >= 0 && c.operation + c.made > 0);
+  const double measured[] = {c.solved, c.incomplete, c.iterated, c.aggregated, c.cycled};
+  for (size_t k = 0; k < sizeof measured / sizeof *measured; k++)
+    assert_true(measured[k] > 0.01 && isfinite(measured[k]));
+  assert_true(c.cycled > c.iterated);
+  assert_fails(corot_linear_costs_measure(NULL), COROT_EINVAL, "costs");
+}
+
 /* What is named is taken, and what is left open beside it is chosen. */
 static void names_are_obeyed(void **state) {
   (void)state;
@@ -385,7 +418,7 @@ static void names_are_obeyed(void **state) {
   def.solver = "pcg";
   assert_string_equal(choice_of(&def, csc), "pcg, incomplete-cholesky");
   def.role = COROT_ROLE_STATIC;
-  assert_string_equal(choice_of(&def, csc), "pcg, amg");
+  assert_string_equal(choice_of(&def, csc), "pcg, incomplete-cholesky");
   def.preconditioner = "block-jacobi";
   assert_string_equal(choice_of(&def, csc), "pcg, block-jacobi");
   if (built("cholmod")) {
@@ -403,17 +436,18 @@ static void other_names_are_refused(void **state) {
     corot_linear_def def;
     const char *words;
   } cases[] = {
-      {{"umfpack", "auto", "auto", "auto", 1, 0, NULL},
+      {{"umfpack", "auto", "auto", "auto", 1, 0, NULL, NULL},
        "no linear solver 'umfpack': auto, klu, cholmod or pcg"},
-      {{NULL, "auto", "auto", "auto", 1, 0, NULL}, "no linear solver ''"},
-      {{"klu", "colamd", "auto", "auto", 1, 0, NULL}, "no ordering 'colamd': auto, amd or metis"},
-      {{"klu", "auto", "ldl", "auto", 1, 0, NULL},
+      {{NULL, "auto", "auto", "auto", 1, 0, NULL, NULL}, "no linear solver ''"},
+      {{"klu", "colamd", "auto", "auto", 1, 0, NULL, NULL},
+       "no ordering 'colamd': auto, amd or metis"},
+      {{"klu", "auto", "ldl", "auto", 1, 0, NULL, NULL},
        "no factor 'ldl': auto, simplicial or supernodal"},
-      {{"pcg", "auto", "auto", "ilu", 1, 0, NULL},
+      {{"pcg", "auto", "auto", "ilu", 1, 0, NULL, NULL},
        "no preconditioner 'ilu': auto, block-jacobi, incomplete-cholesky, amg, hierarchical or "
        "multigrid"},
-      {{"pcg", "auto", "auto", "auto", 0, 0, NULL}, "tolerance = 0 is not positive"},
-      {{"auto", "auto", "auto", "auto", NAN, 0, NULL}, "is not positive"},
+      {{"pcg", "auto", "auto", "auto", 0, 0, NULL, NULL}, "tolerance = 0 is not positive"},
+      {{"auto", "auto", "auto", "auto", NAN, 0, NULL, NULL}, "is not positive"},
   };
   corot_csc *csc = box_matrix(1, 1, 1);
   linsol_plan plan = {0};
@@ -456,7 +490,7 @@ static void an_order_leaves_signals_to_the_host(void **state) {
   struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGTERM};
   timer_t timer;
   corot_csc *csc = box_matrix(12, 12, 12);
-  corot_linear_def def = {"klu", "metis", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL};
+  corot_linear_def def = {"klu", "metis", "auto", "auto", 1e-13, COROT_ROLE_DYNAMIC, NULL, NULL};
   linsol_plan peace, plan;
   if (corot_linsol_choose(&def, csc, &peace) != COROT_OK) {
     corot_csc_destroy(csc);
@@ -634,6 +668,8 @@ int main(void) {
       cmocka_unit_test(a_factor_beyond_the_memory_is_refused_or_spared),
       cmocka_unit_test(metis_is_not_asked_for_a_factor_that_nothing_makes_fit),
       cmocka_unit_test(the_machine_says_how_much_memory_there_is),
+      cmocka_unit_test(auto_goes_by_what_things_cost),
+      cmocka_unit_test(costs_are_measured),
       cmocka_unit_test(names_are_obeyed),
       cmocka_unit_test(other_names_are_refused),
       cmocka_unit_test(orderings_keep_the_unknowns_of_a_node_together),

@@ -80,6 +80,7 @@ struct linsol_plan {
   int most_direct;      /* unknowns of a coarsest level that a direct solver is left with; 0: the
                            preconditioner's own limit */
   int *order;           /* [unknowns] of a direct solver: an order of little fill; else NULL */
+  double entries, operations; /* of its factor, multiplications to find it */
   const double (*x)[3]; /* [nodes of the mesh] where they are when a matrix is factored, for the
                            solver's life; NULL: not known, or of no importance */
 };
@@ -94,6 +95,9 @@ corot_status corot_linsol_choose(const corot_linear_def *def, const corot_csc *l
 corot_status corot_linsol_choose_within(const corot_memory_limit *memory,
                                         const corot_linear_def *def, const corot_csc *lower,
                                         linsol_plan *plan);
+
+/* corot_linear_costs_measure on cubes of other sizes, in cells along an edge. */
+corot_status corot_linear_costs_measure_on(const int cells[2], corot_linear_costs *costs);
 
 /* The best direct solver of this build. */
 extern COROT_SISTERS const char *const corot_linsol_direct;

@@ -107,34 +107,19 @@ static corot_status check_refinement(const corot_linear_def *d) {
                     d->preconditioner);
 }
 
-/* Nanoseconds of one core (AVX-512, 2 MB of cache; corot-bench solvers), of which only the ratios
-   matter: for an operation of a factorisation and for an entry of the factor that it makes, for an
-   entry in a solution, and for an entry of the matrix in an iteration. */
-static const double operation_ns = HAVE_CHOLMOD ? 0.018 : 0.65, made_ns = HAVE_CHOLMOD ? 20 : 0,
-                    solved_ns = 1.5, iterated_ns = 1.2;
-
 /* From so many operations an entry on, dense blocks pay on one core (with more of them, sooner). */
 static const double dense = 80;
 
 /* As many steps go by between two factorisations, and so many solutions does a step take. */
 static const double steps = 20, solutions = 1.1;
 
-/* Iterations to a residual of 1e-10: with the mass, of a step that resolves the slow motion, as
-   many as there are nodes along an edge, times this; without it, as there are along the body. */
-static const double per_edge = 9, per_length = 20;
-
-/* In statics algebraic multigrid takes the place of incomplete Cholesky from so many unknowns on:
-   for a cube of 1944 it takes 6 ms instead of 10, of 26 460 159 instead of 417; for a bar of 1800 6
-   instead of 14, of 36 504 303 instead of 1330 (corot-bench solvers --role static). A factor and a
-   solution cost as much as `amg_whole` iterations with incomplete Cholesky, an iteration as much as
-   `amg_iteration` of them. In a step the mass may leave so few iterations that nothing is gained.
- */
+/* Iterations of incomplete Cholesky: in a step that resolves the slow motion, to a residual of
+   1e-10, as many as there are nodes along an edge, times `per_edge`; in statics, to the 1e-5 that
+   Newton's iteration asks for, `per_length` times those along the body to the power `growth`. Of
+   algebraic multigrid, which is for statics, as the mass may leave so few iterations that nothing
+   is gained; and for unknowns enough for a second level (corot-bench solvers). */
+static const double per_edge = 9, per_length = 7.3, growth = 1.24, of_amg = 20;
 enum { AMG_LEAST = 1500 };
-static const double amg_whole = 400, amg_iteration = 8;
-
-static bool takes_amg(const corot_csc *csc, corot_role role) {
-  return role == COROT_ROLE_STATIC && csc->n >= AMG_LEAST;
-}
 
 /* Bytes for an entry of the factor: cholmod in dense blocks, with its work space (11 measured, with
    blocks that are filled up), and by columns; klu, which has two factors with their indices. */
@@ -148,7 +133,9 @@ static const double beside = 100, of_iteration = 20;
 /* Factors that need more of the machine than this part are not chosen: others are at work on it. */
 static const double most_of_machine = 1.0 / 3;
 
-static double factor_ns(const graph_fill *f) { return operation_ns * f->flops + made_ns * f->nnz; }
+static double factor_ns(const corot_linear_costs *of, const graph_fill *f) {
+  return of->operation * f->flops + of->made * f->nnz;
+}
 
 static bool pays_in_blocks(const graph_fill *f) { return f->flops > dense * f->nnz; }
 
@@ -212,19 +199,33 @@ static corot_status order_nodes(const corot_csc *csc, node_graph *g,
   return status;
 }
 
+/* Set-up and iterations of one solution in statics. */
+static double iterated_static_ns(const corot_linear_costs *of, const char *preconditioner,
+                                 const corot_csc *csc, node_graph *g) {
+  if (strcmp(preconditioner, corot_amg.name) == 0)
+    return (of->aggregated + of_amg * of->cycled) * csc->nnz;
+  double iterations = per_length * pow(corot_graph_length(g) + 1, growth);
+  return (of->incomplete + iterations * of->iterated) * csc->nnz;
+}
+
+static const char *choose_preconditioner(const corot_linear_costs *of, const corot_csc *csc,
+                                         node_graph *g, corot_role role) {
+  static const char usual[] = "incomplete-cholesky";
+  if (role != COROT_ROLE_STATIC || csc->n < AMG_LEAST) return usual;
+  return iterated_static_ns(of, corot_amg.name, csc, g) < iterated_static_ns(of, usual, csc, g)
+             ? corot_amg.name
+             : usual;
+}
+
 /* Whether conjugate gradients are the faster, by a margin: a factor does not depend on how well
    conditioned a matrix is, nor on the guesses above. */
-static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill *f,
-                           corot_role role) {
+static bool iteration_pays(const corot_linear_def *d, const corot_csc *csc, node_graph *g,
+                           const graph_fill *f) {
   const double margin = 1.15;
-  if (role == COROT_ROLE_STATIC && HAVE_CHOLMOD)
-    return false; /* pcg cannot tell a stable equilibrium */
-  double factor = factor_ns(f), solution = solved_ns * f->nnz;
-  if (role == COROT_ROLE_STATIC) {
-    double iterations = takes_amg(csc, role) ? amg_whole : per_length * (corot_graph_length(g) + 1);
-    return margin * iterations * iterated_ns * csc->nnz < factor + solution;
-  }
-  double iteration = per_edge * cbrt(g->n) * iterated_ns * csc->nnz;
+  double factor = factor_ns(d->costs, f), solution = d->costs->solved * f->nnz;
+  if (d->role == COROT_ROLE_STATIC)
+    return margin * iterated_static_ns(d->costs, d->preconditioner, csc, g) < factor + solution;
+  double iteration = per_edge * cbrt(g->n) * d->costs->iterated * csc->nnz;
   return margin * solutions * iteration < factor / steps + solutions * solution;
 }
 
@@ -233,11 +234,12 @@ static bool iteration_pays(const corot_csc *csc, node_graph *g, const graph_fill
    direct solver that was not chosen are kept, and one system may cost three factors and solutions
    (see corot_pencil_solve). */
 static void limit_iterations(const corot_csc *csc, const graph_fill *f, linsol_plan *plan) {
+  const corot_linear_costs *of = plan->def.costs;
   const char *preconditioner = plan->def.preconditioner;
   bool amg = preconditioner && strcmp(preconditioner, corot_amg.name) == 0;
-  double iteration = (amg ? amg_iteration : 1) * iterated_ns * csc->nnz;
-  plan->rival.factor = factor_ns(f) / iteration;
-  plan->rival.solution = solved_ns * f->nnz / iteration;
+  double iteration = (amg ? of->cycled : of->iterated) * csc->nnz;
+  plan->rival.factor = factor_ns(of, f) / iteration;
+  plan->rival.solution = of->solved * f->nnz / iteration;
   plan->most_iterations = 100 + lround(fmin(1e9, 3 * (plan->rival.factor + plan->rival.solution)));
 }
 
@@ -245,7 +247,7 @@ static corot_status decide(const corot_csc *csc, node_graph *g, const graph_fill
                            const corot_memory_limit *memory, linsol_plan *plan) {
   corot_linear_def *d = &plan->def;
   bool too_large = is_too_large(d, csc, f, memory), fits = bytes_of(d, csc, f) <= memory->process;
-  if (!d->solver && (too_large || iteration_pays(csc, g, f, d->role))) {
+  if (!d->solver && (too_large || iteration_pays(d, csc, g, f))) {
     d->solver = corot_linsol_pcg.name;
     /* a large factor is made where iterations fail, not where they are slow; one that does not fit
        is never made */
@@ -272,25 +274,35 @@ static corot_status analyze(const corot_csc *csc, node_graph *g, const corot_mem
   for (int k = 0, i = 0; k < g->n && !status; k++)
     for (int j = g->first[nodes[k]]; j < g->first[nodes[k] + 1]; j++) plan->order[i++] = j;
   free(nodes);
+  plan->entries = fill.nnz, plan->operations = fill.flops;
   return status ? status : decide(csc, g, &fill, memory, plan);
+}
+
+/* A direct solver needs the order of its unknowns, and a choice the lengths of the graph. */
+static corot_status look_at_graph(const corot_csc *lower, const corot_memory_limit *memory,
+                                  linsol_plan *p) {
+  corot_linear_def *d = &p->def;
+  bool iterative = d->solver && row_of(d->solver)->iterative;
+  if (iterative && d->preconditioner) return COROT_OK;
+  node_graph g = {0};
+  corot_status status = corot_graph_create(lower, &g);
+  if (!status && !d->preconditioner)
+    d->preconditioner = choose_preconditioner(d->costs, lower, &g, d->role);
+  if (!status && !iterative) status = analyze(lower, &g, memory, p);
+  corot_graph_clear(&g);
+  return status;
 }
 
 corot_status corot_linsol_choose_within(const corot_memory_limit *memory,
                                         const corot_linear_def *def, const corot_csc *lower,
                                         linsol_plan *plan) {
+  const corot_linear_costs usual = corot_linear_costs_usual();
   linsol_plan p = {.def = *def};
-  node_graph g = {0};
   COROT_TRY(look_up_all(&p.def));
-  corot_status status = COROT_OK;
-  const linsol_ops *asked = row_of(p.def.solver);
-  p.by_cost = !asked;
-  if (!p.def.preconditioner)
-    p.def.preconditioner = takes_amg(lower, def->role) ? corot_amg.name : "incomplete-cholesky";
-  if (!asked || !asked->iterative) {
-    status = corot_graph_create(lower, &g);
-    if (!status) status = analyze(lower, &g, memory, &p);
-  }
-  corot_graph_clear(&g);
+  p.by_cost = !p.def.solver;
+  if (!p.def.costs) p.def.costs = &usual;
+  corot_status status = look_at_graph(lower, memory, &p);
+  p.def.costs = NULL;
   if (!status) status = check_refinement(&p.def);
   if (!status) status = find(&p);
   if (status) {

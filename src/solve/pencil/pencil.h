@@ -54,7 +54,7 @@ COROT_SISTERS corot_status corot_pencil_factor_definite(corot_pencil *pencil);
 
 /* The same, and an iterative solver makes sure. *known: whether it could; if not, its iteration
    does not converge. */
-corot_status corot_pencil_factor_proved(corot_pencil *pencil, bool *known);
+COROT_SISTERS corot_status corot_pencil_factor_proved(corot_pencil *pencil, bool *known);
 
 /* Factor and solution of K = S(0, 0, 1) as it was assembled; where K is not positive definite a
    clamped one takes its place. That leads downhill in the energy, so that Newton's iteration does
@@ -64,7 +64,7 @@ COROT_SISTERS corot_status corot_pencil_solve_downhill(corot_pencil *pencil, con
                                                        double *x);
 
 /* The relative residual of solutions from now on, of an iterative solver; 0: the definition's. */
-void corot_pencil_aim(corot_pencil *pencil, double tolerance);
+COROT_SISTERS void corot_pencil_aim(corot_pencil *pencil, double tolerance);
 
 /* y = S^-1 M x [n] by the latest factor, S = M + g D + g^2 K: x where a mode is slow, g w small,
    and x / (g w)^2 where it is fast: what a step of an implicit method resolves. y may be x. */
