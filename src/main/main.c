@@ -36,6 +36,7 @@ static const char help[] =
     "  export-fmu MODEL.yaml\n"
     "                       pack it for programs that couple models (FMI 3.0)\n"
     "  schema [KEY]         every key of a scenario: type, unit, default, meaning\n"
+    "  tune                 measure which linear solvers are fast on this machine\n"
     "  mesh box             generate the mesh of a box\n"
     "  mesh info FILE       size, shape and groups of a mesh\n"
     "  mesh refine FILE     cut every tet into eight\n"
@@ -79,8 +80,8 @@ static void tell(const char *name, const char *value) {
 
 /* The commands that factor: a run has the same last digits by itself as in a study. */
 static bool is_factoring(const char *name) {
-  static const char *const factoring[] = {"run",    "static", "modes",     "study",
-                                          "budget", "solve",  "find-limit"};
+  static const char *const factoring[] = {"run",    "static", "modes",      "study",
+                                          "budget", "solve",  "find-limit", "tune"};
   for (size_t i = 0; i < sizeof factoring / sizeof *factoring; i++)
     if (strcmp(name, factoring[i]) == 0) return true;
   return false;
@@ -112,21 +113,14 @@ static void leave_at_once_if_limited(int code) {
 
 int main(int argc, char **argv) {
   static const command table[] = {
-      {"run", command_run},
-      {"static", command_static},
-      {"modes", command_modes},
-      {"check", command_check},
-      {"study", command_study},
-      {"budget", command_budget},
-      {"solve", command_solve},
-      {"find-limit", command_find_limit},
-      {"plot", command_study_plot},
-      {"report", command_report},
-      {"schema", command_schema},
-      {"mesh", command_mesh},
-      {"export-fmu", command_export_fmu},
-      {"--version", print_version},
-      {0},
+      {"run", command_run},         {"static", command_static},
+      {"modes", command_modes},     {"check", command_check},
+      {"study", command_study},     {"budget", command_budget},
+      {"solve", command_solve},     {"find-limit", command_find_limit},
+      {"plot", command_study_plot}, {"report", command_report},
+      {"schema", command_schema},   {"tune", command_tune},
+      {"mesh", command_mesh},       {"export-fmu", command_export_fmu},
+      {"--version", print_version}, {0},
   };
   libraries_are_loaded();
   first_signals_restore();

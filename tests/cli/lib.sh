@@ -5,8 +5,9 @@ rm -rf "$2"
 mkdir -p "$2"
 cd "$2" || exit 1
 failed=0
-# As most users have it: nothing said of threads.
+# As most users have it: nothing said of threads, and nothing measured of solvers.
 unset OPENBLAS_NUM_THREADS OMP_NUM_THREADS
+export XDG_CONFIG_HOME=$PWD/no-configuration
 
 complain() {
   echo "FAILED: $*"

@@ -15,6 +15,7 @@ int command_static(int argc, char **argv);
 int command_modes(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_schema(int argc, char **argv);
+int command_tune(int argc, char **argv);
 int command_mesh(int argc, char **argv);
 int command_mesh_box(int argc, char **argv);
 int command_mesh_info(int argc, char **argv);

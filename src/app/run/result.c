@@ -162,10 +162,8 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
   json_t *provenance;
   COROT_TRY(provenance_make(&provenance));
   json_t *result = json_pack(
-      "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:i, s:o, s:o, "
-      "s:o, "
-      "s:o, s:o, s:o, s:o,"
-      " s:o, s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
+      "{s:o, s:s, s:o, s:o, s:i, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:i, s:s, s:o, "
+      "s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:{s:s, s:s, s:s}, s:O}",
       "title", text(s->title), "status", run->status, "reason", text(run->reason), "failure",
       run_failure_json(run->failure), "exit_code", run->exit_code, "t_reached",
       json_text_real(run->t_reached), "t_end", json_text_real(s->t_end), "warnings",
@@ -174,12 +172,13 @@ corot_status result_make(const scenario *s, const outputs *o, const run_summary 
       "integrator", run->statics ? json_null() : integrator_part(s, &run->chosen), "statics",
       run->statics ? result_statics(s, run->statics) : json_null(), "statistics",
       run->statics ? result_statics_counts(&run->statics->counts) : statistics_part(run), "timings",
-      timings_part(run), "threads", run->threads, "memory", memory_part(run), "probes",
-      outputs_probes(o), "energy", energy_part(o), "quantities", outputs_quantities(o), "extremes",
-      extremes_part(o), "observed", observed_part(run), "steps_csv", steps_part(o), "fields",
-      fields_part(s, run), "space_error", space_json(outputs_recorded(o), &run->seen->space),
-      "versions", result_versions(), "provenance", provenance, "hashes", "scenario", h->scenario,
-      "mesh", h->mesh, "run", h->run, "scenario", s->resolved);
+      timings_part(run), "threads", run->threads, "solver_costs", s->tuned ? "measured" : "usual",
+      "memory", memory_part(run), "probes", outputs_probes(o), "energy", energy_part(o),
+      "quantities", outputs_quantities(o), "extremes", extremes_part(o), "observed",
+      observed_part(run), "steps_csv", steps_part(o), "fields", fields_part(s, run), "space_error",
+      space_json(outputs_recorded(o), &run->seen->space), "versions", result_versions(),
+      "provenance", provenance, "hashes", "scenario", h->scenario, "mesh", h->mesh, "run", h->run,
+      "scenario", s->resolved);
   if (!run->statics && run->nresume >= 0)
     result = json_text_with(result, "resumed", integer(run->nresume));
   if (!result) return corot_fail(COROT_ENOMEM, "result.json: out of memory");

@@ -122,6 +122,9 @@ typedef struct scenario {
   double checkpoint_every; /* [s] on the clock */
   long checkpoint_steps;   /* 0: no checkpoints */
 
+  corot_linear_costs costs; /* that a linear solver is chosen by, */
+  bool tuned;               /* if they have been measured; else the usual ones are */
+
   json_t *resolved;      /* the whole scenario, defaults and overrides included */
   struct config *source; /* the file as a tree, for the places in messages; owns the memory */
 } scenario;

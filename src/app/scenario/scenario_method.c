@@ -1,4 +1,5 @@
 /* How the body is taken through time: mass, frames, viscous law, integrator. */
+#include "costs_file.h"
 #include "scenario_parts.h"
 
 static const struct {
@@ -100,12 +101,23 @@ corot_status scenario_refuse_levels(const scenario *s) {
                      s->marks ? " without mesh.marks, or ten-node tets" : "");
 }
 
-static void read_linear_solver(config_node *node, corot_linear_def *def) {
+/* Whether the costs of solvers have a say. */
+static bool is_to_choose(const corot_linear_def *def) {
+  const char *open = strcmp(def->solver, "pcg") == 0 ? def->preconditioner : def->solver;
+  return strcmp(open, "auto") == 0;
+}
+
+/* The costs stay in the scenario. */
+static corot_status read_linear_solver(scenario *s, corot_linear_def *def) {
+  config_node *node = config_find(s->source->root, "linear_solver");
   def->solver = text_at(node, "name");
   def->ordering = text_at(node, "ordering");
   def->factor = text_at(node, "factor");
   def->preconditioner = text_at(node, "preconditioner");
   def->tolerance = number_at(node, "tolerance");
+  if (is_to_choose(def)) COROT_TRY(costs_file_read(&s->costs, &s->tuned));
+  if (s->tuned) def->costs = &s->costs;
+  return COROT_OK;
 }
 
 static corot_status read_controlled_step(config_node *node, corot_integrator_def *def) {
@@ -133,7 +145,7 @@ static corot_status read_integrator(scenario *s) {
   def.refactorisation = (int)number_at(node, "jacobian.refactorisation");
   def.gamma_change = number_at(node, "jacobian.gamma_change");
   def.convergence = number_at(node, "jacobian.convergence");
-  read_linear_solver(config_find(root, "linear_solver"), &def.linear);
+  COROT_TRY(read_linear_solver(s, &def.linear));
   COROT_TRY(read_controlled_step(node, &def));
   COROT_TRY(read_stages(node, &def));
   COROT_TRY(read_constant_step(node, &def));
