@@ -232,7 +232,8 @@ COROT_API corot_status corot_mesh_box(const corot_box *box, corot_mesh **mesh);
 
 /* Writes gmsh 2.2 ASCII, with all groups as physical groups of points, triangles and tets, of 6 and
    10 nodes at order 2: reading
-   it gives the same mesh to the last bit. Written beside `path` first, so that a failed write
+   it gives the same mesh to the last bit, but that a group has all nodes of its faces and tets, which
+   a difference of others (corot_mesh_group_combine) need not have. Written beside `path` first, so that a failed write
    (COROT_EIO, COROT_ENOMEM) leaves what was there. */
 COROT_API corot_status corot_mesh_write(const corot_mesh *mesh, const char *path);
 
@@ -278,6 +279,55 @@ COROT_API corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name
    COROT_EINVAL if min is not at most max. */
 COROT_API corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
                                             const double max[3], double tol);
+
+/* The nodes in a shape, or at most `tol` outside of it; tol and failures as above. A sphere. COROT_EINVAL,
+   too, if the radius is not > 0, or a coordinate is not finite. Where no node is there, the message has
+   the nearest and how far outside it is; of box and plane the same. */
+COROT_API corot_status corot_mesh_group_sphere(corot_mesh *mesh, const char *name,
+                                               const double center[3], double radius, double tol);
+
+/* A round cylinder, whose flat ends have their centers in `from` and `to`; as above, and COROT_EINVAL
+   if these are one point. */
+COROT_API corot_status corot_mesh_group_cylinder(corot_mesh *mesh, const char *name,
+                                                 const double from[3], const double to[3],
+                                                 double radius, double tol);
+
+/* The half of space that begins at a plane through `point` and that `normal`, of any length but 0,
+   points into; COROT_EINVAL as above, and if the normal has no direction. COROT_ENOMEM. */
+COROT_API corot_status corot_mesh_group_half_space(corot_mesh *mesh, const char *name,
+                                                   const double point[3], const double normal[3],
+                                                   double tol);
+
+/* Adds a group of the boundary faces whose outward normals, of the flat triangle of the corners, make
+   an angle of at most `angle` [rad] (and 1e-6) with `direction`, of any length but 0; with their
+   nodes, and no tets. COROT_EINVAL: there is none, and the message has the smallest angle; the
+   direction is zero or not finite; the angle is negative, above 4 or none; of the name as above.
+   COROT_ENOMEM. */
+COROT_API corot_status corot_mesh_group_normal(corot_mesh *mesh, const char *name,
+                                               const double direction[3], double angle);
+
+/* Adds a group of the nodes that are at most `distance` [m] (and 1e-6 of the mesh's diagonal) away from
+   the nodes, faces and tets of the group `other`, which are among them; of order 2 the corners, from
+   flat faces, and nodes on edges as above. COROT_EINVAL: there is no such group, or the distance is
+   negative or not finite; at order 2, all nodes of the other are on edges, and no corner is near. COROT_ENOMEM. */
+COROT_API corot_status corot_mesh_group_near(corot_mesh *mesh, const char *name, const char *other,
+                                             double distance);
+
+typedef enum corot_set_operation {
+  COROT_UNION,        /* what is in one of the groups */
+  COROT_INTERSECTION, /* what is in all */
+  COROT_DIFFERENCE,   /* what is in the first and in none of the others */
+} corot_set_operation;
+
+/* Adds a group made of the groups `other` [n], n >= 2: of their nodes, of their faces, whichever way
+   these wind, and of their tets, each by themselves. So a union has no face that only some corners
+   of each have, and a difference keeps faces whose corners are in the others, too, as nodes do not:
+   where the sides of a box meet, "zmax without xmin" has all triangles of zmax and not the nodes of
+   the edge. COROT_EINVAL: no node is left; there is no such group or operation, or n < 2; of the name
+   as above. COROT_ENOMEM. */
+COROT_API corot_status corot_mesh_group_combine(corot_mesh *mesh, const char *name,
+                                                corot_set_operation operation, int n,
+                                                const char *const *other);
 
 /* Add a group of listed tets, with all their nodes and no triangles: what a material fills.
    COROT_EINVAL: no tet is listed, or one that does not exist; of the name as above. COROT_ENOMEM.

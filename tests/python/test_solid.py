@@ -101,6 +101,23 @@ class Meshes(Folder):
         np.testing.assert_array_equal(mesh.group("tets").tet, [1, 3])
         mesh.group_box("box", [0, 0, 0], [0.5, 1, 1])
         self.assertEqual(len(mesh.group("box").node), 18)
+        mesh.group_sphere("sphere", [0, 0, 0], 0.5)
+        mesh.group_cylinder("cylinder", [0.5, 0.5, 0], [0.5, 0.5, 1], 0.1)
+        mesh.group_half_space("half", [0, 0, 0.5], [0, 0, -1])
+        mesh.group_normal("normal", [0, 0, 1], 0.1)
+        mesh.group_near("near", "normal", 0.5)
+        mesh.group_combine("both", "intersection", ["half", "near"])
+        mesh.group_combine("rest", "difference", ["half", "near"])
+        sizes = [len(mesh.group(name).node)
+                 for name in ("sphere", "cylinder", "half", "normal", "near", "both", "rest")]
+        self.assertEqual(sizes, [4, 3, 18, 9, 18, 9, 9])
+        np.testing.assert_array_equal(mesh.group("normal").tri, top.tri)
+        with self.assertRaisesRegex(corot.InvalidError, "the nearest is node 0 at"):
+            mesh.group_sphere("new", [-1, -1, -1], 0.5)
+        self.assertRaises(corot.InvalidError, mesh.group_near, "new", "none", 1.0)
+        with self.assertRaisesRegex(corot.InvalidError, "one of union, intersection, difference"):
+            mesh.group_combine("new", "minus", ["half", "near"])
+        self.assertRaises(TypeError, mesh.group_combine, "new", "union", [1, 2])
         for name in ("nodes", "", 'a"b', "x" * 128, "a\0b"):
             self.assertRaises(corot.InvalidError, mesh.group_nodes, name, [0])
         self.assertRaises(corot.InvalidError, mesh.group_nodes, "new", [27])

@@ -221,7 +221,10 @@ static void keys_together(void **state) {
       {MINIMAL "loads: [{group: a, gravity: [0, 0, 1]}]", "4:10: loads[0].group: gravity acts on"},
       {MINIMAL "loads: [{traction: [0, 0, 1], gravity: [0, 0, 1]}]",
        "4:31: loads[0].gravity: traction and gravity exclude each other"},
-      {MINIMAL "groups: {a: {}}", "4:10: groups.a: plane or box or nodes is missing"},
+      {MINIMAL "groups: {a: {}}",
+       "4:10: groups.a: plane or box or sphere or cylinder or half_space or normal or near or "
+       "union or "
+       "intersection or difference or nodes is missing"},
       {MINIMAL "groups: {a: {plane: {axis: x}}}", "4:14: groups.a.plane: at is missing"},
       {MINIMAL "probes: {a: {node: 1, point: [0, 0, 0]}}",
        "4:14: probes.a.node: point and node exclude each other"},

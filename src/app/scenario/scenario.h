@@ -12,16 +12,32 @@
 #include "probe_quantity.h"
 #include "scenario_keys.h"
 
-typedef enum group_kind { GROUP_PLANE, GROUP_BOX, GROUP_NODES } group_kind;
+typedef enum group_kind {
+  GROUP_PLANE,
+  GROUP_BOX,
+  GROUP_NODES,
+  GROUP_SPHERE,
+  GROUP_CYLINDER,
+  GROUP_HALF_SPACE,
+  GROUP_NORMAL,
+  GROUP_NEAR,
+  GROUP_COMBINED,
+} group_kind;
 
 typedef struct group_def {
   const char *name;
   group_kind kind;
   int axis; /* plane */
   double at;
-  double min[3], max[3]; /* box */
-  int nnode;             /* nodes */
+  double min[3], max[3];     /* box; the ends of a cylinder */
+  double point[3], along[3]; /* sphere, half-space; normal */
+  double size;               /* radius, angle or distance */
+  corot_set_operation operation;
+  int nother; /* groups that it is made of */
+  const char *const *other;
+  int nnode; /* nodes */
   const int *node;
+  const struct config_node *entry; /* of the scenario: the name is its key */
 } group_def;
 
 /* All zero but the name: the displacement of node 0. */
@@ -82,7 +98,7 @@ typedef struct scenario {
   int order;         /* of the mesh; 0: as it is */
   corot_diagonal diagonal;
   int ngroup;
-  const group_def *group;
+  const group_def *group; /* [ngroup] those that others are made of before these */
 
   corot_model_def model;         /* all but the mesh, which scenario_build makes; model.hierarchy is
                                     NULL or the address of */

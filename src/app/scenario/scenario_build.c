@@ -30,29 +30,6 @@ static corot_status load_mesh(const scenario *s, corot_mesh **mesh, warnings *w)
   return status;
 }
 
-static corot_status add_group(const group_def *g, corot_mesh *mesh) {
-  switch (g->kind) {
-    case GROUP_PLANE:
-      return corot_mesh_group_plane(mesh, g->name, g->axis, g->at, 0);
-    case GROUP_BOX:
-      return corot_mesh_group_box(mesh, g->name, g->min, g->max, 0);
-    default:
-      return corot_mesh_group_nodes(mesh, g->name, g->nnode, g->node);
-  }
-}
-
-/* Those by numbers of nodes, or the others. */
-static corot_status add_groups(const scenario *s, bool by_number, corot_mesh *mesh) {
-  const config_node *node = place(s, "groups")->child;
-  for (int i = 0; i < s->ngroup; i++, node = node->next) {
-    if ((s->group[i].kind == GROUP_NODES) != by_number) continue;
-    corot_status status = add_group(&s->group[i], mesh);
-    if (status == COROT_ENOMEM) return status;
-    if (status != COROT_OK) return config_fail_key(node, "%s", corot_error());
-  }
-  return COROT_OK;
-}
-
 /* Level 0 has four-node tets, and order 2 is the last level. */
 static corot_status check_hierarchy(const scenario *s, const corot_mesh *mesh) {
   if (!s->model.hierarchy || !mesh->mid || s->order == 1) return COROT_OK;
@@ -114,13 +91,13 @@ static corot_status build_mesh(const scenario *s, corot_mesh **out, corot_refine
   corot_mesh *mesh = NULL;
   COROT_TRY(load_mesh(s, &mesh, w));
   corot_status status = check_memory(s, mesh);
-  if (status == COROT_OK) status = add_groups(s, true, mesh);
+  if (status == COROT_OK) status = scenario_add_groups(s, true, mesh);
   if (status == COROT_OK) status = check_hierarchy(s, mesh);
   if (status == COROT_OK && s->order == 1) status = set_order(s, &mesh, NULL);
   if (status == COROT_OK) status = refine(s, &mesh, refinement);
   if (status == COROT_OK && s->order == 2) status = set_order(s, &mesh, *refinement);
   if (status == COROT_OK) status = check_levels(s, *refinement);
-  if (status == COROT_OK) status = add_groups(s, false, mesh);
+  if (status == COROT_OK) status = scenario_add_groups(s, false, mesh);
   if (status == COROT_OK)
     *out = mesh;
   else

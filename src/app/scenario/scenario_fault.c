@@ -8,14 +8,10 @@
 
 /* --- Groups --- */
 
-static const char *nearest_name(const char *typed, const corot_mesh *mesh) {
-  const char *near = NULL;
-  for (int i = 0, nearest = 4; i < mesh->ngroup; i++) {
-    const char *name = mesh->group[i].name;
-    int distance = suggest_distance(typed, name);
-    if (distance < nearest && 2 * distance <= (int)strlen(name)) nearest = distance, near = name;
-  }
-  return near;
+/* Of two names that were meant, the nearer to what is typed; `near` may be NULL. */
+static const char *nearer(const char *typed, const char *near, const char *name) {
+  int distance = suggest_distance(typed, name), most = near ? suggest_distance(typed, near) : 4;
+  return distance < most && 2 * distance <= (int)strlen(name) ? name : near;
 }
 
 static void list_names(const corot_mesh *mesh, size_t size, char *list) {
@@ -28,12 +24,23 @@ static void list_names(const corot_mesh *mesh, size_t size, char *list) {
   }
 }
 
-corot_status scenario_unknown_group(const config_node *node, const corot_mesh *mesh) {
-  const char *near = nearest_name(node->text, mesh);
+static corot_status refuse_name(const config_node *node, const corot_mesh *mesh, const char *near) {
   char list[256] = "none";
+  for (int i = 0; i < mesh->ngroup; i++) near = nearer(node->text, near, mesh->group[i].name);
   list_names(mesh, sizeof list, list);
   if (near) return config_fail(node, "no group %.64s; did you mean %s?", node->text, near);
   return config_fail(node, "no group %.64s; there are: %s", node->text, list);
+}
+
+corot_status scenario_unknown_group(const config_node *node, const corot_mesh *mesh) {
+  return refuse_name(node, mesh, NULL);
+}
+
+corot_status scenario_unknown_other(const scenario *s, const config_node *node,
+                                    const corot_mesh *mesh) {
+  const char *near = NULL;
+  for (int i = 0; i < s->ngroup; i++) near = nearer(node->text, near, s->group[i].name);
+  return refuse_name(node, mesh, near);
 }
 
 /* --- Places --- */

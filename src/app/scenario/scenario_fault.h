@@ -12,4 +12,8 @@ corot_status scenario_told(const scenario *s, const corot_mesh *mesh, corot_stat
 /* COROT_EFORMAT: no such group, or which may have been meant. */
 corot_status scenario_unknown_group(const struct config_node *node, const corot_mesh *mesh);
 
+/* The same where groups are made, of which more may follow. */
+corot_status scenario_unknown_other(const scenario *s, const struct config_node *node,
+                                    const corot_mesh *mesh);
+
 #endif

@@ -12,6 +12,12 @@
 #include "scenario.h"
 #include "words.h"
 
+/* groups, in an order in which they can be made */
+corot_status scenario_read_groups(scenario *s);
+
+/* The groups by numbers of nodes, or the others, on the mesh. */
+corot_status scenario_add_groups(const scenario *s, bool by_number, corot_mesh *mesh);
+
 /* boundary and loads */
 corot_status scenario_read_conditions(scenario *s);
 

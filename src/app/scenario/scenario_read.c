@@ -8,7 +8,7 @@
 #include "scenario_fault.h"
 #include "scenario_parts.h"
 
-/* --- Mesh and groups --- */
+/* --- Mesh --- */
 
 static corot_status read_order(scenario *s) {
   config_node *order = config_find(s->source->root, "mesh.order");
@@ -42,47 +42,6 @@ static corot_status read_mesh(scenario *s) {
   vector_at(box, "origin", s->box.origin);
   for (int i = 0; i < 3; i++) s->box.cells[i] = (int)cells[i];
   s->box.split = (corot_box_split)choice_at(box, "split", words_box_split);
-  return COROT_OK;
-}
-
-static corot_status read_nodes(config *tree, const config_node *list, group_def *group) {
-  int *node = config_alloc(tree, (size_t)list->nchild, sizeof *node);
-  if (!node) return no_memory();
-  const config_node *c = list->child;
-  for (int i = 0; i < list->nchild; i++, c = c->next) node[i] = (int)c->number;
-  group->kind = GROUP_NODES;
-  group->nnode = list->nchild;
-  group->node = node;
-  return COROT_OK;
-}
-
-static corot_status read_group(config *tree, config_node *node, group_def *group) {
-  group->name = node->key;
-  config_node *nodes = config_find(node, "nodes");
-  if (nodes) return read_nodes(tree, nodes, group);
-  config_node *plane = config_find(node, "plane");
-  if (plane) {
-    group->kind = GROUP_PLANE;
-    group->axis = text_at(plane, "axis")[0] - 'x';
-    group->at = number_at(plane, "at");
-    return COROT_OK;
-  }
-  config_node *box = config_find(node, "box");
-  group->kind = GROUP_BOX;
-  vector_at(box, "min", group->min);
-  vector_at(box, "max", group->max);
-  for (int i = 0; i < 3; i++)
-    if (group->min[i] > group->max[i]) return config_fail(box, "min is larger than max");
-  return COROT_OK;
-}
-
-static corot_status read_groups(scenario *s) {
-  config_node *map = config_find(s->source->root, "groups");
-  group_def *group = config_alloc(s->source, (size_t)map->nchild, sizeof *group);
-  if (!group) return no_memory();
-  s->group = group;
-  for (config_node *c = map->child; c; c = c->next)
-    COROT_TRY(read_group(s->source, c, &group[s->ngroup++]));
   return COROT_OK;
 }
 
@@ -225,7 +184,7 @@ static corot_status read_all(scenario *s, const char *path, const overrides *o) 
   s->path = config_copy(s->source, path, strlen(path));
   if (!s->path) return no_memory();
   COROT_TRY(read_mesh(s));
-  COROT_TRY(read_groups(s));
+  COROT_TRY(scenario_read_groups(s));
   COROT_TRY(read_materials(s));
   s->model.strain = text_at(s->source->root, "strain");
   COROT_TRY(scenario_read_conditions(s));

@@ -100,6 +100,7 @@ static json_t *resolve_value(const config_node *node, const schema_key *key) {
     case SCHEMA_TEXT:
       return json_string(node->text);
     case SCHEMA_WORDS:
+    case SCHEMA_TEXTS:
       return texts(node);
     case SCHEMA_NUMBER:
     case SCHEMA_INTEGER:

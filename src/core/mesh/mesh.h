@@ -130,6 +130,16 @@ corot_status corot_mesh_add_group(corot_status status, corot_mesh *mesh, const c
 corot_status corot_mesh_group_marked(corot_mesh *mesh, const char *name, const char *mark, int ntri,
                                      const int (*boundary)[3]);
 
+/* The same of the mesh's own boundary. */
+corot_status corot_mesh_add_marked(corot_mesh *mesh, const char *name, const char *mark);
+
+/* A millionth of the diagonal: what a tolerance of 0 stands for [m]. */
+double corot_mesh_near(const corot_mesh *mesh);
+
+/* unit = along / |along|; COROT_EINVAL: it has no direction. `what` it is of group `name`. */
+corot_status corot_mesh_unit(const char *name, const char *what, const double along[3],
+                             double unit[3]);
+
 void corot_group_clear(corot_group *group);
 
 /* slope[a] = dX / dl_a of the map by the ten shape functions, at the volume coordinates `at` and of

@@ -1,5 +1,4 @@
 /* Named groups, selected by their nodes. */
-#include <math.h>
 #include <string.h>
 
 #include "core/mesh/refine/mesh_refine.h"
@@ -89,7 +88,7 @@ corot_status corot_mesh_group_marked(corot_mesh *mesh, const char *name, const c
   return corot_mesh_add_group(status, mesh, name, &g);
 }
 
-static corot_status add_marked(corot_mesh *mesh, const char *name, const char *mark) {
+corot_status corot_mesh_add_marked(corot_mesh *mesh, const char *name, const char *mark) {
   int ntri, (*tri)[3];
   COROT_TRY(corot_mesh_boundary(mesh, &ntri, &tri));
   corot_status status = corot_mesh_group_marked(mesh, name, mark, ntri, (const int(*)[3])tri);
@@ -108,66 +107,7 @@ corot_status corot_mesh_group_nodes(corot_mesh *mesh, const char *name, int nnod
                         node[i], mesh->nnode - 1);
   COROT_TRY(COROT_ALLOC(mark, mesh->nnode));
   for (int i = 0; i < nnode; i++) mark[node[i]] = 1;
-  corot_status status = add_marked(mesh, name, mark);
+  corot_status status = corot_mesh_add_marked(mesh, name, mark);
   free(mark);
   return status;
-}
-
-/* Marks the corners in the box; the value is the number of nodes marked. */
-static int mark_box(const corot_mesh *mesh, const double min[3], const double max[3], double tol,
-                    char *mark) {
-  int n = 0;
-  for (int i = 0; i < mesh->nnode; i++) {
-    bool in = true;
-    for (int k = 0; k < 3; k++)
-      in = in && mesh->x[i][k] >= min[k] - tol && mesh->x[i][k] <= max[k] + tol;
-    mark[i] = in;
-  }
-  for (int e = 0; mesh->mid && e < mesh->ntet; e++)
-    for (int k = 0; k < 6; k++) mark[mesh->mid[e][k]] = 0;
-  for (int i = 0; i < mesh->nnode; i++) n += mark[i];
-  return n;
-}
-
-static corot_status no_nodes(const corot_mesh *mesh, const char *name, double tol) {
-  double lo[3], hi[3];
-  corot_mesh_bounds(mesh, lo, hi);
-  return corot_fail(COROT_EINVAL,
-                    "group '%s': no %s is there (tolerance %g); the mesh fills [%g, %g] x [%g, "
-                    "%g] x [%g, %g]",
-                    name, mesh->mid ? "corner of a tet" : "node", tol, lo[0], hi[0], lo[1], hi[1],
-                    lo[2], hi[2]);
-}
-
-corot_status corot_mesh_group_box(corot_mesh *mesh, const char *name, const double min[3],
-                                  const double max[3], double tol) {
-  char *mark;
-  COROT_TRY(COROT_GIVEN(mesh));
-  COROT_TRY(COROT_GIVEN(min));
-  COROT_TRY(COROT_GIVEN(max));
-  if (!(tol >= 0))
-    return corot_fail(COROT_EINVAL, "group '%s': the tolerance is %g, not >= 0", name, tol);
-  for (int k = 0; k < 3; k++)
-    if (!(min[k] <= max[k]))
-      return corot_fail(COROT_EINVAL, "group '%s': min is %g and max is %g along %c", name, min[k],
-                        max[k], "xyz"[k]);
-  if (tol == 0) {
-    double lo[3], hi[3];
-    corot_mesh_bounds(mesh, lo, hi);
-    tol = 1e-6 * sqrt(pow(hi[0] - lo[0], 2) + pow(hi[1] - lo[1], 2) + pow(hi[2] - lo[2], 2));
-  }
-  COROT_TRY(COROT_ALLOC(mark, mesh->nnode));
-  corot_status status = mark_box(mesh, min, max, tol, mark) ? add_marked(mesh, name, mark)
-                                                            : no_nodes(mesh, name, tol);
-  free(mark);
-  return status;
-}
-
-corot_status corot_mesh_group_plane(corot_mesh *mesh, const char *name, int axis, double at,
-                                    double tol) {
-  double min[3] = {-INFINITY, -INFINITY, -INFINITY}, max[3] = {INFINITY, INFINITY, INFINITY};
-  if (axis < 0 || axis > 2)
-    return corot_fail(COROT_EINVAL, "group '%s': axis is %d, not 0, 1 or 2", name, axis);
-  min[axis] = max[axis] = at;
-  return corot_mesh_group_box(mesh, name, min, max, tol);
 }

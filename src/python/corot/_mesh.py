@@ -1,7 +1,7 @@
 """Tetrahedral meshes with named groups, and refinements of them (corot/mesh.h, corot/hierarchy.h)."""
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, Literal, overload
@@ -212,7 +212,7 @@ class Mesh(Handle):
     def group_nodes(self, name: str, nodes: ArrayLike) -> None:
         """Adds a group by its nodes [n]; faces of the boundary and tets whose corners are all in it
         belong to it. InvalidError: the name is taken or no name, a node is out of range, none is listed;
-        so of the next three."""
+        so of all that follow."""
         nodes = cv.indices(nodes, (None,), "nodes")
         self._add(lib.corot_mesh_group_nodes, name, len(nodes), cv.address("int *", nodes))
 
@@ -227,6 +227,45 @@ class Mesh(Handle):
         low, high = cv.reals(min, (3,), "min"), cv.reals(max, (3,), "max")
         self._add(lib.corot_mesh_group_box, name, cv.doubles(low), cv.doubles(high),
                   cv.real(tol, "tol"))
+
+    def group_sphere(self, name: str, center: ArrayLike, radius: float, tol: float = 0.0) -> None:
+        """Adds the nodes at most radius + tol from a point [3]; InvalidError: none is, with the nearest."""
+        middle = cv.reals(center, (3,), "center")
+        self._add(lib.corot_mesh_group_sphere, name, cv.doubles(middle), cv.real(radius, "radius"),
+                  cv.real(tol, "tol"))
+
+    def group_cylinder(self, name: str, start: ArrayLike, end: ArrayLike, radius: float,
+                       tol: float = 0.0) -> None:
+        """Adds the nodes in a round cylinder, the centers of whose ends are `start` and `end` [3]."""
+        first, last = cv.reals(start, (3,), "start"), cv.reals(end, (3,), "end")
+        self._add(lib.corot_mesh_group_cylinder, name, cv.doubles(first), cv.doubles(last),
+                  cv.real(radius, "radius"), cv.real(tol, "tol"))
+
+    def group_half_space(self, name: str, point: ArrayLike, normal: ArrayLike, tol: float = 0.0) -> None:
+        """Adds the nodes on the side of a plane through `point` [3] that `normal` [3] points to."""
+        at, along = cv.reals(point, (3,), "point"), cv.reals(normal, (3,), "normal")
+        self._add(lib.corot_mesh_group_half_space, name, cv.doubles(at), cv.doubles(along),
+                  cv.real(tol, "tol"))
+
+    def group_normal(self, name: str, direction: ArrayLike, angle: float) -> None:
+        """Adds the faces of the boundary whose outward normals are within `angle` rad of a direction
+        [3], with their nodes and no tets."""
+        along = cv.reals(direction, (3,), "direction")
+        self._add(lib.corot_mesh_group_normal, name, cv.doubles(along), cv.real(angle, "angle"))
+
+    def group_near(self, name: str, other: str, distance: float) -> None:
+        """Adds the nodes at most `distance` m from nodes, faces and tets of another group."""
+        self._add(lib.corot_mesh_group_near, name, cv.encode(other, "other"),
+                  cv.real(distance, "distance"))
+
+    def group_combine(self, name: str, operation: Literal["union", "intersection", "difference"],
+                      others: Sequence[str]) -> None:
+        """Adds what is in one of the other groups, in all of them, or in the first alone: of nodes, of
+        faces and of tets, each by themselves."""
+        texts = [ffi.new("char[]", cv.encode(other, "others")) for other in others]
+        self._add(lib.corot_mesh_group_combine, name,
+                  cv.choose("corot_set_operation", operation, "operation"), len(texts),
+                  ffi.new("const char *[]", texts))
 
     def group_tets(self, name: str, tets: ArrayLike) -> None:
         """Adds a group of listed tets [n], with their nodes and no triangles: what a material fills."""
