@@ -40,7 +40,7 @@ static const schema_key keys[] = {
   {"title",                   TEXT,            OPTIONAL, ANY,          "",        "''", 0, "what the run is about"},
 
   {"mesh",                    MAP,             REQUIRED, ANY,          "",        0, 0, "the solid: a file or a box"},
-  {"mesh.file",               TEXT,            ONE_OF,   ANY,          "",        0, 0, "gmsh 1, 2.2, 4.0, 4.1, TetGen, MEDIT, Abaqus, VTK (.vtk, .vtu), Netgen, MFEM or VegaFEM file, relative to the scenario's folder; nodes in no tet are left out, left-handed tets turned round, tets that are there twice left out, which is told as a warning"},
+  {"mesh.file",               TEXT,            ONE_OF,   ANY,          "",        0, 0, "gmsh 1, 2.2, 4.0, 4.1, TetGen, MEDIT, Abaqus, FEBio, VTK (.vtk, .vtu), Netgen, MFEM or VegaFEM file, relative to the scenario's folder; nodes in no tet are left out, left-handed tets turned round, tets that are there twice left out, which is told as a warning"},
   {"mesh.box",                MAP,             ONE_OF,   ANY,          "",        0, 0, "a box; its sides are groups xmin xmax ymin ymax zmin zmax"},
   {"mesh.box.size",           VECTOR,          REQUIRED, POSITIVE,     "m",       0, 0, "lengths of the edges"},
   {"mesh.box.cells",          SCHEMA_COUNTS,   REQUIRED, POSITIVE,     "",        0, 0, "cells along each axis, six tets each; see split"},

@@ -102,6 +102,11 @@ static bool is_vtu(const char *path, const char *text, size_t size) {
   return *text == '<' && strstr(text, "<VTKFile");
 }
 
+static bool is_feb(const char *path, const char *text, size_t size) {
+  (void)path, (void)size;
+  return *text == '<' && strstr(text, "<febio_spec");
+}
+
 /* Comments may come first. */
 static bool is_vol(const char *path, const char *text, size_t size) {
   (void)size;
@@ -135,8 +140,9 @@ static const struct {
     {is_gmsh, corot_gmsh_parse},   {is_vtk, corot_vtk_parse},
     {is_medit, corot_medit_parse}, {is_medit_binary, corot_medit_binary_parse},
     {is_veg, corot_veg_parse},     {is_inp, corot_inp_parse},
-    {is_vtu, corot_vtu_parse},     {is_vol, corot_vol_parse},
-    {is_mfem, corot_mfem_parse},   {is_tetgen, read_tetgen},
+    {is_vtu, corot_vtu_parse},     {is_feb, corot_feb_parse},
+    {is_vol, corot_vol_parse},     {is_mfem, corot_mfem_parse},
+    {is_tetgen, read_tetgen},
 };
 
 corot_status corot_mesh_parse(const char *path, const char *data, size_t size,
@@ -150,7 +156,8 @@ corot_status corot_mesh_parse(const char *path, const char *data, size_t size,
                     "%s: not a mesh file: gmsh files begin with $MeshFormat or $NOD, MEDIT files "
                     "with MeshVersionFormatted, or a 1 and a version if they are binary, Abaqus "
                     "files with *, VTK files with # vtk "
-                    "DataFile or have a tag VTKFile, Netgen files with mesh3d, MFEM files with "
+                    "DataFile or have a tag VTKFile, FEBio files have a tag febio_spec, Netgen "
+                    "files with mesh3d, MFEM files with "
                     "MFEM mesh v1, VegaFEM files with *VERTICES, TetGen files are called "
                     "NAME.node and NAME.ele",
                     path);

@@ -26,6 +26,8 @@ corot_status corot_medit_binary_parse(const char *path, const char *data, size_t
                                       const corot_reading *how, corot_mesh **mesh);
 corot_status corot_vtu_parse(const char *path, const char *data, size_t size,
                              const corot_reading *how, corot_mesh **mesh);
+corot_status corot_feb_parse(const char *path, const char *data, size_t size,
+                             const corot_reading *how, corot_mesh **mesh);
 corot_status corot_mfem_parse(const char *path, const char *data, size_t size,
                               const corot_reading *how, corot_mesh **mesh);
 corot_status corot_veg_parse(const char *path, const char *data, size_t size,

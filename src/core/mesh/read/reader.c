@@ -85,7 +85,8 @@ static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /* Whether a value ends before c. */
 static bool is_end(const corot_reader *r, char c) {
-  return is_blank(c) || c == '\n' || c == 0 || c == r->separator || c == r->stop;
+  return is_blank(c) || c == '\n' || c == 0 || c == r->separator ||
+         (r->stops && strchr(r->stops, c));
 }
 
 bool corot_reader_more(corot_reader *r) {
