@@ -157,6 +157,8 @@ COROT_API corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
 typedef struct corot_mending {
   int cut;      /* not 0: hexahedra, prisms and pyramids of first order are cut into tets */
   double merge; /* nodes no further apart become one, the first of them [m]; 0: none do */
+  double scale; /* what the file's coordinates are multiplied by, to be metres: 1e-3 for
+                   millimetres; 0: as 1 */
 } corot_mending;
 
 /* Kinds of what has been done. */
@@ -197,7 +199,7 @@ typedef struct corot_mesh_report {
    `mending` may be NULL. What cannot be mended is refused: flat tets, coordinates that are no numbers,
    nodes that do not exist, three tets at a face or two on one side of it, solids that are not
    to be cut, are folded, or have tets at a quad that do not match its diagonal. COROT_EFORMAT, COROT_EIO, COROT_ENOMEM as of corot_mesh_read; COROT_EINVAL:
-   `merge` is negative, or no number. */
+   `merge` or `scale` is negative, or no number. */
 COROT_API corot_status corot_mesh_read_mended(const char *path, const corot_mending *mending,
                                               corot_mesh **mesh, corot_mesh_report **report);
 

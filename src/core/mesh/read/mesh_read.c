@@ -189,10 +189,13 @@ corot_status corot_mesh_read_mended(const char *path, const corot_mending *mendi
   COROT_TRY(COROT_GIVEN(report));
   if (mending && !(mending->merge >= 0 && mending->merge <= 1e100))
     return corot_fail(COROT_EINVAL, "merge is %g, not >= 0", mending->merge);
+  if (mending && !(mending->scale >= 0 && mending->scale <= 1e100))
+    return corot_fail(COROT_EINVAL, "scale is %g, not >= 0", mending->scale);
   COROT_TRY(COROT_ALLOC(r, 1));
   const corot_reading how = {.mends = true,
                              .cuts = mending && mending->cut,
                              .merge = mending ? mending->merge : 0,
+                             .scale = mending ? mending->scale : 0,
                              .report = r};
   corot_status status = read_file(path, &how, &m);
   if (status) {
