@@ -20,7 +20,7 @@ PYTHON
 for file in two.msh1.msh two.msh22.msh two.msh22b.msh two.msh40.msh two.msh41b.msh two.partsb.msh two.ele two.mesh \
   two.meshb two.inp two.vtk two.vtkb.vtk; do
   expect 0 mesh info "$data/$file" --svg a.svg; no_err; out "volume    2 m^3"; out "surface   10 m^2"
-  [ "$(grep -c '^<path d="[^"]*Z" fill' a.svg)" = 40 ] || complain "$what: the picture lacks triangles"
+  out "in $(grep -c '^<path d="[^"]*Z" fill' a.svg) triangles"
 done
 for file in quarter.feb quarter.msh quarter.inp quarter.mesh quarter.vtk quarter.vtu quarter.vol; do
   expect 0 mesh info "$data/$file" --svg a.svg; no_err; out "volume    0.785349 m^3"; out "in 60 triangles"

@@ -178,17 +178,20 @@ static void unit_normal(const mesh_facts *f, int t, double n[3]) {
   for (int k = 0; k < 3; k++) n[k] /= area;
 }
 
+/* Curved triangles that face away as a whole may face the eye in part. */
 static void list_triangles(picture *p, const view *v) {
   const mesh_facts *f = p->f;
+  double least = p->six ? -0.4 : 0;
   memset(p->front, 0, (size_t)f->mesh->nnode);
   for (int t = 0; t < f->ntri; t++) {
     double n[3], depth = 0;
     unit_normal(f, t, n);
-    if (dot(n, v->toward) <= 0) continue;
+    double facing = dot(n, v->toward);
+    if (facing <= least) continue;
     for (int k = 0; k < 3; k++) {
       depth += dot(f->mesh->x[f->tri[t][k]], v->toward) / 3;
-      p->front[f->tri[t][k]] = 1;
-      if (p->six) p->front[p->six[t][3 + k]] = 1;
+      if (facing > 0) p->front[f->tri[t][k]] = 1;
+      if (facing > 0 && p->six) p->front[p->six[t][3 + k]] = 1;
     }
     p->item[p->nitem++] = (item){.depth = depth, .tri = t, .group = p->group[t]};
   }
@@ -241,7 +244,8 @@ static void put_item(const picture *p, const view *v, const item *i, FILE *out) 
   unit_normal(p->f, i->tri, n);
   double above = (v->toward[2] > 0 ? 1 : -1) * n[2]; /* so that faces of a box differ */
   fputs("Z\" fill=\"", out);
-  put_colour(colour(i->group), 0.66 + 0.26 * dot(n, v->toward) + 0.08 * fmax(above, 0), out);
+  put_colour(colour(i->group), 0.66 + 0.26 * fmax(dot(n, v->toward), 0) + 0.08 * fmax(above, 0),
+             out);
   fputs("\"/>\n", out);
 }
 
