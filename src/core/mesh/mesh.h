@@ -148,7 +148,7 @@ COROT_SISTERS double corot_curved_volume(const double (*x)[3], const int v[4], c
 
 /* 3 inradius / circumradius of tet e by its corners, 1 of a regular one: the radius ratio (Liu and
    Joe 1994). */
-COROT_SISTERS double corot_mesh_shape(const corot_mesh *mesh, int e);
+double corot_mesh_shape(const corot_mesh *mesh, int e);
 
 /* The body as seen from a triangle of its surface, straight inward to the other side. */
 typedef struct corot_crossing {
@@ -160,7 +160,7 @@ typedef struct corot_crossing {
 
 /* One for each triangle of corot_mesh_boundary, in its order; curved edges count as straight ones.
  *crossing is the caller's to free. COROT_ENOMEM. */
-COROT_SISTERS corot_status corot_mesh_cross(const corot_mesh *mesh, corot_crossing **crossing);
+corot_status corot_mesh_cross(const corot_mesh *mesh, corot_crossing **crossing);
 
 /* The box that holds all nodes. */
 void corot_mesh_bounds(const corot_mesh *mesh, double min[3], double max[3]);
