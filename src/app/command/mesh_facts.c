@@ -178,8 +178,8 @@ corot_status mesh_facts_find(const char *path, const corot_mesh *mesh, mesh_fact
   f->mesh = mesh;
   f->quality = corot_mesh_measure(mesh);
   for (int e = 0; e < mesh->ntet; e++) {
-    int bin = (int)ceil(SHAPE_BINS * corot_mesh_shape(mesh, e)) - 1;
-    f->shapes[bin < 0 ? 0 : bin >= SHAPE_BINS ? SHAPE_BINS - 1 : bin]++;
+    double shape = SHAPE_BINS * corot_mesh_shape(mesh, e); /* no number if edges are of 1e-99 m */
+    f->shapes[shape > 1 ? (shape < SHAPE_BINS ? (int)ceil(shape) : SHAPE_BINS) - 1 : 0]++;
   }
   COROT_TRY(count_corners(f));
   COROT_TRY(measure_parts(f));
@@ -272,7 +272,7 @@ static json_t *groups_json(const mesh_facts *f) {
     const double *n = size->normal;
     bool faces = n[0] != 0 || n[1] != 0 || n[2] != 0;
     json_t *g = json_incref(json_array_get(list, (size_t)i));
-    g = json_text_with(g, "area", json_real(size->area));
+    g = json_text_with(g, "area", json_text_real(size->area));
     g = json_text_with(g, "normal", faces ? json_pack("[f, f, f]", n[0], n[1], n[2]) : json_null());
     g = json_text_with(g, "volume", json_real(size->volume));
     if (!g) {
@@ -302,16 +302,19 @@ json_t *mesh_facts_json(const mesh_facts *f) {
   j = json_text_with(j, "min", json_pack("[f, f, f]", q->min[0], q->min[1], q->min[2]));
   j = json_text_with(j, "max", json_pack("[f, f, f]", q->max[0], q->max[1], q->max[2]));
   j = json_text_with(j, "volume", json_real(q->volume));
-  j = json_text_with(j, "surface", json_pack("{s:f, s:i}", "area", f->area, "triangles", f->ntri));
+  j = json_text_with(
+      j, "surface", json_pack("{s:o, s:i}", "area", json_text_real(f->area), "triangles", f->ntri));
   j = json_text_with(j, "tet_volume", json_pack("[f, f]", q->volume_min, q->volume_max));
   j = json_text_with(j, "edge", json_pack("[f, f]", q->edge_min, q->edge_max));
   j = json_text_with(j, "dihedral_degrees", json_pack("[f, f]", q->dihedral_min, q->dihedral_max));
   j = json_text_with(j, "shape",
-                     json_pack("{s:f, s:f, s:i, s:o}", "mean", q->shape_mean, "min", q->shape_min,
-                               "worst", q->shape_worst, "histogram", shapes_json(f)));
-  j = json_text_with(j, "through",
-                     json_pack("{s:f, s:f, s:f}", "min", f->through_min, "median",
-                               f->through_median, "below_2", f->through_thin));
+                     json_pack("{s:o, s:o, s:i, s:o}", "mean", json_text_real(q->shape_mean), "min",
+                               json_text_real(q->shape_min), "worst", q->shape_worst, "histogram",
+                               shapes_json(f)));
+  j = json_text_with(
+      j, "through",
+      json_pack("{s:o, s:o, s:o}", "min", json_text_real(f->through_min), "median",
+                json_text_real(f->through_median), "below_2", json_text_real(f->through_thin)));
   j = json_text_with(j, "groups", groups_json(f));
   return json_text_with(j, "warnings", warnings_json(&f->warnings));
 }

@@ -175,7 +175,8 @@ static void unit_normal(const mesh_facts *f, int t, double n[3]) {
   double area = 0;
   n[0] = n[1] = n[2] = 0;
   triangle_area(f->mesh, f->tri[t], NULL, n, &area);
-  for (int k = 0; k < 3; k++) n[k] /= area;
+  bool known = area > 0 && area < INFINITY; /* squares of very small or large numbers may not be */
+  for (int k = 0; k < 3; k++) n[k] = known ? n[k] / area : 0;
 }
 
 /* Curved triangles that face away as a whole may face the eye in part. */
