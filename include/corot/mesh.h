@@ -83,10 +83,11 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
      gmsh 1 ($NOD/$ELM), 2.2 and 4.1 ($MeshFormat), ASCII and binary of either byte order, 4.0 ASCII;
      TetGen NAME.node + NAME.ele (either path may be given), first index 0 or 1, and NAME.face if it
      is there;
-     MEDIT (.mesh), ASCII;
+     MEDIT (.mesh, ASCII; .meshb, binary, of versions 1 to 4);
      Abaqus and CalculiX (.inp), with the files that it includes;
      VTK, legacy files (.vtk) of unstructured grids, ASCII and binary, and XML files (.vtu), ASCII,
      base64 or appended, compressed by zlib or not;
+     FEBio (.feb), of formats 2.0 to 4.0;
      Netgen (.vol);
      MFEM (.mesh, "MFEM mesh v1.0" to v1.3) with straight edges; VegaFEM (.veg).
 
@@ -112,7 +113,9 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
 
    MEDIT: Vertices, Triangles, TrianglesP2, Tetrahedra and TetrahedraP2; references of triangles and
    tets other than 0 become groups, called as gmsh's nameless ones. Triangles of 3 nodes on ten-node
-   tets take those on their edges from the tets. Other solids are refused, other keywords skipped.
+   tets take those on their edges from the tets. The order of nodes on edges is heeded where the file
+   says it (TetrahedraP2Ordering). Control points of Bezier's and other solids are refused, other
+   keywords skipped.
 
    Abaqus, CalculiX: *NODE, *ELEMENT of types C3D4 and C3D10 (and C3D4H, C3D10M, ...), *NSET, *ELSET
    (GENERATE, sets in sets that stand before them), *SURFACE of element faces S1 to S4 or of nodes, and
@@ -126,6 +129,11 @@ COROT_API void corot_mesh_destroy(corot_mesh *mesh);
    nameless ones, of the triangles (types 5 and 22), too; whole numbers other than 0 in an array of cells
    or points that is called group:NAME, the group NAME, where %41 is A. Other solids, and XML files of
    several pieces, are refused, other cells skipped.
+
+   FEBio: of <Mesh> or <Geometry>, Nodes, Elements of types tet4 and tet10, NodeSet, ElementSet and
+   Surface of triangles; those of one name become one group, and so do Elements and Nodes with a name;
+   Elements that have only a material are the group "material-N". Parts and their instances, meshes
+   in another file and other solids are refused, shells, trusses and what else there is skipped.
 
    Netgen: volumeelements and surfaceelements; materials and boundary conditions become groups, by
    their names, or called as gmsh's nameless ones. Its tets are left-handed, and turned round.
@@ -149,6 +157,8 @@ COROT_API corot_status corot_mesh_read(const char *path, corot_mesh **mesh);
 typedef struct corot_mending {
   int cut;      /* not 0: hexahedra, prisms and pyramids of first order are cut into tets */
   double merge; /* nodes no further apart become one, the first of them [m]; 0: none do */
+  double scale; /* what the file's coordinates are multiplied by, to be metres: 1e-3 for
+                   millimetres; 0: as 1 */
 } corot_mending;
 
 /* Kinds of what has been done. */
@@ -189,7 +199,7 @@ typedef struct corot_mesh_report {
    `mending` may be NULL. What cannot be mended is refused: flat tets, coordinates that are no numbers,
    nodes that do not exist, three tets at a face or two on one side of it, solids that are not
    to be cut, are folded, or have tets at a quad that do not match its diagonal. COROT_EFORMAT, COROT_EIO, COROT_ENOMEM as of corot_mesh_read; COROT_EINVAL:
-   `merge` is negative, or no number. */
+   `merge` or `scale` is negative, or no number. */
 COROT_API corot_status corot_mesh_read_mended(const char *path, const corot_mending *mending,
                                               corot_mesh **mesh, corot_mesh_report **report);
 

@@ -90,7 +90,7 @@ static void faults(void **state) {
       {"Triangles\n3", "Triangles\n300", "m.mesh:14: the number of elements is 300, more"},
       {"1 2 3 9", "1 2 6 9", "m.mesh:15: face 1: node 6 does not exist"},
       {"1 2 3 9", "1 2 5 9", "m.mesh:15: face 1: the triangle is no face of a tet"},
-      {"1 2 3 9", "1 2 3 -9", "m.mesh:15: the reference is -9: groups have positive ones"},
+      {"1 2 3 9", "1 2 3 -9", "m.mesh:15: the reference is -9: groups have numbers up to"},
       {"2 3 4 5 0", "3 2 4 5 0", "m.mesh:21: element 2 is inverted"},
       {"2 3 4 5 0", "2 3 4 0 0", "m.mesh:21: element 2: node 0 does not exist"},
       {"2 3 4 5 0", "2 3 4 5", "m.mesh:22: expected a reference, found 'RequiredVertices'"},
@@ -101,6 +101,10 @@ static void faults(void **state) {
        "solids "
        "of first order, to be cut into tets"},
       {"Tetrahedra", "Tetra", "m.mesh: the file has no Tetrahedra"},
+      {"Tetrahedra\n2", "BezierBasis 1\nTetrahedra\n2",
+       "m.mesh:18: the nodes of second order are control points of Bezier's"},
+      {"Tetrahedra\n2", "TrianglesP2Ordering 6 2 0 0 0 2 0 0 0 2 1 1 0 1 1 0 1 0 1\nTetrahedra\n2",
+       "m.mesh:18: the order of nodes does not have each of the 6 corners and edges of a triangle"},
   };
   corot_mesh *m = NULL;
   assert_text_faults("m.mesh", sound, sizeof table / sizeof *table, table);

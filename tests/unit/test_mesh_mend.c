@@ -257,6 +257,26 @@ static double area(const corot_mesh *m) {
   return sum;
 }
 
+/* A file in millimetres; the tolerance of merging is in metres. */
+static void coordinates_become_metres(void **state) {
+  (void)state;
+  corot_mesh *a = read_mesh(DATA "two.msh22.msh"), *b = NULL;
+  corot_mesh_report *r;
+  assert_ok(corot_mesh_read_mended(DATA "two.msh22.msh",
+                                   &(corot_mending){.scale = 1e-3, .merge = 1e-4}, &b, &r));
+  assert_int_equal(r->nremark, 0);
+  for (int i = 0; i < 3 * a->nnode; i++)
+    assert_true(b->x[i / 3][i % 3] == 1e-3 * a->x[i / 3][i % 3]);
+  corot_mesh_report_destroy(r);
+  corot_mesh_destroy(b);
+  assert_fails(corot_mesh_read_mended(DATA "two.msh22.msh", &(corot_mending){.scale = -1}, &b, &r),
+               COROT_EINVAL, "scale is -1, not >= 0");
+  assert_fails(
+      corot_mesh_read_mended(DATA "two.msh22.msh", &(corot_mending){.scale = 1e100}, &b, &r),
+      COROT_EFORMAT, "node 9: z is 2e+100");
+  corot_mesh_destroy(a);
+}
+
 /* As gmsh writes them in each format: the skin has the area of the body's, so all faces match. */
 static void cells_of_all_kinds_are_cut(void **state) {
   (void)state;
@@ -509,6 +529,7 @@ int main(void) {
       cmocka_unit_test(more_than_ten_are_counted),
       cmocka_unit_test(a_tet_on_the_wrong_side_is_refused),
       cmocka_unit_test(a_host_is_told_all_faults_too),
+      cmocka_unit_test(coordinates_become_metres),
       cmocka_unit_test(cells_of_all_kinds_are_cut),
       cmocka_unit_test(groups_of_cells_are_groups_of_their_tets),
       cmocka_unit_test(cells_of_other_formats_are_cut),

@@ -399,6 +399,22 @@ static void overrides_of_short_forms(void **state) {
   scenario_destroy(s);
 }
 
+/* The name of the mesh file alone, and the unit that it is in. */
+static void mesh_in_short(void **state) {
+  (void)state;
+  scenario *s = NULL;
+  assert_ok(override(MINIMAL, "mesh=a.msh", &s));
+  assert_string_equal(s->mesh_file, BINARY_DIR "/a.msh");
+  assert_close(s->scale, 0, 0, 0);
+  scenario_destroy(s);
+  assert_ok(override(MINIMAL, "mesh={file: a.msh, unit: in}", &s));
+  assert_close(s->scale, 0.0254, 0, 0);
+  scenario_destroy(s);
+  assert_ok(override(MINIMAL, "mesh={file: a.msh, scale: 0.5}", &s));
+  assert_close(s->scale, 0.5, 0, 0);
+  scenario_destroy(s);
+}
+
 static void bad_overrides(void **state) {
   (void)state;
   static const refusal r[] = {
@@ -848,6 +864,7 @@ int main(void) {
       cmocka_unit_test(overrides),
       cmocka_unit_test(overrides_in_order),
       cmocka_unit_test(overrides_of_short_forms),
+      cmocka_unit_test(mesh_in_short),
       cmocka_unit_test(bad_overrides),
       cmocka_unit_test(resolved_is_a_fixed_point),
       cmocka_unit_test(resolved_values),

@@ -48,6 +48,9 @@ corot_status read_failure(corot_status status, const char *path);
 /* A mesh file, mended; what was mended is said on stderr, a warning a line. */
 corot_status read_mended(const char *path, const corot_mending *mending, corot_mesh **mesh);
 
+/* A unit of length; EXIT_OK, or the exit code of a usage error. */
+int parse_unit(const char *program, const char *text, double *metres);
+
 /* Three numbers separated by commas. */
 bool parse_three(const char *text, double number[3]);
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "app/scenario/warnings.h"
+#include "app/scenario/words.h"
 #include "app/text/say.h"
 #include "cli.h"
 
@@ -74,7 +75,7 @@ static int convert(const arguments *a) {
 }
 
 static const char repair_help[] =
-    "usage: corot mesh repair FILE [--cut] [--merge TOL] [--to FORMAT] -o OUT\n"
+    "usage: corot mesh repair FILE [--cut] [--merge TOL] [--unit UNIT] [--to FORMAT] -o OUT\n"
     "\n"
     "Reads a mesh of any format that corot reads, mends what is only written down wrongly, and "
     "writes\n"
@@ -90,17 +91,18 @@ static const char repair_help[] =
     "      --cut            hexahedra, prisms and pyramids of first order are cut into tets that "
     "match\n"
     "                       across faces\n"
+    "      --unit UNIT      that FILE is in, m, km, cm, mm, um, nm, in or ft; OUT is in metres\n"
     "      --to FORMAT      of OUT, as of corot mesh convert; default: by its suffix\n"
     "  -o, --output OUT     the file to write; never FILE itself\n"
     "\n"
     "example: corot mesh repair part.msh --merge 1e-9 -o mended.msh\n";
 
 static const char convert_help[] =
-    "usage: corot mesh convert FROM TO [--to FORMAT] [--cut] [--merge TOL]\n"
+    "usage: corot mesh convert FROM TO [--to FORMAT] [--cut] [--merge TOL] [--unit UNIT]\n"
     "\n"
     "Reads a mesh of any format that corot reads, mended as by corot mesh repair, and writes it "
     "in\n"
-    "another one, with all its groups. Coordinates keep every bit.\n"
+    "another one, with all its groups. Without --unit coordinates keep every bit.\n"
     "\n"
     "      --to FORMAT      gmsh (4.1, .msh), gmsh-2.2, vtu (.vtu), vtk (legacy, .vtk), tetgen\n"
     "                       (.node or .ele, with .face), medit (.mesh), abaqus (.inp); default: "
@@ -110,14 +112,27 @@ static const char convert_help[] =
     "                       names become numbers, and what does not fit is said on stderr\n"
     "      --cut            hexahedra, prisms and pyramids of first order are cut into tets\n"
     "      --merge TOL      nodes no further apart than TOL [m] become one\n"
+    "      --unit UNIT      that FROM is in, m, km, cm, mm, um, nm, in or ft; TO is in metres\n"
     "\n"
     "example: corot mesh convert part.inp part.msh\n";
 
 static const struct option options[] = {
-    {"to", required_argument, NULL, 't'},    {"cut", no_argument, NULL, 'c'},
-    {"merge", required_argument, NULL, 'm'}, {"output", required_argument, NULL, 'o'},
-    {"help", no_argument, NULL, 'h'},        {0},
+    {"to", required_argument, NULL, 't'},
+    {"cut", no_argument, NULL, 'c'},
+    {"merge", required_argument, NULL, 'm'},
+    {"output", required_argument, NULL, 'o'},
+    {"unit", required_argument, NULL, 'u'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
+
+int parse_unit(const char *program, const char *text, double *metres) {
+  int unit = words_find(words_length, text);
+  if (unit < 0)
+    return usage_error(program, "--unit %s: expected m, km, cm, mm, um, nm, in or ft", text);
+  *metres = length_in_metres(unit);
+  return EXIT_OK;
+}
 
 /* Takes one option of the line; EXIT_OK: go on. */
 static int take_option(arguments *a, int answer, char **argv) {
@@ -131,6 +146,8 @@ static int take_option(arguments *a, int answer, char **argv) {
     case 'm':
       if (parse_positive(optarg, &a->mending.merge)) return EXIT_OK;
       return usage_error(a->program, "--merge %s: expected a length > 0", optarg);
+    case 'u':
+      return parse_unit(a->program, optarg, &a->mending.scale);
     case 'o':
       a->to = optarg;
       return EXIT_OK;

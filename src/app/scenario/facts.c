@@ -137,6 +137,7 @@ static void print_mesh(const scenario *s, const facts *f, FILE *out) {
   const corot_mesh_quality *q = &f->quality;
   fprintf(out, "mesh           %s", s->mesh_file ? s->mesh_file : "");
   if (!s->mesh_file) print_box(&s->box, out);
+  if (s->scale > 0) fprintf(out, ", times %g m", s->scale);
   if (s->refine > 0) fprintf(out, ", refine %d", s->refine);
   if (s->marks) fprintf(out, ", marks %s", s->marks);
   fprintf(out, ": %d nodes, %d %stets, %.6g m^3\n", f->mesh->nnode, f->mesh->ntet,

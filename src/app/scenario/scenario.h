@@ -91,6 +91,7 @@ typedef struct scenario {
   const char *title;
 
   const char *mesh_file; /* resolved against the scenario's folder; NULL: a box */
+  double scale;          /* of its coordinates, to be metres; 0: as 1 */
   bool cut;              /* its solids that are no tets, into tets */
   corot_box box;
   int refine;        /* times */

@@ -12,7 +12,7 @@ static config_node *place(const scenario *s, const char *path) {
 /* --- Mesh --- */
 
 corot_status scenario_read_mesh(const scenario *s, corot_mesh **mesh, corot_mesh_report **report) {
-  const corot_mending mending = {.cut = s->cut};
+  const corot_mending mending = {.cut = s->cut, .scale = s->scale};
   *report = NULL;
   corot_status status = s->mesh_file ? corot_mesh_read_mended(s->mesh_file, &mending, mesh, report)
                                      : corot_mesh_box(&s->box, mesh);

@@ -39,8 +39,8 @@ static const schema_key keys[] = {
   /* path                     type             status    range         unit       default   words  doc */
   {"title",                   TEXT,            OPTIONAL, ANY,          "",        "''", 0, "what the run is about"},
 
-  {"mesh",                    MAP,             REQUIRED, ANY,          "",        0, 0, "the solid: a file or a box"},
-  {"mesh.file",               TEXT,            ONE_OF,   ANY,          "",        0, 0, "gmsh 1, 2.2, 4.0, 4.1, TetGen, MEDIT, Abaqus, VTK (.vtk, .vtu), Netgen, MFEM or VegaFEM file, relative to the scenario's folder; nodes in no tet are left out, left-handed tets turned round, tets that are there twice left out, which is told as a warning"},
+  {"mesh",                    SCHEMA_SHORT,    REQUIRED, ANY,          "",        0, 0, "the solid: a file or a box; a text is mesh.file"},
+  {"mesh.file",               TEXT,            ONE_OF,   ANY,          "",        0, 0, "gmsh 1, 2.2, 4.0, 4.1, TetGen, MEDIT, Abaqus, FEBio, VTK (.vtk, .vtu), Netgen, MFEM or VegaFEM file, relative to the scenario's folder; nodes in no tet are left out, left-handed tets turned round, tets that are there twice left out, which is told as a warning"},
   {"mesh.box",                MAP,             ONE_OF,   ANY,          "",        0, 0, "a box; its sides are groups xmin xmax ymin ymax zmin zmax"},
   {"mesh.box.size",           VECTOR,          REQUIRED, POSITIVE,     "m",       0, 0, "lengths of the edges"},
   {"mesh.box.cells",          SCHEMA_COUNTS,   REQUIRED, POSITIVE,     "",        0, 0, "cells along each axis, six tets each; see split"},
@@ -50,6 +50,8 @@ static const schema_key keys[] = {
   {"mesh.marks",              TEXT,            OPTIONAL, ANY,          "",        0, 0, "text file, relative to the scenario's folder, of tets that are cut after mesh.refine, each into at least eight, and neighbours as far as faces have to match: a line is a pass, the numbers, from 0, of tets of the mesh that the lines before it have made; # begins a comment, a line without numbers is none; another mesh.refine makes other tets of these numbers"},
   {"mesh.order",              INTEGER,         OPTIONAL, POSITIVE,     "",      0, 0, "1: tets of four nodes, linear displacements; 2: of ten nodes, quadratic ones, whose edges stay as curved as the file has them; default: as the file, of a box 1. 2 adds the middles of straight edges, after mesh.refine and mesh.marks, to tets of four nodes; 1 drops the nodes on edges, before mesh.refine and mesh.marks, and the numbers of the corners close up"},
   {"mesh.cut",                CHOICE,          OPTIONAL, ANY,          "",        0, "true|false", "true: hexahedra, prisms and pyramids of first order in mesh.file are cut into tets, which is told as a warning; default: false, a file that has them is refused"},
+  {"mesh.unit",               CHOICE,          OPTIONAL, ANY,          "",        0, "m|km|cm|mm|um|nm|in|ft", "the unit of length that mesh.file is written in; everything else in the scenario stays in metres; default: m"},
+  {"mesh.scale",              NUMBER,          OPTIONAL, POSITIVE,     "m",       0, 0, "what the coordinates of mesh.file are multiplied by to be metres, of any other unit; instead of mesh.unit"},
   {"mesh.diagonal",           CHOICE,          OPTIONAL, ANY,          "",        "shortest", "consistent|shortest", "which diagonal of the octahedron inside a tet is an edge of the eight: shortest makes better shapes on the average, consistent at most three of a tet, however often it is cut"},
 
   {"groups",                  SCHEMA_NAMED,    OPTIONAL, ANY,          "",        "{}", 0, "sets of nodes, faces and tets, in addition to the mesh's own groups: faces of the boundary and tets are in those of which all corners are; all but nodes choose from the mesh after mesh.refine and mesh.marks; of ten-node tets they choose corners, and a node on an edge belongs where both ends do"},

@@ -26,9 +26,25 @@ static corot_status read_path(scenario *s, const config_node *file, const char *
   return *path ? COROT_OK : no_memory();
 }
 
+/* The unit that the file is in. */
+static corot_status read_unit(scenario *s) {
+  config_node *root = s->source->root, *unit = config_find(root, "mesh.unit"),
+              *scale = config_find(root, "mesh.scale");
+  if (unit && scale)
+    return config_fail_key(scale,
+                           "mesh.unit and mesh.scale exclude each other: the scale is what a "
+                           "unit of the file has in metres");
+  if ((unit || scale) && config_find(root, "mesh.box"))
+    return config_fail_key(unit ? unit : scale, "a mesh.file has a unit; a box is in metres");
+  if (unit) s->scale = length_in_metres(choice_at(root, "mesh.unit", words_length));
+  if (scale) s->scale = scale->number;
+  return COROT_OK;
+}
+
 static corot_status read_mesh(scenario *s) {
   config_node *root = s->source->root, *marks = config_find(root, "mesh.marks");
   COROT_TRY(read_order(s));
+  COROT_TRY(read_unit(s));
   const config_node *cut = config_find(root, "mesh.cut");
   s->cut = cut && strcmp(cut->text, "true") == 0;
   if (marks) COROT_TRY(read_path(s, marks, &s->marks));

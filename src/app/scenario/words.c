@@ -17,6 +17,13 @@ const char *const words_diagonal[] = {
     NULL,
 };
 
+const char *const words_length[] = {"m", "km", "cm", "mm", "um", "nm", "in", "ft", NULL};
+
+double length_in_metres(int unit) {
+  static const double metres[] = {1, 1e3, 1e-2, 1e-3, 1e-6, 1e-9, 0.0254, 0.3048};
+  return metres[unit];
+}
+
 const char *const words_viscosity[] = {
     [COROT_COROTATED] = "corotated",
     [COROT_OBJECTIVE] = "objective",

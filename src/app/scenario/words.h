@@ -4,6 +4,7 @@
 #define COROT_APP_SCENARIO_WORDS_H
 
 extern const char *const words_box_split[];      /* corot_box_split */
+extern const char *const words_length[];         /* units of length */
 extern const char *const words_diagonal[];       /* corot_diagonal */
 extern const char *const words_viscosity[];      /* corot_viscosity */
 extern const char *const words_mass[];           /* corot_mass */
@@ -17,5 +18,8 @@ extern const char *const words_statics_frames[]; /* corot_frames, as statics kno
 
 /* The number of a word in such a list; -1: it is not there. */
 int words_find(const char *const *words, const char *word);
+
+/* One of words_length [m]. */
+double length_in_metres(int unit);
 
 #endif

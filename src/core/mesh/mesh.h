@@ -156,6 +156,22 @@ double corot_curved_determinant(const double (*x)[3], const int v[4], const int 
                                 const double at[4]);
 COROT_SISTERS double corot_curved_volume(const double (*x)[3], const int v[4], const int mid[6]);
 
+/* 3 inradius / circumradius of tet e by its corners, 1 of a regular one: the radius ratio (Liu and
+   Joe 1994). */
+double corot_mesh_shape(const corot_mesh *mesh, int e);
+
+/* The body as seen from a triangle of its surface, straight inward to the other side. */
+typedef struct corot_crossing {
+  int tet;       /* at the triangle */
+  double length; /* of the way [m]; 0: it was lost at an edge */
+  double ntet; /* how many tets it passes: each counts with the part of its own extent along the way
+                  that is passed, so that cells in a row are counted however they are cut */
+} corot_crossing;
+
+/* One for each triangle of corot_mesh_boundary, in its order; curved edges count as straight ones.
+ *crossing is the caller's to free. COROT_ENOMEM. */
+corot_status corot_mesh_cross(const corot_mesh *mesh, corot_crossing **crossing);
+
 /* The box that holds all nodes. */
 void corot_mesh_bounds(const corot_mesh *mesh, double min[3], double max[3]);
 

@@ -81,18 +81,23 @@ static double shape(const double *const x[4], const double normal[4][3], double 
   return 3 * (3 * volume / area) / (norm(s) / (12 * volume));
 }
 
-static void measure_tet(const corot_mesh *mesh, int e, corot_mesh_quality *q) {
-  const int *v = mesh->tet[e];
-  const double *const x[4] = {mesh->x[v[0]], mesh->x[v[1]], mesh->x[v[2]], mesh->x[v[3]]};
-  double flat = corot_tet_volume((const double(*)[3])mesh->x, v), normal[4][3];
-  double volume = corot_mesh_volume_of(mesh, e);
-  for (int k = 0; k < 4; k++) { /* outward, of length twice the area */
+/* The outward normals of a tet, of length twice the area. */
+static void face_normals(const double *const x[4], double normal[4][3]) {
+  for (int k = 0; k < 4; k++) {
     const int *f = corot_tet_face[k];
     double a[3], b[3];
     sub(x[f[1]], x[f[0]], a);
     sub(x[f[2]], x[f[0]], b);
     cross(a, b, normal[k]);
   }
+}
+
+static void measure_tet(const corot_mesh *mesh, int e, corot_mesh_quality *q) {
+  const int *v = mesh->tet[e];
+  const double *const x[4] = {mesh->x[v[0]], mesh->x[v[1]], mesh->x[v[2]], mesh->x[v[3]]};
+  double flat = corot_tet_volume((const double(*)[3])mesh->x, v), normal[4][3];
+  double volume = corot_mesh_volume_of(mesh, e);
+  face_normals(x, normal);
   q->volume += volume;
   q->volume_min = fmin(q->volume_min, volume);
   q->volume_max = fmax(q->volume_max, volume);
@@ -104,6 +109,14 @@ static void measure_tet(const corot_mesh *mesh, int e, corot_mesh_quality *q) {
     q->shape_min = s;
     q->shape_worst = e;
   }
+}
+
+double corot_mesh_shape(const corot_mesh *mesh, int e) {
+  const int *v = mesh->tet[e];
+  const double *const x[4] = {mesh->x[v[0]], mesh->x[v[1]], mesh->x[v[2]], mesh->x[v[3]]};
+  double normal[4][3];
+  face_normals(x, normal);
+  return shape(x, (const double(*)[3])normal, corot_tet_volume((const double(*)[3])mesh->x, v));
 }
 
 corot_mesh_quality corot_mesh_measure(const corot_mesh *mesh) {

@@ -108,11 +108,14 @@ class Mesh(Handle):
         return cls._make(out[0])
 
     @classmethod
-    def read_mended(cls, path: Any, cut: bool = False, merge: float = 0.0) -> tuple[Mesh, list[str]]:
+    def read_mended(cls, path: Any, cut: bool = False, merge: float = 0.0,
+                    scale: float = 1.0) -> tuple[Mesh, list[str]]:
         """The same; what is only written down wrongly is mended, and told in sentences: nodes in no tet
         are left out, left-handed tets turned round, tets that are there twice left out. `cut`: hexahedra,
-        prisms and pyramids are cut into tets. `merge`: nodes no further apart become one [m]."""
-        how = ffi.new("corot_mending *", {"cut": bool(cut), "merge": float(merge)})
+        prisms and pyramids are cut into tets. `merge`: nodes no further apart become one [m]. `scale`:
+        what the file's coordinates are multiplied by to be metres, 1e-3 for millimetres."""
+        how = ffi.new("corot_mending *",
+                      {"cut": bool(cut), "merge": float(merge), "scale": float(scale)})
         out, report = ffi.new("corot_mesh **"), ffi.new("corot_mesh_report **")
         check(lib.corot_mesh_read_mended(cv.encode(path, "path"), how, out, report))
         return cls._make(out[0]), _take_report(report[0])

@@ -303,9 +303,17 @@ corot_status corot_draft_end(corot_draft *d, corot_status status) {
   return corot_faults_fail(&d->faults, status);
 }
 
+/* Coordinates become metres. What is too large then is refused with the others. */
+static void scale(corot_draft *d) {
+  double factor = d->how ? d->how->scale : 0;
+  for (int i = 0; i < d->nnode && factor != 0; i++)
+    for (int k = 0; k < 3; k++) d->x[i][k] *= factor;
+}
+
 corot_status corot_draft_finish(corot_draft *d, corot_mesh **mesh) {
   corot_mesh *m;
   int *tet = NULL;
+  scale(d);
   COROT_TRY(corot_draft_merge(d));
   COROT_TRY(corot_draft_cut(d));
   COROT_TRY(COROT_ALLOC(m, 1));

@@ -61,6 +61,7 @@ typedef struct corot_reading {
   bool mends;                /* what is only written down wrongly */
   bool cuts;                 /* solids other than tets, into tets */
   double merge;              /* nodes no further apart become one [m]; 0: none */
+  double scale;              /* of the coordinates, to be metres; 0: as 1 */
   corot_mesh_report *report; /* what has been done; given if anything may be */
 } corot_reading;
 

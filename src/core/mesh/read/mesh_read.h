@@ -22,7 +22,11 @@ corot_status corot_inp_parse(const char *path, const char *data, size_t size,
                              const corot_reading *how, corot_mesh **mesh);
 corot_status corot_medit_parse(const char *path, const char *data, size_t size,
                                const corot_reading *how, corot_mesh **mesh);
+corot_status corot_medit_binary_parse(const char *path, const char *data, size_t size,
+                                      const corot_reading *how, corot_mesh **mesh);
 corot_status corot_vtu_parse(const char *path, const char *data, size_t size,
+                             const corot_reading *how, corot_mesh **mesh);
+corot_status corot_feb_parse(const char *path, const char *data, size_t size,
                              const corot_reading *how, corot_mesh **mesh);
 corot_status corot_mfem_parse(const char *path, const char *data, size_t size,
                               const corot_reading *how, corot_mesh **mesh);

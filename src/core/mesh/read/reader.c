@@ -85,7 +85,8 @@ static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /* Whether a value ends before c. */
 static bool is_end(const corot_reader *r, char c) {
-  return is_blank(c) || c == '\n' || c == 0 || c == r->separator;
+  return is_blank(c) || c == '\n' || c == 0 || c == r->separator ||
+         (r->stops && strchr(r->stops, c));
 }
 
 bool corot_reader_more(corot_reader *r) {
@@ -235,11 +236,21 @@ corot_status corot_reader_int(corot_reader *r, const char *what, int *value) {
 }
 
 corot_status corot_reader_long(corot_reader *r, const char *what, int64_t *value) {
-  return r->binary ? take(r, what, sizeof *value, value) : text_long(r, what, value);
+  int v = 0;
+  if (!r->binary) return text_long(r, what, value);
+  if (!r->narrow) return take(r, what, sizeof *value, value);
+  COROT_TRY(corot_reader_int(r, what, &v));
+  *value = v;
+  return COROT_OK;
 }
 
 corot_status corot_reader_real(corot_reader *r, const char *what, double *value) {
-  return r->binary ? take(r, what, sizeof *value, value) : text_real(r, what, value);
+  float v = 0;
+  if (!r->binary) return text_real(r, what, value);
+  if (!r->single) return take(r, what, sizeof *value, value);
+  COROT_TRY(take(r, what, sizeof v, &v));
+  *value = (double)v;
+  return COROT_OK;
 }
 
 corot_status corot_reader_point(corot_reader *r, double x[3]) {

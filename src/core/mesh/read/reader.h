@@ -26,10 +26,13 @@ typedef struct corot_reader {
   const corot_reader_piece *piece; /* [npiece] ascending; none: all is of the file `path` */
   char comment;                    /* from here to the end of its line; 0: none */
   char separator;                  /* a value ends before it; 0: blanks only separate */
-  bool flows;  /* a value may stand on a later line; the ends of lines mean nothing */
-  bool bytes;  /* messages give the byte instead of the line */
-  bool binary; /* the values that follow are binary */
-  bool swap;   /* and of the other byte order */
+  const char *stops; /* values end before any of these, too, where the reader stays; NULL: none */
+  bool flows;        /* a value may stand on a later line; the ends of lines mean nothing */
+  bool bytes;        /* messages give the byte instead of the line */
+  bool binary;       /* the values that follow are binary */
+  bool swap;         /* and of the other byte order */
+  bool narrow;       /* whole numbers have 4 bytes there, a long as well */
+  bool single;       /* reals have 4 bytes there */
 } corot_reader;
 
 /* The whole file, a 0 added behind it; the caller frees. COROT_EIO: it cannot be read. */
