@@ -19,6 +19,11 @@ static const char help[] =
     "MiB;\n"
     "the name of a group 127 bytes.\n"
     "\n"
+    "A number of a key with a unit may have another unit of the kind behind it: 20 ms, 2 MPa, 5 mm,\n"
+    "1 g/cm^3, 9.81 m/s^2, 30 deg, 2 Pa*s. Units are m, s, g, N, Pa, bar, J, W, Hz and rad, with n,\n"
+    "u, m, c, d, k, M, G and T before them, and deg, rev, rpm, min, h, t, l, P, cP, in, ft, lb, lbf\n"
+    "and psi. Hz is no rad/s. Results are in SI.\n"
+    "\n"
     "      --json           all of it as a JSON Schema, such as editors use\n"
     "\n"
     "example: corot schema integrator\n";
