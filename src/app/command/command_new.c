@@ -45,24 +45,18 @@ static const starter *find(const char *kind) {
   return NULL;
 }
 
-static int cannot_write(const char *path) {
-  corot_fail(COROT_EIO, "%s: %s", path, strerror(errno));
-  return failure(COROT_EIO);
-}
-
 static int write_file(const starter *s, const char *path, bool force) {
   FILE *out = fopen(path, force ? "w" : "wx");
   if (!out && errno == EEXIST)
     return failure(corot_fail(COROT_EIO, "%s: there is a file already; --force replaces it", path));
-  if (!out) return cannot_write(path);
+  if (!out) return failure(corot_fail(COROT_EIO, "%s: %s", path, strerror(errno)));
   bool written = fputs(s->text, out) >= 0 && fflush(out) == 0;
+  int why = errno;
+  if (fclose(out) != 0 && written) written = false, why = errno;
   if (!written) {
-    int code = cannot_write(path);
-    fclose(out);
     if (!force) remove(path); /* which was made here: half of a scenario is none */
-    return code;
+    return failure(corot_fail(COROT_EIO, "%s: %s", path, strerror(why)));
   }
-  if (fclose(out) != 0) return cannot_write(path);
   say("%s: %s\n", path, s->about);
   return EXIT_OK;
 }
