@@ -14,10 +14,10 @@ extern "C" {
 
 /* The version of these headers, as numbers for #if and as "MAJOR.MINOR.PATCH". While MAJOR is 0 a
    higher MINOR may change anything; else a library of the same MAJOR, and no lower MINOR, will do. */
-#define COROT_VERSION_MAJOR 0
-#define COROT_VERSION_MINOR 1
+#define COROT_VERSION_MAJOR 1
+#define COROT_VERSION_MINOR 0
 #define COROT_VERSION_PATCH 0
-#define COROT_VERSION "0.1.0"
+#define COROT_VERSION "1.0.0"
 
 /* Stands before each function that a host may call: these, and no others, a shared library exports.
    Nothing has to be defined by a host. */

@@ -1,4 +1,4 @@
-/* The program: the table of its commands. */
+/* The program: the table of its commands, from which come the help, man pages and completion. */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -17,51 +17,8 @@
 
 #include "crash.h"
 #include "first_signals.h"
+#include "help.h"
 #include "limited.h"
-
-static const char help[] =
-    "corot: deformable solids as ordinary differential equations, integrated with error control\n"
-    "\n"
-    "usage: corot COMMAND ...\n"
-    "\n"
-    "  run MODEL.yaml       integrate a scenario and write its tables and fields\n"
-    "  static MODEL.yaml    find its equilibrium under the full loads instead\n"
-    "  modes MODEL.yaml     find its eigenfrequencies and modes\n"
-    "  check MODEL.yaml     say what is wrong with a scenario, or what it amounts to\n"
-    "  study STUDY.yaml     run a scenario many times along axes, and compare: errors and costs\n"
-    "  budget MODEL.yaml    how wrong a run is, and because of what\n"
-    "  solve MODEL.yaml     find a number of it with an error that is asked for\n"
-    "  find-limit MODEL.yaml\n"
-    "                       where it stops being stable as one of its numbers grows\n"
-    "  export-fmu MODEL.yaml\n"
-    "                       pack it for programs that couple models (FMI 3.0)\n"
-    "  schema [KEY]         every key of a scenario: type, unit, default, meaning\n"
-    "  tune                 measure which linear solvers are fast on this machine\n"
-    "  mesh box             generate the mesh of a box\n"
-    "  mesh info FILE       size, shape and groups of a mesh\n"
-    "  mesh refine FILE     cut every tet into eight\n"
-    "  plot DIR             draw the work-precision diagram of a study\n"
-    "  report DIR           show a run or a study as one HTML page\n"
-    "\n"
-    "  corot COMMAND --help, corot --version\n"
-    "\n"
-    "Data goes to stdout, messages to stderr. Exit codes:\n"
-    "\n"
-    "  0  ok                              4  the integrator gave up, or found no equilibrium\n"
-    "  1  finished, but a check failed,   5  the system refused memory, reading or writing, or\n"
-    "     or some runs did                   there are no results in a folder, or files of\n"
-    "  2  the command line makes no sense    others that only --force replaces\n"
-    "  3  a scenario, study or mesh is bad or missing\n"
-    "  128 + N  interrupted by signal N, after writing what there was (130: Ctrl-C, 143: kill);\n"
-    "           or ended by a fault (139, 134), which is said, with what was written by then\n"
-    "\n"
-    "example: corot run models/bar/bar.yaml -o out/bar --set integrator.rtol=1e-6\n";
-
-static int print_version(int argc, char **argv) {
-  (void)argc, (void)argv;
-  printf("corot %s\n", corot_version());
-  return EXIT_OK;
-}
 
 /* A standard stream that is closed would lend its number to the next file opened. */
 static void hold_standard_streams(void) {
@@ -111,17 +68,66 @@ static void leave_at_once_if_limited(int code) {
   _exit(code);
 }
 
+static int command_help(int argc, char **argv);
+
+static const listed_command table[] = {
+    {"new", command_new, "to begin", "KIND",
+     "write a scenario to begin with: bar, bracket or free"},
+    {"schema", command_schema, NULL, "[KEY]",
+     "every key of a scenario: type, unit, default, meaning"},
+    {"check", command_check, NULL, "MODEL.yaml",
+     "say what is wrong with a scenario, or what it amounts to"},
+    {"mesh", command_mesh, NULL, "box|info|...",
+     "generate, look at, refine, repair or convert a mesh"},
+    {"run", command_run, "to compute", "MODEL.yaml",
+     "integrate a scenario and write its tables and fields"},
+    {"static", command_static, NULL, "MODEL.yaml",
+     "find its equilibrium under the full loads instead"},
+    {"modes", command_modes, NULL, "MODEL.yaml", "find its eigenfrequencies and modes"},
+    {"solve", command_solve, NULL, "MODEL.yaml",
+     "find a number of it with an error that is asked for"},
+    {"tune", command_tune, NULL, "", "measure which linear solvers are fast on this machine"},
+    {"budget", command_budget, "to compare", "MODEL.yaml",
+     "how wrong a run is, and because of what"},
+    {"study", command_study, NULL, "STUDY.yaml",
+     "run a scenario many times along axes, and compare: errors and costs"},
+    {"find-limit", command_find_limit, NULL, "MODEL.yaml",
+     "where it stops being stable as one of its numbers grows"},
+    {"report", command_report, "to show and to pass on", "DIR",
+     "show a run or a study as one HTML page"},
+    {"plot", command_study_plot, NULL, "DIR", "draw the work-precision diagram of a study"},
+    {"export-fmu", command_export_fmu, NULL, "MODEL.yaml",
+     "pack it for programs that couple models (FMI 3.0)"},
+    {"help", command_help, "to look up", "[COMMAND]", "what a command does, and its options"},
+    {"--version", print_version, NULL, "(-v)", "of corot, and of the libraries that it has found"},
+    {"-v", print_version, NULL, NULL, NULL},
+    {NULL, NULL, NULL, NULL, NULL},
+};
+
+static int answer(int argc, char **argv) {
+  bool asked = argc > 1 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
+  command plain[sizeof table / sizeof *table];
+  for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+    plain[i] = (command){table[i].name, table[i].run};
+  if (argc > 1 && !asked) return dispatch("corot", "", plain, argc, argv);
+  print_help(table, asked ? stdout : stderr);
+  return asked ? EXIT_OK : EXIT_USAGE;
+}
+
+/* `corot help study export` is `corot study export --help`. */
+static int command_help(int argc, char **argv) {
+  enum { MOST = 3 };
+  static char asked[] = "--help";
+  char *line[MOST + 2] = {argv[0]};
+  bool whole = argc < 2 || argv[1][0] == '-' || strcmp(argv[1], "help") == 0;
+  if (argc > MOST) return usage_error("corot help", "expected one command");
+  int n = 1;
+  for (int i = 1; i < argc && !whole; i++) line[n++] = argv[i];
+  line[n++] = asked;
+  return answer(n, line);
+}
+
 int main(int argc, char **argv) {
-  static const command table[] = {
-      {"run", command_run},         {"static", command_static},
-      {"modes", command_modes},     {"check", command_check},
-      {"study", command_study},     {"budget", command_budget},
-      {"solve", command_solve},     {"find-limit", command_find_limit},
-      {"plot", command_study_plot}, {"report", command_report},
-      {"schema", command_schema},   {"tune", command_tune},
-      {"mesh", command_mesh},       {"export-fmu", command_export_fmu},
-      {"--version", print_version}, {0},
-  };
   libraries_are_loaded();
   first_signals_restore();
   hold_standard_streams();
@@ -130,7 +136,7 @@ int main(int argc, char **argv) {
   signal(SIGPIPE, SIG_IGN); /* a reader that leaves is a write error, seen below */
   signal(SIGXFSZ, SIG_IGN); /* so is a file that may not grow further */
   template_serve(&argc, &argv);
-  int code = dispatch("corot", help, table, argc, argv);
+  int code = answer(argc, argv);
   if (fflush(stdout) != 0 || ferror(stdout)) {
     fprintf(stderr, "corot: standard output: %s\n", strerror(errno));
     if (code == EXIT_OK) code = EXIT_SYSTEM;

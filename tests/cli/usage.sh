@@ -1,6 +1,6 @@
 . "$(dirname "$0")/lib.sh"
 
-expect 0 --version; out "corot 0."; no_err
+expect 0 --version; out "corot 1."; no_err
 expect 0 --help; out "usage: corot COMMAND"; no_err
 expect 2; err "usage: corot COMMAND"; no_out
 expect 2 chek; err "unknown command chek; did you mean check?"; no_out

@@ -96,6 +96,8 @@ CASES = {
     "modes": Case(None, "modes model.yaml -n 3 -o out/modes", False),
     "modes-loaded": Case(None, "modes model.yaml -n 3 --about equilibrium -o out/modes", False),
     "check": Case(None, "check model.yaml", False),
+    "check-bad": Case(None, "check model.yaml --set threads=many --set time.end=soon", False, 3),
+    "new": Case(None, "new bar -o bar.yaml --force", False),
     "export-fmu": Case(None, "export-fmu model.yaml -o model.fmu", False),
     "mesh-box": Case(None, "mesh box --size 0.1,0.1,0.2 --cells 1,1,2 -o box.msh", False),
     "mesh-info": Case("mesh-box", "mesh info box.msh", False),

@@ -159,7 +159,7 @@ class Loading(unittest.TestCase):
             (package / "_cdef.h").write_text(text)
             own = {"PYTHONPATH": folder, "COROT_LIBRARY": corot.library_path}
             self.assertEqual(self.load(**own), (0, ""))
-            (package / "_cdef.h").write_text(text.replace("VERSION_MAJOR = 0.0", "VERSION_MAJOR = 7.0"))
+            (package / "_cdef.h").write_text(text.replace("VERSION_MAJOR = 1.0", "VERSION_MAJOR = 7.0"))
             code, said = self.load(**own)
             self.assertEqual(code, 1)
             self.assertIn(f"is corot {corot.__version__}, and this package is for 7.", said)

@@ -10,10 +10,12 @@
 #include "app/text/say.h"
 #include "app/text/suggest.h"
 
+enum { MOST_NAMES = 32 }; /* that a mistyped one is held against */
+
 int usage_error(const char *program, const char *format, ...) {
   va_list args;
   va_start(args, format);
-  say("%s: ", program);
+  say_head(program);
   say_to(stderr, format, args);
   say("\nTry '%s --help'.\n", program);
   va_end(args);
@@ -25,9 +27,9 @@ int option_error(const char *program, int answer, char **argv, const struct opti
   if (answer == ':') return usage_error(program, "%s needs a value", given);
   if (strncmp(given, "--", 2) != 0) return usage_error(program, "unknown option -%c", optopt);
 
-  const char *name[16];
+  const char *name[MOST_NAMES];
   int nname = 0;
-  for (; known->name && nname < 16; known++) name[nname++] = known->name;
+  for (; known->name && nname < MOST_NAMES; known++) name[nname++] = known->name;
   char typed[64];
   snprintf(typed, sizeof typed, "%.*s", (int)strcspn(given + 2, "="), given + 2);
   const char *near = suggest(typed, nname, name);
@@ -45,9 +47,9 @@ int dispatch(const char *program, const char *help, const command *table, int ar
     fputs(help, stdout);
     return EXIT_OK;
   }
-  const char *name[16];
+  const char *name[MOST_NAMES];
   int nname = 0;
-  for (const command *c = table; c->name && nname < 16; c++) {
+  for (const command *c = table; c->name && nname < MOST_NAMES; c++) {
     if (strcmp(argv[1], c->name) == 0) return c->run(argc - 1, argv + 1);
     name[nname++] = c->name;
   }

@@ -17,6 +17,7 @@ int command_check(int argc, char **argv);
 int command_schema(int argc, char **argv);
 int command_tune(int argc, char **argv);
 int command_mesh(int argc, char **argv);
+int command_new(int argc, char **argv);
 int command_mesh_box(int argc, char **argv);
 int command_mesh_info(int argc, char **argv);
 int command_mesh_refine(int argc, char **argv);

@@ -155,7 +155,7 @@ static const char *skip_digits(const char *s) {
 
 /* [+-] digits [. digits] [e [+-] digits], where the digits before or after the point may be
    missing. A leading zero, as in 010, would be octal to some readers. */
-static bool is_decimal(const char *s) {
+bool config_is_decimal(const char *s) {
   if (*s == '+' || *s == '-') s++;
   const char *point = skip_digits(s);
   if (*s == '0' && point > s + 1) return false;
@@ -178,7 +178,7 @@ static bool is_decimal(const char *s) {
 }
 
 bool config_parse_number(const config_node *node, double *number) {
-  if (node->kind != CONFIG_SCALAR || node->quoted || !is_decimal(node->text)) return false;
+  if (node->kind != CONFIG_SCALAR || node->quoted || !config_is_decimal(node->text)) return false;
   double value = strtod(node->text, NULL);
   if (!(value - value == 0)) return false;
   *number = value;
@@ -244,7 +244,7 @@ static excerpt excerpt_of(const config_source *source, size_t at) {
   return e;
 }
 
-static corot_status fail_at(const config_source *source, size_t at, const char *message) {
+static corot_status tell_at(const config_source *source, size_t at, const char *message) {
   if (!source) return corot_fail(COROT_EFORMAT, "%s", message);
   if (!source->lines) return corot_fail(COROT_EFORMAT, "%s: %s", source->name, message);
   excerpt e = excerpt_of(source, at);
@@ -254,6 +254,12 @@ static corot_status fail_at(const config_source *source, size_t at, const char *
     if (*c == '\t') *c = ' ';
   return corot_fail(COROT_EFORMAT, "%s:%d:%d: %s\n  %s\n  %*s^", source->name, e.line, e.column,
                     message, line, e.caret, "");
+}
+
+static corot_status fail_at(const config_source *source, size_t at, const char *message) {
+  corot_status status = tell_at(source, at, message);
+  config_failed_at(source, at);
+  return status;
 }
 
 corot_status config_fail_at(const config_source *source, size_t at, const char *format, ...) {

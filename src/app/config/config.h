@@ -35,6 +35,7 @@ enum {
   CONFIG_MOST_LEVELS = 32,
   CONFIG_MOST_VALUES = 1000000, /* maps and lists are values, too; aliases count unfolded */
   CONFIG_MOST_KEYS = 10000,     /* of one map: probes, groups */
+  CONFIG_MOST_FAULTS = 10,      /* told at once */
 };
 
 /* A tree, and the memory of everything that was read into it. */
@@ -42,6 +43,7 @@ typedef struct config {
   struct config_block *block; /* see config_alloc */
   long nnode;                 /* of all trees read into it */
   config_node *root;
+  struct config_faults *faults; /* NULL: none */
 } config;
 
 /* Reads a file; JSON if its name ends in ".json", otherwise YAML (of which JSON is nearly a part).
@@ -72,6 +74,9 @@ config_node *config_find(config_node *node, const char *path);
 
 /* A scalar that stands for nothing: empty, ~ or null, without quotes. */
 bool config_is_null(const config_node *node);
+
+/* Whether a text is a number as config_parse_number() wants it. */
+bool config_is_decimal(const char *text);
 
 /* The number a scalar spells, as in JSON and YAML, in decimal only; false: it spells none, or one
    that is not finite. */
@@ -112,6 +117,21 @@ corot_status config_fail_key(const config_node *node, const char *format, ...)
 /* The same for a place in a source. */
 corot_status config_fail_at(const config_source *source, size_t at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* What is wrong with a file is told all at once: reading goes on after a fault where that makes
+   sense.
+
+   Of a step in reading: keeps corot_error() of COROT_EFORMAT and COROT_EINVAL, and returns
+   COROT_OK, so that the next step is taken; returns any other status as it is. */
+corot_status config_keep(config *tree, corot_status status);
+
+/* COROT_OK: nothing was kept. COROT_EFORMAT, with the messages of the first CONFIG_MOST_FAULTS, in
+   the order of their places, those of --set last, and how many more there are. What was kept is
+   forgotten. */
+corot_status config_kept(config *tree);
+
+/* Of config_fail: the last failure is about this place. */
+void config_failed_at(const config_source *source, size_t at);
 
 /* Writes the keys and indices that lead to a node, "loads[0].group", cut to fit. */
 void config_path(const config_node *node, size_t size, char *path);

@@ -1,11 +1,10 @@
 /* A tree held against the table: types, ranges, missing and unknown keys, defaults. */
-#include <limits.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "app/text/suggest.h"
 #include "schema.h"
+#include "schema_number.h"
 
 enum { PATH = 128, LIST = 512 };
 
@@ -18,26 +17,6 @@ typedef struct application {
 static corot_status apply_map(const application *a, config_node *map, const char *path);
 
 /* --- Words for messages --- */
-
-/* What stands there, in words. */
-static void describe(const config_node *node, size_t size, char *text) {
-  if (node->kind == CONFIG_MAP)
-    snprintf(text, size, "a map");
-  else if (node->kind == CONFIG_LIST)
-    snprintf(text, size, "a list of %d", node->nchild);
-  else if (node->quoted)
-    snprintf(text, size, "the text \"%.40s\"", node->text);
-  else if (config_is_null(node))
-    snprintf(text, size, "nothing");
-  else
-    snprintf(text, size, "%.40s", node->text);
-}
-
-static corot_status expected(const config_node *node, const char *what) {
-  char found[PATH];
-  describe(node, sizeof found, found);
-  return config_fail(node, "expected %s, found %s", what, found);
-}
 
 static const char *last_segment(const char *path) {
   const char *dot = strrchr(path, '.');
@@ -97,29 +76,10 @@ static corot_status unknown_key(const schema *table, const config_node *node, co
 
 /* --- Numbers --- */
 
-static corot_status check_number(config_node *node, schema_range range) {
-  if (!config_parse_number(node, &node->number)) {
-    if (node->quoted) return expected(node, "a number (without quotes)");
-    bool digits = node->kind == CONFIG_SCALAR && strpbrk(node->text, "0123456789.");
-    return expected(node,
-                    digits ? "a finite number in decimal, such as 1.5 or 1.0e-3" : "a number");
-  }
-  if (!schema_in_range(node->number, range))
-    return config_fail(node, "must be %s, found %s", schema_ranges[range].words, node->text);
-  return COROT_OK;
-}
+typedef corot_status check_function(config_node *node, schema_demand wanted);
 
-static corot_status check_integer(config_node *node, schema_range range) {
-  COROT_TRY(check_number(node, range));
-  if (node->number != floor(node->number)) return expected(node, "a whole number");
-  if (fabs(node->number) > INT_MAX) return config_fail(node, "must be at most %d", INT_MAX);
-  return COROT_OK;
-}
-
-typedef corot_status check_function(config_node *node, schema_range range);
-
-static corot_status check_entries(config_node *list, schema_range range, check_function *check) {
-  for (config_node *c = list->child; c; c = c->next) COROT_TRY(check(c, range));
+static corot_status check_entries(config_node *list, schema_demand wanted, check_function *check) {
+  for (config_node *c = list->child; c; c = c->next) COROT_TRY(check(c, wanted));
   return COROT_OK;
 }
 
@@ -128,49 +88,26 @@ static corot_status check_scalar(config_node *node, const schema_key *key, check
   if (key->words && node->kind == CONFIG_SCALAR && strcmp(node->text, key->words) == 0)
     return COROT_OK;
   double ignored;
-  if (key->words && !config_parse_number(node, &ignored)) {
+  size_t digits;
+  if (key->words && !config_parse_number(node, &ignored) && !schema_unit_behind(node, &digits)) {
     char what[64];
     snprintf(what, sizeof what, "a number or %s", key->words);
-    return expected(node, what);
+    return schema_expected(node, what);
   }
-  return check(node, key->range);
-}
-
-/* A number of seconds, or one with its unit after it; the node's number is in seconds. */
-static corot_status check_duration(config_node *node, schema_range range) {
-  static const struct {
-    const char *name;
-    double seconds;
-  } unit[] = {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}};
-  const char *text = node->kind == CONFIG_SCALAR ? node->text : "";
-  size_t length = strlen(text); /* of the number */
-  while (length > 0 && !strchr("0123456789.", text[length - 1])) length--;
-  const char *word = text + length + strspn(text + length, " ");
-  double seconds = *word ? 0 : 1;
-  for (size_t i = 0; i < sizeof unit / sizeof *unit; i++)
-    if (strcmp(word, unit[i].name) == 0) seconds = unit[i].seconds;
-  char digits[64];
-  snprintf(digits, sizeof digits, "%.*s", (int)length, text);
-  config_node number = {.kind = CONFIG_SCALAR, .text = digits};
-  if (!(seconds > 0) || length >= sizeof digits || !config_parse_number(&number, &node->number))
-    return expected(node, "seconds, such as 600, or a number and s, min, h or d, such as 10 min");
-  node->number *= seconds;
-  if (!schema_in_range(node->number, range))
-    return config_fail(node, "must be %s, found %s", schema_ranges[range].words, node->text);
-  return COROT_OK;
+  return check(node, (schema_demand){key->range, key->unit});
 }
 
 /* --- Other values --- */
 
 static corot_status check_text(const config_node *node) {
-  if (node->kind != CONFIG_SCALAR) return expected(node, "text");
+  if (node->kind != CONFIG_SCALAR) return schema_expected(node, "text");
   return COROT_OK;
 }
 
 static corot_status check_choice(const config_node *node, const schema_key *key) {
   char list[LIST], near[PATH];
   comma_list(key->words, sizeof list, list);
-  if (node->kind != CONFIG_SCALAR) return expected(node, list);
+  if (node->kind != CONFIG_SCALAR) return schema_expected(node, list);
   if (among(node->text, key->words)) return COROT_OK;
   suggest_among(node->text, key->words, sizeof near, near);
   if (*near) return config_fail(node, "unknown: %.40s; did you mean %s?", node->text, near);
@@ -180,15 +117,15 @@ static corot_status check_choice(const config_node *node, const schema_key *key)
 static corot_status check_three(config_node *node, const schema_key *key, check_function *check) {
   bool whole = key->type == SCHEMA_COUNTS;
   if (node->kind != CONFIG_LIST || node->nchild != 3)
-    return expected(node, whole ? "three whole numbers, such as [2, 2, 12]"
-                                : "three numbers, such as [0.0, 0.0, -9.81]");
-  return check_entries(node, key->range, check);
+    return schema_expected(node, whole ? "three whole numbers, such as [2, 2, 12]"
+                                       : "three numbers, such as [0.0, 0.0, -9.81]");
+  return check_entries(node, (schema_demand){key->range, key->unit}, check);
 }
 
-static corot_status check_integers(config_node *node, schema_range range) {
+static corot_status check_integers(config_node *node, const schema_key *key) {
   if (node->kind != CONFIG_LIST || node->nchild == 0)
-    return expected(node, "a list of whole numbers, such as [3, 39, 64]");
-  return check_entries(node, range, check_integer);
+    return schema_expected(node, "a list of whole numbers, such as [3, 39, 64]");
+  return check_entries(node, (schema_demand){key->range, key->unit}, schema_check_integer);
 }
 
 static corot_status check_words(const config_node *node, const schema_key *key) {
@@ -196,7 +133,7 @@ static corot_status check_words(const config_node *node, const schema_key *key) 
     char list[LIST], what[LIST + 32];
     comma_list(key->words, sizeof list, list);
     snprintf(what, sizeof what, "a list of words, such as [%s]", list);
-    return expected(node, what);
+    return schema_expected(node, what);
   }
   for (const config_node *c = node->child; c; c = c->next) {
     COROT_TRY(check_choice(c, key));
@@ -208,29 +145,32 @@ static corot_status check_words(const config_node *node, const schema_key *key) 
 
 static corot_status check_pairs(config_node *node) {
   if (node->kind != CONFIG_LIST || node->nchild == 0)
-    return expected(node, "a list of [time, value], such as [[0.0, 0.0], [10.0, 1.0]], or a map");
+    return schema_expected(node,
+                           "a list of [time, value], such as [[0.0, 0.0], [10.0, 1.0]], or a map");
   for (config_node *c = node->child; c; c = c->next) {
-    if (c->kind != CONFIG_LIST || c->nchild != 2) return expected(c, "a pair [time, value]");
-    COROT_TRY(check_entries(c, SCHEMA_ANY, check_number));
+    if (c->kind != CONFIG_LIST || c->nchild != 2) return schema_expected(c, "a pair [time, value]");
+    COROT_TRY(schema_check_number(c->child, (schema_demand){SCHEMA_ANY, "s"}));
+    COROT_TRY(schema_check_number(c->last, (schema_demand){SCHEMA_ANY, ""}));
   }
   return COROT_OK;
 }
 
 static corot_status check_values(const config_node *node) {
-  if (node->kind != CONFIG_LIST) return expected(node, "a list of values, such as [1, 2]");
+  if (node->kind != CONFIG_LIST) return schema_expected(node, "a list of values, such as [1, 2]");
   if (node->nchild == 0) return config_fail(node, "the list is empty");
   return COROT_OK;
 }
 
 static corot_status check_open(const config_node *node) {
-  if (node->kind != CONFIG_MAP) return expected(node, "a map");
+  if (node->kind != CONFIG_MAP) return schema_expected(node, "a map");
   for (const config_node *c = node->child; c; c = c->next)
     if (!*c->key) return config_fail_key(c, "a key is empty");
   return COROT_OK;
 }
 
 static corot_status check_opens(const config_node *node) {
-  if (node->kind != CONFIG_LIST) return expected(node, "a list of maps, each begun by \"- \"");
+  if (node->kind != CONFIG_LIST)
+    return schema_expected(node, "a list of maps, each begun by \"- \"");
   for (const config_node *c = node->child; c; c = c->next) COROT_TRY(check_open(c));
   return COROT_OK;
 }
@@ -249,7 +189,8 @@ static corot_status wrap(const application *a, config_node *node, config_kind ki
 
 static corot_status apply_texts(const application *a, config_node *node) {
   if (node->kind == CONFIG_SCALAR) COROT_TRY(wrap(a, node, CONFIG_LIST, NULL));
-  if (node->kind != CONFIG_LIST || node->nchild == 0) return expected(node, "a text, or a list");
+  if (node->kind != CONFIG_LIST || node->nchild == 0)
+    return schema_expected(node, "a text, or a list");
   for (const config_node *c = node->child; c; c = c->next) COROT_TRY(check_text(c));
   return COROT_OK;
 }
@@ -260,17 +201,17 @@ typedef corot_status apply_function(const application *a, config_node *node, con
 
 static corot_status apply_named(const application *a, config_node *map, const char *path,
                                 apply_function *apply) {
-  if (map->kind != CONFIG_MAP) return expected(map, "a map of names");
+  if (map->kind != CONFIG_MAP) return schema_expected(map, "a map of names");
   for (config_node *c = map->child; c; c = c->next) {
-    if (!*c->key) return config_fail_key(c, "a name is empty");
-    COROT_TRY(apply(a, c, path));
+    corot_status status = *c->key ? apply(a, c, path) : config_fail_key(c, "a name is empty");
+    COROT_TRY(config_keep(a->tree, status));
   }
   return COROT_OK;
 }
 
 /* Names without a text are dropped. */
 static corot_status apply_named_texts(config_node *map) {
-  if (map->kind != CONFIG_MAP) return expected(map, "a map of names");
+  if (map->kind != CONFIG_MAP) return schema_expected(map, "a map of names");
   for (config_node *c = map->child, *next; c; c = next) {
     next = c->next;
     if (!*c->key) return config_fail_key(c, "a name is empty");
@@ -281,15 +222,17 @@ static corot_status apply_named_texts(config_node *map) {
 }
 
 static corot_status apply_list(const application *a, config_node *list, const char *path) {
-  if (list->kind != CONFIG_LIST) return expected(list, "a list of maps, each begun by \"- \"");
-  for (config_node *c = list->child; c; c = c->next) COROT_TRY(apply_map(a, c, path));
+  if (list->kind != CONFIG_LIST)
+    return schema_expected(list, "a list of maps, each begun by \"- \"");
+  for (config_node *c = list->child; c; c = c->next)
+    COROT_TRY(config_keep(a->tree, apply_map(a, c, path)));
   return COROT_OK;
 }
 
 static corot_status apply_maps(const application *a, config_node *node, const char *path) {
   if (node->kind == CONFIG_MAP) return apply_map(a, node, path);
   if (node->kind != CONFIG_LIST || node->nchild == 0)
-    return expected(node, "a map or a list of maps");
+    return schema_expected(node, "a map or a list of maps");
   return apply_list(a, node, path);
 }
 
@@ -365,17 +308,17 @@ static corot_status apply_value(const application *a, config_node *node, const s
     case SCHEMA_CHOICE:
       return check_choice(node, key);
     case SCHEMA_NUMBER:
-      return check_scalar(node, key, check_number);
+      return check_scalar(node, key, schema_check_number);
     case SCHEMA_INTEGER:
-      return check_scalar(node, key, check_integer);
+      return check_scalar(node, key, schema_check_integer);
     case SCHEMA_DURATION:
-      return check_duration(node, key->range);
+      return schema_check_duration(node, key->range);
     case SCHEMA_VECTOR:
-      return check_three(node, key, check_number);
+      return check_three(node, key, schema_check_number);
     case SCHEMA_COUNTS:
-      return check_three(node, key, check_integer);
+      return check_three(node, key, schema_check_integer);
     case SCHEMA_INTEGERS:
-      return check_integers(node, key->range);
+      return check_integers(node, key);
     case SCHEMA_WORDS:
       return check_words(node, key);
     case SCHEMA_STATES:
@@ -392,18 +335,24 @@ static corot_status apply_value(const application *a, config_node *node, const s
   return COROT_OK;
 }
 
-static corot_status apply_given(const application *a, config_node *map, const char *path) {
+static corot_status apply_key(const application *a, config_node *c, const schema_key *key) {
+  if (!config_is_null(c)) return apply_value(a, c, key);
+  config_remove(c);
+  return COROT_OK;
+}
+
+/* *strange: there is a key that the table does not know. */
+static corot_status apply_given(const application *a, config_node *map, const char *path,
+                                bool *strange) {
   for (config_node *c = map->child, *next; c; c = next) {
     next = c->next;
     const schema_key *key = NULL;
     while ((key = schema_child(a->table, path, key)) &&
            strcmp(last_segment(key->path), c->key) != 0)
       continue;
-    if (!key) return unknown_key(a->table, c, path);
-    if (config_is_null(c))
-      config_remove(c);
-    else
-      COROT_TRY(apply_value(a, c, key));
+    *strange |= !key;
+    corot_status status = key ? apply_key(a, c, key) : unknown_key(a->table, c, path);
+    COROT_TRY(config_keep(a->tree, status));
   }
   return COROT_OK;
 }
@@ -462,16 +411,17 @@ static corot_status check_one_of(const schema *table, const config_node *map, co
 }
 
 static corot_status apply_map(const application *a, config_node *map, const char *path) {
-  if (map->kind != CONFIG_MAP) return expected(map, "a map");
-  COROT_TRY(apply_given(a, map, path));
-  COROT_TRY(check_one_of(a->table, map, path));
+  if (map->kind != CONFIG_MAP) return schema_expected(map, "a map");
+  bool strange = false; /* what is missing may be there under another name */
+  COROT_TRY(apply_given(a, map, path, &strange));
+  if (!strange) COROT_TRY(config_keep(a->tree, check_one_of(a->table, map, path)));
   for (const schema_key *k = NULL; (k = schema_child(a->table, path, k));) {
     const char *name = last_segment(k->path);
     bool given = false;
     for (const config_node *c = map->child; c; c = c->next) given |= strcmp(c->key, name) == 0;
     if (given) continue;
-    if (k->status == SCHEMA_REQUIRED)
-      return config_fail_key(map, "%s is missing (%s)", name, k->doc);
+    if (k->status == SCHEMA_REQUIRED && !strange)
+      COROT_TRY(config_keep(a->tree, config_fail_key(map, "%s is missing (%s)", name, k->doc)));
     if (k->fallback) COROT_TRY(add_default(a, map, k));
   }
   return COROT_OK;
@@ -479,5 +429,6 @@ static corot_status apply_map(const application *a, config_node *map, const char
 
 corot_status schema_apply(const schema *table, config *tree) {
   application a = {table, tree};
-  return apply_map(&a, tree->root, "");
+  COROT_TRY(config_keep(tree, apply_map(&a, tree->root, "")));
+  return config_kept(tree);
 }

@@ -33,7 +33,9 @@ corot_status provenance_make(json_t **out);
    the BLAS, which studies and users set. NULL for either stands for a result that says nothing. */
 enum {
   PROVENANCE_OF_CODE = 4, /* the first: commit, build, corot and SUNDIALS */
-  PROVENANCE_FIELDS = 12
+  PROVENANCE_FIELDS = 12,
+  PROVENANCE_COROT = 2,   /* corot's own version */
+  PROVENANCE_KERNELS = 9, /* of the BLAS: known where something is factored */
 };
 bool provenance_same(const json_t *a, const json_t *b, int field);
 bool provenance_equal(const json_t *a, const json_t *b);

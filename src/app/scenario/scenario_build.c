@@ -118,16 +118,39 @@ static corot_status check_starts(const scenario *s, const corot_mesh *mesh) {
   config_node *node = place(s, "start");
   if (node->kind == CONFIG_MAP) return check_start(config_find(node, "group"), mesh);
   for (config_node *c = node->child; c; c = c->next)
-    COROT_TRY(check_start(config_find(c, "group"), mesh));
+    COROT_TRY(config_keep(s->source, check_start(config_find(c, "group"), mesh)));
   return COROT_OK;
+}
+
+static corot_status check_group(const scenario *s, config_node *entry, const corot_mesh *mesh) {
+  const config_node *node = config_find(entry, "group");
+  if (!node || corot_mesh_find_group(mesh, node->text)) return COROT_OK;
+  return config_keep(s->source, scenario_unknown_group(node, mesh));
+}
+
+/* The groups that entries of a list, or a map in its place, name. */
+static corot_status check_groups(const scenario *s, const char *key, const corot_mesh *mesh) {
+  config_node *list = place(s, key);
+  if (list->kind == CONFIG_MAP) return check_group(s, list, mesh);
+  for (config_node *c = list->child; c; c = c->next) COROT_TRY(check_group(s, c, mesh));
+  return COROT_OK;
+}
+
+/* What names groups and nodes of the mesh, all of it at once. */
+static corot_status check_names(const scenario *s, const corot_mesh *mesh) {
+  COROT_TRY(check_groups(s, "material", mesh));
+  COROT_TRY(check_groups(s, "boundary", mesh));
+  COROT_TRY(check_groups(s, "loads", mesh));
+  COROT_TRY(config_keep(s->source, check_starts(s, mesh)));
+  COROT_TRY(scenario_check_probes(s, mesh));
+  return config_kept(s->source);
 }
 
 /* --- Model --- */
 
 static corot_status build_model(const scenario *s, const corot_mesh *mesh,
                                 const corot_refinement *refinement, corot_model **model) {
-  COROT_TRY(check_starts(s, mesh));
-  COROT_TRY(scenario_check_probes(s, mesh));
+  COROT_TRY(check_names(s, mesh));
   corot_model_def def = s->model;
   corot_hierarchy_def hierarchy = s->hierarchy;
   hierarchy.refinement = refinement;

@@ -68,7 +68,7 @@ static corot_status read_boundary(scenario *s) {
     if (config_find(c, "fix"))
       read_fix(c, &fix[s->model.nfix++]);
     else
-      COROT_TRY(read_motion(s, c, &motion[s->model.nmotion++]));
+      COROT_TRY(config_keep(s->source, read_motion(s, c, &motion[s->model.nmotion++])));
   }
   return COROT_OK;
 }
@@ -101,6 +101,6 @@ corot_status scenario_read_conditions(scenario *s) {
   if (!load) return no_memory();
   s->model.load = load;
   for (config_node *c = list->child; c; c = c->next)
-    COROT_TRY(read_load(s, c, &load[s->model.nload++]));
+    COROT_TRY(config_keep(s->source, read_load(s, c, &load[s->model.nload++])));
   return COROT_OK;
 }

@@ -183,11 +183,12 @@ corot_status scenario_read_groups(scenario *s) {
   if (!group || !ordered) return no_memory();
   int i = 0;
   for (config_node *c = map->child; c; c = c->next)
-    COROT_TRY(read_group(s->source, c, &group[i++]));
-  COROT_TRY(put_in_order(s->source, map->nchild, group, ordered));
-  s->group = ordered;
+    COROT_TRY(config_keep(s->source, read_group(s->source, c, &group[i++])));
+  /* of what is made of itself there is no order; it has names, for what is read after it */
+  corot_status status = put_in_order(s->source, map->nchild, group, ordered);
+  s->group = status ? group : ordered;
   s->ngroup = map->nchild;
-  return COROT_OK;
+  return config_keep(s->source, status);
 }
 
 /* --- On the mesh --- */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "app/config/unit.h"
 #include "app/text/json_text.h"
 #include "scenario_keys.h"
 
@@ -35,8 +36,17 @@ static json_t *words_list(const char *words) {
   return list;
 }
 
+/* A number of a key with a unit may have one behind it. */
+static json_t *quantity_schema(const schema_key *key) {
+  measured_unit u;
+  json_t *number = ranged("number", key->range);
+  if (!unit_of_key(key->unit, &u)) return number;
+  return json_pack("{s:[o, {s:s, s:s}]}", "anyOf", number, "type", "string", "pattern",
+                   "^[+-]?[0-9.]+([eE][+-]?[0-9]+)? *[^0-9 ,:_*/^.+-]");
+}
+
 static json_t *scalar_schema(const char *type, const schema_key *key) {
-  json_t *number = ranged(type, key->range);
+  json_t *number = strcmp(type, "number") == 0 ? quantity_schema(key) : ranged(type, key->range);
   if (!key->words) return number;
   return json_pack("{s:[o, {s:s}]}", "anyOf", number, "const", key->words);
 }
@@ -45,6 +55,16 @@ static json_t *list_schema(json_t *items, int least, int most) {
   json_t *s = json_text_with(of_type("array"), "items", items);
   if (least) s = json_text_with(s, "minItems", json_integer(least));
   return most ? json_text_with(s, "maxItems", json_integer(most)) : s;
+}
+
+/* [time, value]; the time may have a unit. */
+static json_t *pair_schema(void) {
+  static const schema_key time = {.unit = "s"}, factor = {.unit = ""};
+  json_t *pair =
+      json_pack("{s:[o, o]}", "prefixItems", quantity_schema(&time), quantity_schema(&factor));
+  pair = json_text_with(pair, "type", json_string("array"));
+  pair = json_text_with(pair, "minItems", json_integer(2));
+  return json_text_with(pair, "maxItems", json_integer(2));
 }
 
 /* Numbers, texts and lists of them; NULL: another type. */
@@ -62,7 +82,7 @@ static json_t *plain_schema(const schema_key *key) {
     case SCHEMA_DURATION:
       return json_pack("{s:[o, o]}", "anyOf", ranged("number", key->range), of_type("string"));
     case SCHEMA_VECTOR:
-      return list_schema(ranged("number", key->range), 3, 3);
+      return list_schema(quantity_schema(key), 3, 3);
     case SCHEMA_COUNTS:
       return list_schema(ranged("integer", key->range), 3, 3);
     case SCHEMA_INTEGERS:
@@ -108,8 +128,7 @@ static json_t *value_schema(const schema_key *key) {
       return json_pack("{s:[o, o]}", "anyOf", map_schema(inside),
                        value_schema(schema_child(&scenario_schema, inside, NULL)));
     case SCHEMA_CURVE:
-      return json_pack("{s:[o, o]}", "anyOf",
-                       list_schema(list_schema(of_type("number"), 2, 2), 1, 0), map_schema(inside));
+      return json_pack("{s:[o, o]}", "anyOf", list_schema(pair_schema(), 1, 0), map_schema(inside));
     case SCHEMA_STATES:
       return json_pack("{s:[{s:o}, o, o]}", "anyOf", "enum", words_list(key->words),
                        map_schema(inside), list_schema(map_schema(inside), 1, 0));

@@ -127,7 +127,8 @@ corot_status scenario_read_probes(scenario *s) {
   probe_def *probe = config_alloc(s->source, (size_t)map->nchild, sizeof *probe);
   if (!probe) return no_memory();
   s->probe = probe;
-  for (config_node *c = map->child; c; c = c->next) COROT_TRY(read_probe(c, &probe[s->nprobe++]));
+  for (config_node *c = map->child; c; c = c->next)
+    COROT_TRY(config_keep(s->source, read_probe(c, &probe[s->nprobe++])));
   return COROT_OK;
 }
 
@@ -159,10 +160,12 @@ corot_status scenario_check_probes(const scenario *s, const corot_mesh *mesh) {
   config_node *map = config_find(s->source->root, "probes")->child;
   for (int i = 0; i < s->nprobe; i++, map = map->next) {
     const probe_def *p = &s->probe[i];
+    corot_status status = COROT_OK;
     if (p->node >= mesh->nnode)
-      return config_fail(config_find(map, "node"), "the mesh has %d nodes, numbered from 0",
-                         mesh->nnode);
-    if (p->group) COROT_TRY(check_group(s, config_find(map, "group"), p, mesh));
+      status = config_fail(config_find(map, "node"), "the mesh has %d nodes, numbered from 0",
+                           mesh->nnode);
+    if (p->group) status = check_group(s, config_find(map, "group"), p, mesh);
+    COROT_TRY(config_keep(s->source, status));
   }
   return COROT_OK;
 }

@@ -61,6 +61,6 @@ corot_status scenario_read_quantities(scenario *s) {
   if (!q) return no_memory();
   s->quantity = q;
   for (const config_node *c = map->child; c; c = c->next)
-    COROT_TRY(read_quantity(c, s->t_end, &q[s->nquantity++]));
+    COROT_TRY(config_keep(s->source, read_quantity(c, s->t_end, &q[s->nquantity++])));
   return COROT_OK;
 }

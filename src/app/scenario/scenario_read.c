@@ -104,7 +104,7 @@ static corot_status read_materials(scenario *s) {
   if (!material) return no_memory();
   s->model.material = material;
   for (config_node *c = list ? node->child : node; c; c = list ? c->next : NULL)
-    COROT_TRY(read_material(s->source, c, &material[s->model.nmaterial++]));
+    COROT_TRY(config_keep(s->source, read_material(s->source, c, &material[s->model.nmaterial++])));
   return COROT_OK;
 }
 
@@ -194,29 +194,44 @@ static corot_status apply_overrides(config *tree, const overrides *o) {
   return COROT_OK;
 }
 
+/* What is read from the tree alone: a fault in one part is none in another. */
+static corot_status read_body(scenario *s) {
+  config *tree = s->source;
+  COROT_TRY(config_keep(tree, read_mesh(s)));
+  COROT_TRY(scenario_read_groups(s));
+  COROT_TRY(read_materials(s));
+  s->model.strain = text_at(tree->root, "strain");
+  COROT_TRY(scenario_read_conditions(s));
+  COROT_TRY(config_keep(tree, read_time(s)));
+  COROT_TRY(config_keep(tree, scenario_read_method(s)));
+  return config_kept(tree);
+}
+
+/* What is about a body. */
+static corot_status read_question(scenario *s) {
+  config *tree = s->source;
+  COROT_TRY(config_keep(
+      tree, scenario_told(s, NULL, corot_definition_check(&s->model, scenario_levels(s)))));
+  COROT_TRY(config_keep(tree, scenario_read_statics(s)));
+  COROT_TRY(config_keep(tree, scenario_read_start(s)));
+  COROT_TRY(read_compare(s));
+  COROT_TRY(config_keep(tree, scenario_read_inputs(s)));
+  COROT_TRY(scenario_read_probes(s));
+  COROT_TRY(scenario_read_quantities(s));
+  read_output(s);
+  COROT_TRY(config_keep(tree, read_threads(s)));
+  read_checkpoint(s);
+  return config_kept(tree);
+}
+
 static corot_status read_all(scenario *s, const char *path, const overrides *o) {
   COROT_TRY(apply_overrides(s->source, o));
   COROT_TRY(schema_apply(&scenario_schema, s->source));
   s->path = config_copy(s->source, path, strlen(path));
   if (!s->path) return no_memory();
-  COROT_TRY(read_mesh(s));
-  COROT_TRY(scenario_read_groups(s));
-  COROT_TRY(read_materials(s));
-  s->model.strain = text_at(s->source->root, "strain");
-  COROT_TRY(scenario_read_conditions(s));
-  COROT_TRY(read_time(s));
-  COROT_TRY(scenario_read_method(s));
+  COROT_TRY(read_body(s));
   COROT_TRY(scenario_read_hierarchy(s));
-  COROT_TRY(scenario_told(s, NULL, corot_definition_check(&s->model, scenario_levels(s))));
-  COROT_TRY(scenario_read_statics(s));
-  COROT_TRY(scenario_read_start(s));
-  COROT_TRY(read_compare(s));
-  COROT_TRY(scenario_read_inputs(s));
-  COROT_TRY(scenario_read_probes(s));
-  COROT_TRY(scenario_read_quantities(s));
-  read_output(s);
-  COROT_TRY(read_threads(s));
-  read_checkpoint(s);
+  COROT_TRY(read_question(s));
   s->resolved = schema_resolve(s->source);
   return s->resolved ? COROT_OK : no_memory();
 }

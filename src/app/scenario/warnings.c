@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/text/colour.h"
 #include "app/text/escape.h"
 #include "app/text/json_text.h"
 
@@ -75,7 +76,7 @@ json_t *warnings_json(const warnings *w) {
 
 void warnings_print(const warnings *w, int from, const char *head, FILE *out) {
   for (int i = from; i < w->n; i++) {
-    fputs(head, out);
+    fprintf(out, "%s%s%s", colour_of(COLOUR_WARNING, out), head, colour_of(COLOUR_END, out));
     escape_line(w->item[i].text, out);
     fprintf(out, " [%s]\n", warning_kinds[w->item[i].code].word);
   }

@@ -1,8 +1,11 @@
 /* Text is made whole first and escaped then, so that no argument can be forgotten. */
 #include "say.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "colour.h"
 #include "escape.h"
 #include "no_memory.h"
 #include "text_stream.h"
@@ -33,7 +36,41 @@ void show(const char *format, ...) {
   va_end(arguments);
 }
 
-void say_error(void) { say("%s\n", corot_error()); }
+/* The first `length` bytes of a text, in a colour. */
+static void put_coloured(colour what, const char *text, size_t length) {
+  fputs(colour_of(what, stderr), stderr);
+  say("%.*s", (int)length, text);
+  fputs(colour_of(COLOUR_END, stderr), stderr);
+}
+
+void say_head(const char *head) {
+  put_coloured(COLOUR_ERROR, head, strlen(head));
+  fputs(": ", stderr);
+}
+
+/* A line of a message: what it is about stands before ": "; the lines of a file that it shows, and
+   the caret below, are indented. */
+static void say_line(const char *line, size_t length) {
+  const char *colon = strstr(line, ": ");
+  size_t head = line[0] != ' ' && colon && colon < line + length ? (size_t)(colon - line) : 0;
+  size_t blanks = strspn(line, " ");
+  bool caret = blanks + 1 == length && line[blanks] == '^';
+  if (head) put_coloured(COLOUR_ERROR, line, head);
+  if (caret)
+    put_coloured(COLOUR_PLACE, line, length);
+  else
+    say("%.*s", (int)(length - head), line + head);
+  fputc('\n', stderr);
+}
+
+void say_error(void) {
+  for (const char *line = corot_error();;) {
+    size_t length = strcspn(line, "\n");
+    say_line(line, length);
+    if (!line[length]) break;
+    line += length + 1;
+  }
+}
 
 corot_status show_all(corot_status (*write)(const void *what, FILE *out), const void *what) {
   char *text = NULL;

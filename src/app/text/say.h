@@ -11,8 +11,12 @@
 void say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void show(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Prints corot_error() as a line of its own. */
+/* Prints corot_error() in lines of its own. On a terminal what it is about, which stands before the
+   first ": ", has a colour (colour.h), as has the caret below a line that it shows. */
 void say_error(void);
+
+/* Prints "HEAD: " to stderr, HEAD in the colour of errors. */
+void say_head(const char *head);
 
 /* As vprintf, to `out`. */
 void say_to(FILE *out, const char *format, va_list arguments) __attribute__((format(printf, 2, 0)));

@@ -163,6 +163,10 @@ int command_study_schema(int argc, char **argv) {
   int n = 0;
   if (argc > 2) return usage_error("corot study", "schema: expected at most one key");
   const char *prefix = argc == 2 ? argv[1] : "";
+  if (strcmp(prefix, "--help") == 0 || strcmp(prefix, "-h") == 0) {
+    puts("usage: corot study schema [KEY]\n\nSee corot study --help.");
+    return EXIT_OK;
+  }
   if (schema_print(&study_schema, prefix, stdout) > 0) return EXIT_OK;
   for (; n < study_schema.nkey && n < 128; n++) path[n] = study_schema.key[n].path;
   const char *near = suggest(prefix, n, path);
