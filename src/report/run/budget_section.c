@@ -127,7 +127,7 @@ static void write_table(const json_t *budget, FILE *out) {
   const json_t *parts = lookup(budget, "parts");
   bars b = find_bars(budget);
   fputs(
-      "<div class=\"scroll\"><table>\n<thead><tr><th>part</th><th>taken away by</th>"
+      "<div class=\"scroll\"><table>\n<thead><tr><th>part</th><th>estimated by switching to</th>"
       "<th class=\"number\">error</th><th>share of the total at the end</th>"
       "<th class=\"number\">at the end</th><th class=\"number\">alone</th>"
       "<th class=\"number\">times the cost</th></tr></thead>\n<tbody>\n",

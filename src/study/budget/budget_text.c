@@ -182,7 +182,7 @@ static void print_probes(const json_t *budget, FILE *out) {
 void budget_print(const json_t *budget, FILE *out) {
   const json_t *parts = json_object_get(budget, "parts");
   fprintf(out, "%-18s  %10s  %10s  %10s  %5s  %s\n", "part", "largest", "at end", "alone", "cost",
-          "taken away by");
+          "estimated by switching to");
   for (size_t i = 0; i < json_array_size(parts); i++) print_part(json_array_get(parts, i), out);
   /* the whole */
   fprintf(out, "%-18s", "total");
