@@ -65,7 +65,8 @@ typedef struct corot_linear_def {
                                  both with a factor of level 0, or aggregates where that has more
                                  than 30 000 unknowns. "auto": in statics of 1500 unknowns and more
                                  "amg", if it costs less, else "incomplete-cholesky" */
-  double tolerance; /* of pcg: residual relative to the right-hand side, > 0 */
+  double tolerance; /* of pcg: residual relative to the right-hand side, > 0; in statics the smallest
+                       that Newton's iteration asks for */
   corot_role role;
   const corot_refinement *refinement; /* of the model's mesh, for these two; only read while the
                                          solver is being created. Else NULL will do */
