@@ -19,15 +19,16 @@ struct config_faults {
   long count; /* in all */
 };
 
-/* Where the last failure was, and which it was. */
+/* Where the last failure was, and which it was. Its source may be gone by the time it is kept. */
 static _Thread_local struct {
-  const config_source *source;
+  bool placed, in_file;
   size_t at;
   long number;
 } failed;
 
 void config_failed_at(const config_source *source, size_t at) {
-  failed.source = source;
+  failed.placed = source;
+  failed.in_file = source && source->lines;
   failed.at = at;
   failed.number = corot_fail_count();
 }
@@ -41,8 +42,8 @@ static bool is_before(const fault *a, const fault *b) {
 
 corot_status config_keep(config *tree, corot_status status) {
   if (status != COROT_EFORMAT && status != COROT_EINVAL) return status;
-  bool placed = failed.number == corot_fail_count() && failed.source;
-  bool in_file = placed && failed.source->lines;
+  bool placed = failed.number == corot_fail_count() && failed.placed;
+  bool in_file = placed && failed.in_file;
   fault f = {.placed = placed, .in_file = in_file, .at = in_file ? failed.at : 0};
   if (!tree->faults) tree->faults = config_alloc(tree, 1, sizeof *tree->faults);
   if (!tree->faults) return no_memory();
