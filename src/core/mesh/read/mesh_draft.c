@@ -326,3 +326,25 @@ corot_status corot_draft_finish(corot_draft *d, corot_mesh **mesh) {
     *mesh = m;
   return status;
 }
+
+/* --- By numbers --- */
+
+static int compare_numbers(const void *a, const void *b) {
+  const corot_by_tag *p = a, *q = b;
+  if (p->tag != q->tag) return p->tag < q->tag ? -1 : 1;
+  return (p->index > q->index) - (p->index < q->index);
+}
+
+void corot_by_tag_sort(corot_by_tag *s, int n) { qsort(s, (size_t)n, sizeof *s, compare_numbers); }
+
+int corot_by_tag_first(const corot_by_tag *s, int n, int64_t tag) {
+  int low = 0, high = n;
+  while (low < high) {
+    int middle = low + (high - low) / 2;
+    if (s[middle].tag < tag)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}

@@ -217,4 +217,16 @@ corot_status corot_draft_end(corot_draft *d, corot_status status);
 corot_status corot_draft_groups(corot_draft *d, const int *tet, const corot_face *face,
                                 corot_mesh *mesh);
 
+/* Places of nodes or elements by their numbers in a file. */
+typedef struct corot_by_tag {
+  int64_t tag;
+  int index;
+} corot_by_tag;
+
+/* Ascending; equal numbers by their places. */
+void corot_by_tag_sort(corot_by_tag *s, int n);
+
+/* The first of the sorted numbers that is not below `tag`. */
+int corot_by_tag_first(const corot_by_tag *s, int n, int64_t tag);
+
 #endif

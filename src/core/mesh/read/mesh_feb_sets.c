@@ -59,42 +59,18 @@ corot_status corot_feb_read_list(corot_feb *f, corot_feb_of of, int name) {
 /* --- Groups --- */
 
 /* Places of nodes or elements by ascending numbers. */
-typedef struct by_tag {
-  int64_t tag;
-  int index;
-} by_tag;
-
-static int compare_tags(const void *a, const void *b) {
-  const by_tag *p = a, *q = b;
-  if (p->tag != q->tag) return p->tag < q->tag ? -1 : 1;
-  return (p->index > q->index) - (p->index < q->index);
-}
-
-static corot_status sort_tags(const corot_feb *f, corot_feb_of of, int n, by_tag **sorted) {
-  by_tag *s;
+static corot_status sort_tags(const corot_feb *f, corot_feb_of of, int n, corot_by_tag **sorted) {
+  corot_by_tag *s;
   COROT_TRY(COROT_ALLOC(s, n));
   *sorted = s;
   for (int i = 0; i < n; i++)
-    s[i] = (by_tag){of == FEB_NODES ? f->d.node[i].tag : f->element[i].tag, i};
-  qsort(s, (size_t)n, sizeof *s, compare_tags);
+    s[i] = (corot_by_tag){of == FEB_NODES ? f->d.node[i].tag : f->element[i].tag, i};
+  corot_by_tag_sort(s, n);
   for (int i = 1; i < n && of == FEB_ELEMENTS; i++)
     if (s[i].tag == s[i - 1].tag)
       return corot_reader_fail(&f->r, f->element[s[i].index].at,
                                "element %lld is defined a second time", (long long)s[i].tag);
   return COROT_OK;
-}
-
-/* The first of the sorted numbers that is not below `tag`. */
-static int lower_bound(const by_tag *s, int n, int64_t tag) {
-  int low = 0, high = n;
-  while (low < high) {
-    int middle = low + (high - low) / 2;
-    if (s[middle].tag < tag)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
 }
 
 /* A node or an element, by its place, becomes a member of the item's group. */
@@ -112,12 +88,13 @@ static corot_status add_one(corot_feb *f, const corot_feb_item *item, int place)
   return corot_draft_add_member(&f->d, (int)f->d.nelement - 1, item->name);
 }
 
-static corot_status add_item(corot_feb *f, const corot_feb_item *item, const by_tag *s, int n) {
+static corot_status add_item(corot_feb *f, const corot_feb_item *item, const corot_by_tag *s,
+                             int n) {
   bool nodes = item->of == FEB_NODES;
   for (int64_t i = item->first; i <= item->last && item->by_index; i++)
     COROT_TRY(add_one(f, item, (int)i));
   if (item->by_index) return COROT_OK;
-  int i = lower_bound(s, n, item->first);
+  int i = corot_by_tag_first(s, n, item->first);
   if (item->first == item->last && (i == n || s[i].tag != item->first)) {
     corot_draft_note(&f->d, &f->r, item->at, "%s: %s %lld does not exist",
                      f->name[item->name - 1].text, nodes ? "node" : "element",
@@ -131,7 +108,7 @@ static corot_status add_item(corot_feb *f, const corot_feb_item *item, const by_
 
 static corot_status add_items(corot_feb *f, corot_feb_of of) {
   int n = of == FEB_NODES ? f->d.nnode : (int)f->nelement;
-  by_tag *sorted = NULL;
+  corot_by_tag *sorted = NULL;
   corot_status status = sort_tags(f, of, n, &sorted);
   for (size_t i = 0; i < f->nitem && !status; i++)
     if (f->item[i].of == of) status = add_item(f, &f->item[i], sorted, n);

@@ -41,11 +41,6 @@ typedef struct corot_inp_element {
   int index;        /* of a tet in the draft */
 } corot_inp_element;
 
-typedef struct corot_inp_by_tag {
-  int64_t tag;
-  int index;
-} corot_inp_by_tag;
-
 typedef enum corot_inp_kind { INP_NODES, INP_ELEMENTS, INP_FACES } corot_inp_kind;
 
 /* Members of a set or surface. */

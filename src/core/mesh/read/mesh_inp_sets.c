@@ -154,38 +154,19 @@ corot_status corot_inp_read_surface(corot_inp *f) {
 
 /* --- groups --- */
 
-static int compare_tags(const void *a, const void *b) {
-  const corot_inp_by_tag *p = a, *q = b;
-  if (p->tag != q->tag) return p->tag < q->tag ? -1 : 1;
-  return (p->index > q->index) - (p->index < q->index);
-}
-
 /* Of nodes or elements by ascending numbers; a number that occurs twice is refused. */
-static corot_status sort_tags(corot_inp *f, int n, bool nodes, corot_inp_by_tag **by_tag) {
-  corot_inp_by_tag *s;
+static corot_status sort_tags(corot_inp *f, int n, bool nodes, corot_by_tag **by_tag) {
+  corot_by_tag *s;
   COROT_TRY(COROT_ALLOC(s, n));
   for (int i = 0; i < n; i++)
-    s[i] = (corot_inp_by_tag){nodes ? f->d.node[i].tag : f->element[i].tag, i};
-  qsort(s, (size_t)n, sizeof *s, compare_tags);
+    s[i] = (corot_by_tag){nodes ? f->d.node[i].tag : f->element[i].tag, i};
+  corot_by_tag_sort(s, n);
   *by_tag = s;
   for (int i = 1; i < n && !nodes; i++)
     if (s[i].tag == s[i - 1].tag)
       return corot_reader_fail(&f->r, f->element[s[i].index].at,
                                "element %lld is defined a second time", (long long)s[i].tag);
   return COROT_OK;
-}
-
-/* The first of the sorted numbers that is not below `tag`. */
-static int lower_bound(const corot_inp_by_tag *s, int n, int64_t tag) {
-  int low = 0, high = n;
-  while (low < high) {
-    int middle = low + (high - low) / 2;
-    if (s[middle].tag < tag)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
 }
 
 static corot_status add_to_group(corot_inp *f, const corot_draft_element *e, int name) {
@@ -241,7 +222,7 @@ static corot_status add_one(corot_inp *f, const corot_inp_item *item, int face, 
 
 /* All nodes and elements by number; what is looked for. */
 typedef struct lookup {
-  corot_inp_by_tag *node, *element;
+  corot_by_tag *node, *element;
   size_t *seen; /* [nitem] the last top item that took it, from 1 */
 } lookup;
 
@@ -250,13 +231,13 @@ static corot_status add_listed(corot_inp *f, const lookup *l, const corot_inp_it
                                corot_inp_kind kind, int name) {
   bool nodes = item->kind == INP_NODES;
   int n = nodes ? f->d.nnode : (int)f->nelement;
-  const corot_inp_by_tag *s = nodes ? l->node : l->element;
+  const corot_by_tag *s = nodes ? l->node : l->element;
   if (item->by_index) {
     for (int64_t i = item->first; i <= item->last; i++)
       COROT_TRY(add_one(f, item, face, (int)i, kind, name));
     return COROT_OK;
   }
-  int i = lower_bound(s, n, item->first);
+  int i = corot_by_tag_first(s, n, item->first);
   /* a set may list elements that are left out, which have no places */
   if (nodes && item->first == item->last && (i == n || s[i].tag != item->first))
     return corot_reader_fail(&f->r, item->at, "node %lld does not exist", (long long)item->first);
